@@ -42,6 +42,9 @@ using namespace render;
 }
 namespace app {
 using namespace publish;
+}
+namespace lab {
+using namespace app;
 using namespace report;
 }
 

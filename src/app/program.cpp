@@ -9,9 +9,9 @@
 
 #include "app/answer.hpp"
 #include "app/commands/command_line.hpp"
+#include "app/folders/shard.hpp"
 #include "app/interrupts.hpp"
 #include "app/run_scenario.hpp"
-#include "app/shard.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/memory.hpp"

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "app/kept_files.hpp"
+#include "app/folders/kept_files.hpp"
 #include "app/terminal.hpp"
 #include "base/counted.hpp"
 
@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 ReportFolder::ReportFolder(const std::string& path, std::string_view report)
     : path_(path), report_(report) {
   if (!wanted()) return;
-  for (const char* ending : {".html", ".csv", ".json"})
+  for (const char* ending : {".html", ".csv", ".json", ".txt"})
     if (const fs::path file = path_ / (report_ + ending); is_input(file))
       throw UsageError(
           fmt::format("'{}' is read by this run and would be written over; give another "

@@ -8,9 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "app/report_pictures.hpp"
 #include "base/file.hpp"
-#include "base/folder_lock.hpp"
-#include "report/pictures.hpp"
 
 namespace lantern::app {
 

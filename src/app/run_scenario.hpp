@@ -30,7 +30,9 @@ class FrameSink {
 Pace pace_of(std::string_view word, const Scenario& scenario);
 
 // Nothing if it cannot be read: why is said, and `code` becomes that exit code unless it is worse.
-std::optional<Scenario> load_or_complain(const std::string& file, int& code);
+// That goes to `why`, too, if it is wanted.
+std::optional<Scenario> load_or_complain(const std::string& file, int& code,
+                                         std::string* why = nullptr);
 
 struct RunResult {
   DirectorReport report;

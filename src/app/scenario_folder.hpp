@@ -18,4 +18,11 @@ std::vector<std::filesystem::path> scenario_folders();
 // nearest name, if there is none.
 std::string scenario_file(const std::string& words);
 
+// The files of all words, in their order: a file as it is, "-" for standard input, and of a folder
+// every .toml in it, not those of folders below, in the order of a lecture: by `lecture`, those
+// without one behind the others, by name. A .toml that is no scenario is left out, with a warning.
+// Throws UsageError for standard input named twice and for a folder without scenarios, IoError for
+// one that cannot be listed.
+std::vector<std::string> input_files(const std::vector<std::string>& words);
+
 }  // namespace lantern::app

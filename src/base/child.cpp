@@ -3,8 +3,11 @@
 #include <array>
 #include <cerrno>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <ctime>
+#include <sstream>
+#include <string>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -18,6 +21,19 @@
 #include "base/stop.hpp"
 
 namespace lantern {
+
+std::optional<std::filesystem::path> find_program(std::string_view name) {
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "");
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    std::error_code error;
+    const auto file = std::filesystem::path(folder) / name;
+    if (std::filesystem::is_regular_file(file, error) && ::access(file.c_str(), X_OK) == 0)
+      return file;
+  }
+  return std::nullopt;
+}
+
 namespace {
 
 constexpr std::size_t kMostSaid = 4096;

@@ -1,6 +1,7 @@
-// A program that is run beside this one, and fed through its standard input.
+// Other programs: found, run beside this one, and fed through their standard input.
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -9,6 +10,9 @@
 #include <sys/types.h>
 
 namespace lantern {
+
+// The file that the shell would run by this name, from PATH.
+std::optional<std::filesystem::path> find_program(std::string_view name);
 
 // It has a process group of its own, so that Ctrl-C at the terminal reaches only this program, and
 // ends with it whatever happens. Its standard output leads nowhere. The calls may come from one

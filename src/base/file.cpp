@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
-#include <mutex>
-#include <set>
 #include <system_error>
+#include <thread>
 #include <utility>
 
 #include <dirent.h>
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <poll.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -22,6 +22,7 @@
 #include "base/stop.hpp"
 
 namespace lantern {
+
 namespace {
 
 constexpr std::string_view kTemporary = ".lantern-part-";
@@ -47,83 +48,20 @@ class Descriptor {
   int number_;
 };
 
-// False with errno set if not everything could be written. Waits where a pipe does not.
-bool write_all(int descriptor, std::string_view bytes) {
-  while (!bytes.empty()) {
-    const ssize_t n = ::write(descriptor, bytes.data(), bytes.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0 && errno == EAGAIN) {
-      pollfd room{descriptor, POLLOUT, 0};
-      ::poll(&room, 1, -1);
-      continue;
-    }
-    if (n < 0) return false;
-    bytes.remove_prefix(static_cast<std::size_t>(n));
-  }
-  return true;
-}
-
-bool input_was_closed = false;  // when the program began (hold_standard_streams)
-
-using FileNumber = std::pair<dev_t, ino_t>;
-
-std::optional<FileNumber> number_of(const std::filesystem::path& path) {
-  struct stat status {};
-  if (::stat(path.c_str(), &status) != 0) return std::nullopt;
-  return FileNumber(status.st_dev, status.st_ino);
-}
-
-// Of a regular file.
-std::optional<FileNumber> number_of(int descriptor) {
-  struct stat status {};
-  if (::fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) return std::nullopt;
-  return FileNumber(status.st_dev, status.st_ino);
-}
-
-// Is a standard stream written to a file that this run reads, by whatever way it came to read it?
-// From then on nothing is written there.
-class WrittenStream {
- public:
-  WrittenStream(int descriptor, const char* name) : descriptor_(descriptor), name_(name) {}
-  bool is(const FileNumber& file) const { return number_of(descriptor_) == file; }
-  void close() { is_read_ = true; }
-  bool is_read() const { return is_read_; }
-  void require_free() const {
-    if (is_read_) throw IoError(fmt::format("{} is written to a file that this run reads", name_));
-  }
-
- private:
-  int descriptor_;
-  const char* name_;
-  std::atomic<bool> is_read_ = false;
-};
-
-WrittenStream output_stream{STDOUT_FILENO, "standard output"};
-WrittenStream error_stream{STDERR_FILENO, "standard error"};
-
-// Throws IoError if one is written to the file of this number.
-void see_read(const FileNumber& number) {
-  const bool is_output = output_stream.is(number), is_error = error_stream.is(number);
-  if (is_output) output_stream.close();
-  if (is_error) error_stream.close();
-  if (is_output) output_stream.require_free();
-  if (is_error) error_stream.require_free();
-}
-
-// What was opened to be read from `path`, to its end.
+// What was opened to be read from `path`: all of it, or its first bytes.
 std::string read_opened(const Descriptor& file, const std::filesystem::path& path,
-                        std::size_t most_bytes) {
+                        std::size_t most_bytes, bool all = true) {
   if (file.number() < 0) fail("read", path, errno);
   struct stat status {};
   if (::fstat(file.number(), &status) != 0) fail("read", path, errno);
   if (S_ISDIR(status.st_mode)) fail("read", path, EISDIR);
   if (!S_ISREG(status.st_mode))
     throw IoError(fmt::format("cannot read '{}': not a regular file", shown(path)));
-  see_read(FileNumber(status.st_dev, status.st_ino));
-  const auto size = static_cast<std::size_t>(status.st_size);
-  if (size > most_bytes)
+  see_read(file.number());
+  const auto has = static_cast<std::size_t>(status.st_size), size = std::min(has, most_bytes);
+  if (all && has > most_bytes)
     throw IoError(fmt::format("cannot read '{}': it has {} bytes, the limit is {}", shown(path),
-                              size, most_bytes));
+                              has, most_bytes));
   std::string bytes(size, '\0');
   std::size_t done = 0;
   while (done < size) {
@@ -135,45 +73,6 @@ std::string read_opened(const Descriptor& file, const std::filesystem::path& pat
   }
   bytes.resize(done);
   return bytes;
-}
-
-// What the run was given to read, by name and number. A number counts only while it is that of the
-// name: a file that an editor has replaced meanwhile leaves its number to another one.
-class Inputs {
- public:
-  void add(const std::filesystem::path& path) {
-    const auto number = number_of(path);
-    const std::lock_guard lock(mutex_);
-    paths_.insert(path);
-    if (number) files_.insert({*number, path});
-  }
-  void add_stdin() {
-    const auto number = number_of(STDIN_FILENO);
-    const std::lock_guard lock(mutex_);
-    stdin_ = number;
-  }
-
-  bool has(const std::filesystem::path& path) {
-    const auto number = number_of(path);
-    if (!number) return false;
-    const std::lock_guard lock(mutex_);
-    if (stdin_ == number || paths_.contains(path)) return true;
-    for (auto file = files_.lower_bound({*number, {}});
-         file != files_.end() && file->first == *number; ++file)
-      if (number_of(file->second) == number) return true;
-    return false;
-  }
-
- private:
-  std::mutex mutex_;
-  std::set<std::filesystem::path> paths_;
-  std::set<std::pair<FileNumber, std::filesystem::path>> files_;
-  std::optional<FileNumber> stdin_;
-};
-
-Inputs& inputs() {
-  static Inputs all;
-  return all;
 }
 
 // As open() takes it: one entry, of which somebody else may have chosen the name.
@@ -195,41 +94,10 @@ std::string read_file(const std::filesystem::path& path, std::size_t most_bytes)
   return read_opened(file, path, most_bytes);
 }
 
-void add_input(const std::filesystem::path& path) { inputs().add(path); }
-
 std::string read_input(const std::filesystem::path& path, std::size_t most_bytes) {
   add_input(path);
   return read_file(path, most_bytes);
 }
-
-std::string read_stdin(std::size_t most_bytes) {
-  inputs().add_stdin();
-  if (const auto number = number_of(STDIN_FILENO)) see_read(*number);
-  std::string bytes;
-  char part[1 << 16];
-  for (;;) {
-    stop_if_asked();
-    const ssize_t n = ::read(STDIN_FILENO, part, sizeof part);
-    if (n < 0 && errno == EAGAIN) {
-      pollfd something{STDIN_FILENO, POLLIN, 0};
-      ::poll(&something, 1, -1);
-      continue;
-    }
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0)
-      throw IoError(fmt::format("cannot read standard input: {}",
-                                input_was_closed ? "it is closed" : std::strerror(errno)));
-    if (n == 0) return bytes;
-    bytes.append(part, static_cast<std::size_t>(n));
-    if (bytes.size() > most_bytes)
-      throw IoError(
-          fmt::format("cannot read standard input: it has more than {} bytes", most_bytes));
-  }
-}
-
-bool is_input(const std::filesystem::path& path) { return inputs().has(path); }
-
-bool output_is_input() { return output_stream.is_read(); }
 
 Folder::Folder(int descriptor, std::filesystem::path path)
     : descriptor_(new int(descriptor),
@@ -321,7 +189,8 @@ std::vector<std::string> Folder::names() const {
   return names;
 }
 
-std::optional<std::string> Folder::read(std::string_view name, std::size_t most_bytes) const {
+std::optional<std::string> Folder::read(std::string_view name, std::size_t most_bytes,
+                                        bool all) const {
   const std::string one(name);
   const Descriptor file(
       ::openat(descriptor(), entry(one), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW));
@@ -329,7 +198,7 @@ std::optional<std::string> Folder::read(std::string_view name, std::size_t most_
   if (file.number() < 0 && errno == ELOOP)
     throw IoError(fmt::format("cannot read '{}': a link, and what it leads to is not touched",
                               shown(path(name))));
-  return read_opened(file, path(name), most_bytes);
+  return read_opened(file, path(name), most_bytes, all);
 }
 
 bool Folder::remove(std::string_view name) const {
@@ -451,31 +320,27 @@ void write_file(const FilePlace& place, std::string_view bytes) {
   file.give_name();
 }
 
-void hold_standard_streams() noexcept {
-  int number;
-  do {
-    number = ::open("/", O_RDONLY | O_DIRECTORY);
-    input_was_closed = input_was_closed || number == STDIN_FILENO;
-  } while (number >= 0 && number <= STDERR_FILENO);
-  if (number >= 0) ::close(number);
-}
-
-void write_stdout(std::string_view bytes) {
-  output_stream.require_free();
-  if (write_all(STDOUT_FILENO, bytes)) return;
-  const int code = errno;
-  const std::string text = fmt::format("cannot write to standard output: {}", std::strerror(code));
-  if (code == EPIPE) throw ReaderGone(text);
-  throw IoError(text);
-}
-
-void write_stderr(std::string_view bytes) noexcept {
-  if (error_stream.is_read()) return;
-  while (!bytes.empty()) {
-    const ssize_t n = ::write(STDERR_FILENO, bytes.data(), bytes.size());
-    if (n < 0 && errno != EINTR) return;
-    if (n > 0) bytes.remove_prefix(static_cast<std::size_t>(n));
+// Opened anew: copies of a descriptor share their locks.
+FolderLock::FolderLock(const Folder& folder)
+    : descriptor_(::openat(folder.descriptor(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  if (descriptor_ < 0)
+    throw IoError(
+        fmt::format("cannot open '{}': {}", folder.path().string(), std::strerror(errno)));
+  // A run that was killed a moment ago may not be quite gone.
+  constexpr int kTries = 100;
+  constexpr auto kPause = std::chrono::milliseconds(20);
+  for (int tries = 0; tries < kTries; ++tries) {
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+    if (stop_asked()) break;
+    std::this_thread::sleep_for(kPause);
   }
+  ::close(descriptor_);
+  stop_if_asked();
+  throw IoError(
+      fmt::format("another run is writing into '{}'; wait for it, or give -o another folder",
+                  folder.path().string()));
 }
+
+FolderLock::~FolderLock() { ::close(descriptor_); }
 
 }  // namespace lantern

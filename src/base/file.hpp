@@ -13,6 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/streams.hpp"
+
 namespace lantern {
 
 // The bytes of a regular file. Throws IoError if it cannot be read, is a folder or a device, is
@@ -22,20 +24,6 @@ std::string read_file(const std::filesystem::path& path, std::size_t most_bytes)
 
 // The same of a file that the user gives to be read: an input of this run from then on.
 std::string read_input(const std::filesystem::path& path, std::size_t most_bytes);
-
-// The bytes of standard input, to its end: an input of this run, too. Throws IoError as read_file()
-// does, and Stopped if that is wished while it waits.
-std::string read_stdin(std::size_t most_bytes);
-
-// What will be read is an input before it is.
-void add_input(const std::filesystem::path& path);
-
-// Is what stands at `path` an input of this run, under whatever name? Nothing is written over it.
-bool is_input(const std::filesystem::path& path);
-
-// Is standard output written to a file that this run has read, an input or not? Nothing is written
-// there either.
-bool output_is_input();
 
 // A folder that is held open. Whatever happens to its path meanwhile, and whatever names somebody
 // else has chosen: nothing is read, written or removed but what is right in it. Names are those of
@@ -63,9 +51,10 @@ class Folder {
   bool has_file(std::string_view name) const;  // a regular file
   bool has(std::string_view name) const;       // an entry of any kind
   std::vector<std::string> names() const;      // of all entries, in order
-  // The bytes of a regular file, as read_file() has them; nothing if there is no entry of this
-  // name.
-  std::optional<std::string> read(std::string_view name, std::size_t most_bytes) const;
+  // The bytes of a regular file, as read_file() has them, or of a longer one the first, unless
+  // `all`; nothing if there is no entry of this name.
+  std::optional<std::string> read(std::string_view name, std::size_t most_bytes,
+                                  bool all = true) const;
   // A file, or a link itself. False if there is none of this name.
   bool remove(std::string_view name) const;
   // Removes what an earlier PartFile left when it was killed. Never throws.
@@ -144,17 +133,19 @@ class PartFile {
 // file or the whole new one. Throws IoError as PartFile does, and removes the temporary file.
 void write_file(const FilePlace& place, std::string_view bytes);
 
-// Takes the numbers of standard streams that are closed, so that no file opened later gets one and
-// has messages written into it. What is written to a stream held so is an error like any other.
-// Call it before anything is opened.
-void hold_standard_streams() noexcept;
+// Held until destroyed, or until the process ends, however it does. On disks that know no locks it
+// keeps nobody out.
+class FolderLock {
+ public:
+  // Waits up to two seconds for it. Throws IoError if another process holds it then; Stopped if
+  // that is wished meanwhile.
+  explicit FolderLock(const Folder& folder);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
 
-// Writes all bytes to standard output, unbuffered. Throws IoError (a full disk, a closed stream, an
-// input of this run); ReaderGone if it is a pipe that nobody reads any more.
-void write_stdout(std::string_view bytes);
-
-// Writes to standard error what can be written there, unbuffered; the rest is lost, and all of it
-// where standard error is a file that this run has read.
-void write_stderr(std::string_view bytes) noexcept;
+ private:
+  int descriptor_;
+};
 
 }  // namespace lantern

@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <concepts>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -39,6 +41,18 @@ class JsonWriter {
     return raw(fmt::format("{:.17g}", d == 0 ? 0.0 : d));
   }
   JsonWriter& null() { return raw("null"); }
+  // Null if there is none.
+  template <class T>
+  JsonWriter& value(const std::optional<T>& v) {
+    return v ? value(*v) : null();
+  }
+  // An array, in a line.
+  template <class T>
+  JsonWriter& value(const std::vector<T>& all) {
+    begin_array();
+    for (const T& one : all) value(one);
+    return end_array();
+  }
 
   // A line break before the next element: long arrays stay readable, one element a line.
   JsonWriter& line() {

@@ -1,5 +1,7 @@
 #include "base/markup.hpp"
 
+#include <fmt/format.h>
+
 #include "base/printable.hpp"
 
 namespace lantern {
@@ -23,6 +25,14 @@ std::string escaped(std::string_view text) {
       out += c;
   }
   return out;
+}
+
+std::string html_page(std::string_view title, std::string_view rest, std::string_view attributes) {
+  return fmt::format(
+      "<!doctype html>\n<html lang=\"en\"{}>\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+      "<title>{}</title>\n{}</body>\n</html>\n",
+      attributes, escaped(title), rest);
 }
 
 }  // namespace lantern

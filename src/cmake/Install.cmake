@@ -29,6 +29,17 @@ function(lantern_public name room)
   install(TARGETS lantern_public_${name} EXPORT LanternTargets COMPONENT development)
 endfunction()
 
+# lantern_exports(NAME): programs with Lantern::NAME hold all of every room, and whatever they load, the
+# lab that is, sees it. LanternConfig.cmake says the same of those that are installed.
+function(lantern_exports name)
+  get_property(rooms GLOBAL PROPERTY lantern_rooms)
+  list(TRANSFORM rooms REPLACE "(.+)" "$<TARGET_FILE:lantern_\\1>" OUTPUT_VARIABLE archives)
+  list(JOIN archives "," archives)
+  target_link_options(lantern_public_${name} INTERFACE
+    $<BUILD_INTERFACE:LINKER:--dynamic-list=${PROJECT_SOURCE_DIR}/src/cmake/exports>
+    "$<BUILD_INTERFACE:LINKER:--whole-archive,${archives},--no-whole-archive>")
+endfunction()
+
 # build/include/lantern looks as include/lantern will.
 function(lantern_link_headers)
   set(dir ${PROJECT_BINARY_DIR}/include/lantern)
@@ -39,11 +50,12 @@ function(lantern_link_headers)
 endfunction()
 
 function(lantern_install_development)
+  get_property(lantern_rooms GLOBAL PROPERTY lantern_rooms)
   set(here DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lantern COMPONENT development)
   list(TRANSFORM lantern_public_rooms PREPEND ${PROJECT_SOURCE_DIR}/src/ OUTPUT_VARIABLE folders)
   # These are not for others: they would ask them for the headers of OpenGL and Highway.
   install(DIRECTORY ${folders} ${here} FILES_MATCHING PATTERN *.hpp PATTERN gl.hpp EXCLUDE
-    PATTERN programs.hpp EXCLUDE PATTERN vector_target.hpp EXCLUDE)
+    PATTERN vector_target.hpp EXCLUDE)
   install(FILES ${PROJECT_SOURCE_DIR}/src/rooms.hpp ${PROJECT_BINARY_DIR}/include/lantern/version.hpp
     ${here})
   install(FILES ${PROJECT_SOURCE_DIR}/src/app/program.hpp
@@ -55,7 +67,7 @@ function(lantern_install_development)
   write_basic_package_version_file(${PROJECT_BINARY_DIR}/LanternConfigVersion.cmake
     COMPATIBILITY SameMinorVersion)  # until 1.0 a new minor version may break its users
   install(FILES ${PROJECT_BINARY_DIR}/LanternConfig.cmake
-    ${PROJECT_BINARY_DIR}/LanternConfigVersion.cmake
+    ${PROJECT_BINARY_DIR}/LanternConfigVersion.cmake ${PROJECT_SOURCE_DIR}/src/cmake/exports
     DESTINATION ${lantern_cmake_dir} COMPONENT development)
   install(FILES ${PROJECT_SOURCE_DIR}/src/cmake/copyright
     DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/lantern-dev COMPONENT development)
@@ -63,6 +75,9 @@ endfunction()
 
 # lantern_install(): after all rooms and the program.
 function(lantern_install)
+  foreach(embedded font shaders lecture_source lesson_files output_schema)
+    lantern_installed_library(${embedded})
+  endforeach()
   lantern_link_headers()
   lantern_install_development()
   install(TARGETS lantern RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)

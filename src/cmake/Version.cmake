@@ -1,6 +1,10 @@
-# Writes HEADER with the version and one hash over all sources and shaders, in order of their paths.
+# Writes HEADER with the version and, as CONSTANT, one hash over all sources and shaders in order of
+# their paths, but for those whose path is like WITHOUT.
 file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/src/*.?pp ${ROOT}/shaders/*)
 list(SORT files)
+if(WITHOUT)
+  list(FILTER files EXCLUDE REGEX "${WITHOUT}")
+endif()
 set(all "")
 foreach(path ${files})
   file(SHA256 ${ROOT}/${path} hash)
@@ -13,6 +17,6 @@ file(CONFIGURE OUTPUT ${HEADER} CONTENT [[#pragma once
 namespace lantern {
 inline constexpr std::string_view kVersion = "@VERSION@";
 // Two builds with the same hash draw the same frames.
-inline constexpr std::string_view kSourceHash = "@all@";
+inline constexpr std::string_view @CONSTANT@ = "@all@";
 }  // namespace lantern
 ]] @ONLY)

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
 
 #include "draw/pen.hpp"
 #include "draw/plot_layout.hpp"
@@ -50,6 +53,11 @@ class Drawing : PlotLayout {
   bool all_named() const { return all_named_; }
 
  private:
+  // What follows shows this; on a slide, whose lines are one thing, nothing is told.
+  std::unique_ptr<DrawList::Scope> shown(const std::string& key) {
+    return plot_.slide ? nullptr : std::make_unique<DrawList::Scope>(list_, key);
+  }
+
   // Lines end there, and reach a hair over its edge.
   Box<2> picture() const { return shrunk(area(), -2); }
 
@@ -69,6 +77,7 @@ class Drawing : PlotLayout {
   // On a slide the same x again begins a line anew.
   void draw_line(const PlacedSeries& placed, PlotNamer& namer) {
     if (!placed.series->joined) return;
+    const auto scope = shown(plot_key(plot_, *placed.series));
     const std::vector<Vec<2>>& points = placed.points;
     for (std::size_t i = 1; i < points.size(); ++i) {
       if (plot_.slide && points[i].x == points[i - 1].x) continue;
@@ -80,6 +89,8 @@ class Drawing : PlotLayout {
   }
 
   void draw_whiskers(const PlacedSeries& placed, PlotNamer& namer) {
+    if (placed.whiskers.empty()) return;
+    const auto scope = shown(plot_key(plot_, *placed.series) + "/whiskers");
     for (const auto& [from, to] : placed.whiskers) {
       draw_plot_whisker(placed.series->ink(), from, to, style_.mark, list_);
       namer.cross(from, to);
@@ -102,17 +113,19 @@ class Drawing : PlotLayout {
   void draw_marks(std::size_t series, PlotNamer& namer) {
     const PlacedSeries& placed = placed_[series];
     const Vec<2>* last = nullptr;
-    const auto draw = [&](const Vec<2>& p, bool open) {
+    const auto draw = [&](const Vec<2>& p, bool open, const PlotPoint* point) {
       if (!contains(picture(), p) || (last && glm::distance(p, *last) < style_.apart)) return;
       last = &p;
+      const auto scope = shown(point ? plot_key(plot_, *placed.series, *point) : "");
       const double size = open ? style_.mark : mark_radius(series, p);
       draw_plot_mark(placed.series->ink(), p, size, open, list_);
       namer.mark(p, 1.2 * size);
     };
     const std::size_t newest = plot_.slide ? 1 : 0;
     for (std::size_t i = 0; i + newest < placed.points.size(); ++i)
-      draw(placed.points[i], placed.open[i]);
-    for (const Vec<2>& p : placed.beyond) draw(p, true);
+      draw(placed.points[i], placed.open[i], plot_.slide ? nullptr : placed.told[i]);
+    for (std::size_t i = 0; i < placed.beyond.size(); ++i)
+      draw(placed.beyond[i], true, placed.told_beyond[i]);
   }
 
   void draw_newest(const PlacedSeries& placed) {
@@ -187,6 +200,14 @@ class Drawing : PlotLayout {
 };
 
 }  // namespace
+
+std::string plot_key(const Plot& plot, const PlotSeries& series) {
+  return fmt::format("series/{}", &series - plot.series.data());
+}
+
+std::string plot_key(const Plot& plot, const PlotSeries& series, const PlotPoint& point) {
+  return fmt::format("{}/{}", plot_key(plot, series), &point - series.points.data());
+}
 
 void draw_plot(const Plot& plot, const Box<2>& panel, DrawList& list, Labels& labels) {
   if (!plot.bands.empty()) return draw_banded_plot(plot, panel, list, labels);

@@ -98,6 +98,11 @@ struct Plot {
   }
 };
 
+// The key (DrawList::Scope) of what is drawn of a series: "series/3", "series/3/whiskers", or of the
+// mark of one of its points, "series/3/7". A slide has none of them.
+std::string plot_key(const Plot& plot, const PlotSeries& series);
+std::string plot_key(const Plot& plot, const PlotSeries& series, const PlotPoint& point);
+
 // Fills the panel. Names stand at the lines' ends or in a legend, none covers another. Points that
 // are not finite are left out, and those in none of the bands; an empty plot says that there is
 // nothing to see.

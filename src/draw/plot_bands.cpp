@@ -176,13 +176,19 @@ class BandDrawing {
                       {{end, 1}}, type_.name, paper_.place.panel);
     const auto at = [&](const PlotPoint* p) { return Vec<2>{x_of(p->at.x), lane.y}; };
     const auto& [series, points, _] = lane;
+    const std::string key = plot_key(plot_, *series);
+    const DrawList::Scope lines(list_, key);
     for (std::size_t i = 1; i < points.size() && !open; ++i)
       draw_plot_line(series->ink(), at(points[i - 1]), at(points[i]), 0.44 * radius(), list_);
+    const DrawList::Scope whiskers(list_, key + "/whiskers");
     for (const PlotPoint* p : points)
       if (const Vec<2> spread = spread_of(*p); spread.x < spread.y)
         draw_plot_whisker(series->ink(), {x_of(spread.x), lane.y}, {x_of(spread.y), lane.y},
                           radius(), list_);
-    for (const PlotPoint* p : points) draw_plot_mark(series->ink(), at(p), radius(), open, list_);
+    for (const PlotPoint* p : points) {
+      const DrawList::Scope mark(list_, plot_key(plot_, *series, *p));
+      draw_plot_mark(series->ink(), at(p), radius(), open, list_);
+    }
   }
 
   void name_points(const Band& band) {

@@ -49,6 +49,8 @@ struct PlacedSeries {
   std::vector<Vec<2>> points;  // that are joined
   std::vector<Vec<2>> beyond;  // at the upper edge
   std::vector<bool> open;      // of the joined ones
+  // Which points they are, first those that are joined; not on a slide.
+  std::vector<const PlotPoint*> told, told_beyond;
   std::vector<std::pair<Vec<2>, std::string>> notes;
   std::vector<std::pair<Vec<2>, Vec<2>>> whiskers;
 };
@@ -104,12 +106,14 @@ class PlotLayout {
         if (p.beyond) {
           place.y = area_.lo.y + 3 + (row % most_rows() + 0.5) * row_height();
           placed.beyond.push_back(place);
+          placed.told_beyond.push_back(&p);
           continue;
         }
         if (is_on_ground(p))
           place.y = scaled().hi.y + 5 + (ground_row % most_rows() + 0.5) * row_height();
         any_zero = any_zero || is_on_ground(p);
         placed.points.push_back(place);
+        placed.told.push_back(&p);
         placed.open.push_back(p.open);
         if (!p.note.empty()) placed.notes.push_back({place, p.note});
         if (p.spread) place_whiskers(place, *p.spread, placed);

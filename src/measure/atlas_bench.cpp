@@ -3,17 +3,154 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "atlas/atlas.hpp"
 #include "base/clock.hpp"
-#include "base/error.hpp"
 #include "base/stop.hpp"
-#include "measure/atlas_contest.hpp"
-#include "measure/timed.hpp"
+#include "base/timing.hpp"
+#include "measure/peer_modules.hpp"
 
 namespace lantern::measure {
+
+// --- who packs, and what makes a layout right ---
+
+namespace {
+
+using Places = std::vector<std::optional<TexturePlace>>;
+
+struct Packed {
+  bool all = true;
+  Places places;
+  std::uint64_t leaf_tests = 0, bytes = 0;
+};
+
+// One of our rules, whatever it is.
+class OwnPacker : public TexturePacker {
+ public:
+  using Rule = std::function<Packed(std::span<const TextureSize>, const Rect& atlas)>;
+  OwnPacker(std::span<const TextureSize> sizes, Rule rule)
+      : sizes_(sizes.begin(), sizes.end()), rule_(std::move(rule)) {}
+
+  bool pack(int width, int height) override {
+    last_ = rule_(sizes_, {0, 0, width, height});
+    leaf_tests_ += last_.leaf_tests;
+    return last_.all;
+  }
+  Places places() const override { return last_.places; }
+  std::uint64_t leaf_tests() const override { return leaf_tests_; }
+  std::uint64_t bytes() const override {
+    return last_.bytes + last_.places.capacity() * sizeof(Places::value_type);
+  }
+
+ private:
+  std::vector<TextureSize> sizes_;
+  Rule rule_;
+  Packed last_;
+  std::uint64_t leaf_tests_ = 0;
+};
+
+Packed first_fit(std::span<const TextureSize> sizes, const Rect& leaf, bool partly) {
+  std::vector<TextureId> order(sizes.size());
+  std::iota(order.begin(), order.end(), 0u);
+  std::ranges::sort(order, std::greater(), [&](TextureId id) {
+    return std::tuple(sizes[id].height, sizes[id].width, ~id);
+  });
+  Packed packed;
+  packed.places.resize(sizes.size());
+  Atlas atlas(leaf.width, leaf.height);
+  for (const TextureId id : order) {
+    if (const auto rect = atlas.insert(id, sizes[id].width, sizes[id].height))
+      packed.places[id] = TexturePlace{*rect, false};
+    else
+      packed.all = false;
+    if (!packed.all && !partly) break;
+  }
+  packed.leaf_tests = atlas.leaf_tests();
+  packed.bytes = atlas.bytes();
+  return packed;
+}
+
+Packed best_texture(std::span<const TextureSize> sizes, const Rect& leaf, bool turn, bool partly) {
+  Packer packer(sizes, turn);
+  const Packing packing = partly ? packer.pack_most({&leaf, 1}) : packer.pack({&leaf, 1});
+  Packed packed;
+  packed.all = packing.complete;
+  if (packed.all || partly) packed.places = places_of(packing, {&leaf, 1}, sizes.size());
+  packed.leaf_tests = packing.leaf_tests;
+  packed.bytes = packer.bytes() + packing.steps.capacity() * sizeof(PackStep);
+  return packed;
+}
+
+constexpr PeerModule kAtlasModules[] = {
+    {"stb_rect_pack", "lantern_peer_atlas_stb.so", "libstb-dev"},
+};
+
+}  // namespace
+
+std::vector<AtlasPeer> own_atlas_packers(bool partly) {
+  const auto by = [](OwnPacker::Rule rule) {
+    return [rule = std::move(rule)](std::span<const TextureSize> sizes) {
+      return std::make_unique<OwnPacker>(sizes, rule);
+    };
+  };
+  const auto choosing = [&](bool turn) {
+    return by(
+        [=](auto sizes, const Rect& atlas) { return best_texture(sizes, atlas, turn, partly); });
+  };
+  return {{"first_fit", "", "the taught rule: the tallest first, each into the first leaf it fits",
+           by([=](auto sizes, const Rect& atlas) { return first_fit(sizes, atlas, partly); })},
+          {"best_texture", "", "each free leaf chooses the texture that leaves least of it",
+           choosing(false)},
+          {"best_texture:turn", "", "the same, and textures may be turned by 90 degrees",
+           choosing(true)}};
+}
+
+std::vector<AtlasPeer> atlas_contestants(const AtlasBenchConfig& config,
+                                         std::vector<std::string>& missing) {
+  std::vector<AtlasPeer> all = own_atlas_packers(config.atlas.has_value());
+  if (config.peers)
+    for (AtlasPeer& peer : peers_of<AtlasPeer>(kAtlasModules, "lantern_atlas_peers", missing))
+      all.push_back(std::move(peer));
+  keep_asked_for(all, config.only, missing, [](const AtlasPeer& one) { return one.name; });
+  return all;
+}
+
+void check_layout(std::span<const TextureSize> sizes,
+                  std::span<const std::optional<TexturePlace>> places, AtlasRow& row) {
+  std::vector<Rect> rects;
+  std::int64_t area = 0;
+  for (std::size_t i = 0; i < std::min(sizes.size(), places.size()); ++i) {
+    if (!places[i]) continue;
+    const auto& [r, turned] = *places[i];
+    rects.push_back(r);
+    area += std::int64_t{r.width} * r.height;
+    row.turned += turned;
+    row.wrong_sizes +=
+        sizes[i] != (turned ? TextureSize{r.height, r.width} : TextureSize{r.width, r.height});
+    row.outside += r.x < 0 || r.y < 0 || r.x + r.width > row.width || r.y + r.height > row.height;
+  }
+  row.packed = rects.size();
+  row.fill = static_cast<double>(area) / (static_cast<double>(row.width) * row.height);
+  // Sorted by x, only those that begin before a texture ends can lie over it.
+  std::ranges::sort(rects, {}, &Rect::x);
+  for (std::size_t i = 0; i < rects.size(); ++i) {
+    stop_if_asked();
+    const Rect& a = rects[i];
+    for (std::size_t j = i + 1; j < rects.size() && rects[j].x < a.x + a.width; ++j)
+      row.overlaps += rects[j].y < a.y + a.height && a.y < rects[j].y + rects[j].height;
+  }
+  if (row.overlaps + row.outside + row.wrong_sizes == 0) return;
+  row.status = "wrong";
+  row.reason = fmt::format("{} overlaps, {} outside, {} of another size", row.overlaps, row.outside,
+                           row.wrong_sizes);
+}
+
+// --- the rounds ---
+
 namespace {
 
 constexpr double kTurnSeconds = 0.004;  // of calls in one turn

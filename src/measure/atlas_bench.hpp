@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "measure/atlas_peer.hpp"
-#include "measure/row.hpp"
+#include "measure/bench.hpp"
 
 namespace lantern::measure {
 
@@ -69,18 +69,7 @@ struct AtlasRow {
   bool is_peer() const { return !version.empty(); }
 };
 
-struct AtlasPeerWords {
-  std::string name, version, how;
-};
-
-struct AtlasBenchResult {
-  Circumstances circumstances;
-  std::string command;  // that made it
-  AtlasBenchConfig config;
-  std::vector<std::string> missing;         // packers that are not there: a line each
-  std::vector<AtlasPeerWords> contestants;  // ours without a version
-  std::vector<AtlasRow> rows;
-};
+using AtlasBenchResult = BenchResult<AtlasBenchConfig, AtlasRow>;
 
 // Told before each set.
 using AtlasBenchWatch = std::function<void(std::size_t stage, const TextureSet& set)>;
@@ -89,12 +78,26 @@ std::size_t atlas_bench_stages(const AtlasBenchConfig& config);
 // The smallest square: sides from the square root of the textures' area up, each 0.2 % longer than
 // the last, at least by one, until all fit. Each contestant looks for its own. Then, in turns, one
 // packing into that square and one search are timed, in seconds of the processor; each turn as many
-// calls as fill some milliseconds. `result` has config and circumstances, and gets the rest; a
-// set's rows are added when all of it is done. Throws Refused for names that are none, and Stopped.
+// calls as fill some milliseconds. Throws Refused for names that are none, and Stopped.
 void bench_atlases(AtlasBenchResult& result, const AtlasBenchWatch& watch);
 
 // The fullest peer at the set of a row (of equally full ones the quickest), and null if there is
 // none.
 const AtlasRow* fullest_peer(const std::vector<AtlasRow>& rows, const AtlasRow& at);
+
+// Ours: the taught rule with the tallest texture first; leaves that choose; the same with textures
+// turned. `partly`: what has no place is left out; otherwise packing ends as soon as it is known
+// that not all have one.
+std::vector<AtlasPeer> own_atlas_packers(bool partly);
+
+// Those that `config` asks for, ours first; a line in `missing` for each module that is not there.
+// Throws Refused for names that are none.
+std::vector<AtlasPeer> atlas_contestants(const AtlasBenchConfig& config,
+                                         std::vector<std::string>& missing);
+
+// Counts overlaps, textures that lie outside, and sizes that are not theirs, and fills in what else
+// is known of a layout.
+void check_layout(std::span<const TextureSize> sizes,
+                  std::span<const std::optional<TexturePlace>> places, AtlasRow& row);
 
 }  // namespace lantern::measure

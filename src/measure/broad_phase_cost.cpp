@@ -174,27 +174,6 @@ std::vector<BroadPhaseCost> planned(const BoxScene& scene, const BroadPhaseCostC
 
 }  // namespace
 
-template <int D>
-std::vector<Pair> pairs_by_force(std::span<const Proxy<D>> boxes) {
-  std::vector<Pair> pairs;
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    stop_if_asked();
-    for (std::size_t j = i + 1; j < boxes.size(); ++j)
-      if (!(boxes[i].is_static && boxes[j].is_static) && overlap(boxes[i].box, boxes[j].box))
-        pairs.push_back({std::min(boxes[i].id, boxes[j].id), std::max(boxes[i].id, boxes[j].id)});
-  }
-  sort_pairs(pairs);
-  return pairs;
-}
-template std::vector<Pair> pairs_by_force<2>(std::span<const Proxy<2>>);
-template std::vector<Pair> pairs_by_force<3>(std::span<const Proxy<3>>);
-
-std::uint64_t count_missing(std::span<const Pair> truth, std::span<const Pair> found) {
-  std::vector<Pair> missing;
-  std::ranges::set_difference(truth, found, std::back_inserter(missing));
-  return missing.size();
-}
-
 std::size_t broad_phase_rows(const BoxScene& scene, const BroadPhaseCostConfig& config) {
   return planned(scene, config).size();
 }

@@ -10,8 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "measure/box_scenes.hpp"
-#include "measure/timed.hpp"
+#include "base/timing.hpp"
+#include "measure/bench.hpp"
+#include "measure/boxes/worlds.hpp"
 
 namespace lantern::measure {
 
@@ -68,7 +69,10 @@ struct BroadPhaseCostConfig {
   std::vector<std::uint32_t> capacities = {1, 2, 4, 8, 16, 32, 64};
   std::vector<std::uint32_t> depth_limits = {2, 3, 4, 5, 6, 7, 8, 9, 10};
   TimingRule timing{5, 0.002};
+  std::vector<BoxScene> scenes = {};
 };
+
+using BroadPhaseResult = BenchResult<BroadPhaseCostConfig, BroadPhaseCost>;
 
 // Rows of a scene in order of kinds, capacities and depth limits; brute force first. `told` is
 // called after each row. BSP planes lie at the medians of the bodies' centres, as deep as capacity
@@ -80,13 +84,6 @@ std::vector<BroadPhaseCost> measure_broad_phases(const BoxScene& scene,
 
 // How many rows the above gives.
 std::size_t broad_phase_rows(const BoxScene& scene, const BroadPhaseCostConfig& config);
-
-// Which pairs of one update overlap, in order: all with all, in which not both are static.
-template <int D>
-std::vector<Pair> pairs_by_force(std::span<const Proxy<D>> boxes);
-
-// How many of `truth` are not in `found`. Both in order and without repeats.
-std::uint64_t count_missing(std::span<const Pair> truth, std::span<const Pair> found);
 
 // Of all rows of one scene and kind those that cost least; the lower depth limit, then the larger
 // capacity, among equals. Nothing if there are none.
@@ -101,10 +98,5 @@ const BroadPhaseCost* row_of(std::span<const BroadPhaseCost> rows, const std::st
 // Whether the tree was out of proportion and built with half the depth limit instead: then a lower
 // limit of the same capacity made a deeper one.
 bool was_cut_back(std::span<const BroadPhaseCost> rows, const BroadPhaseCost& row);
-
-std::string to_table(std::span<const BroadPhaseCost> rows, std::span<const BoxScene> scenes);
-std::string to_csv(const std::vector<BroadPhaseCost>& rows);
-// lantern.measure.broad_phase/2
-std::string to_json(std::span<const BroadPhaseCost> rows, std::span<const BoxScene> scenes);
 
 }  // namespace lantern::measure

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "embedded/lab_version.hpp"
 #include "measure/row.hpp"
 
 namespace lantern::measure {
@@ -24,9 +25,9 @@ std::string processor() {
 
 }  // namespace
 
-Circumstances here(std::string_view version, std::string_view sources) {
+Circumstances here() {
   return {
-      std::string(version), std::string(sources), compiler(), LANTERN_FLAGS, processor(), 1, ""};
+      std::string(kVersion), std::string(kLabHash), compiler(), LANTERN_FLAGS, processor(), 1, ""};
 }
 
 }  // namespace lantern::measure

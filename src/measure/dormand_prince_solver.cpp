@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "measure/dormand_prince.hpp"
+#include "measure/forms/dormand_prince.hpp"
 #include "physics/integrate/smooth_system.hpp"
 #include "scenario/players.hpp"
 

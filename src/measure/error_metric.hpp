@@ -2,6 +2,8 @@
 // scenario is held against its own run at a much finer step.
 #pragma once
 
+#include <cmath>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -31,37 +33,72 @@ struct Norm {
   bool operator==(const Norm&) const = default;
 };
 
+// The largest error met, or the last one set. Once it is no number it stays so.
+class Worst {
+ public:
+  void meet(double error) {
+    if (std::isnan(value_)) return;
+    if (!(std::abs(error) <= value_)) value_ = std::abs(error);
+  }
+  void set(double error) { value_ = error; }
+  double value() const { return value_; }
+
+ private:
+  double value_ = 0;
+};
+
 class ErrorMetric {
  public:
   virtual ~ErrorMetric() = default;
   // What it holds runs against, and the error of that itself in the main norm.
   virtual std::string reference() const { return "closed form"; }
   virtual double reference_error() const { return 0; }
-  // Another of its kind that has seen nothing yet, if to make it from the scenario would be costly:
-  // it shares the reference. Else nothing.
-  virtual std::unique_ptr<ErrorMetric> fresh() const { return nullptr; }
   // Called for the start and then once for each of the problem's samples, in order of time.
   virtual void look(const Observation& now) = 0;
   // After each look: a problem may have something done to its bodies at a moment.
   virtual void interfere(const Observation&, Simulation&) {}
   // The main norm first. Not finite if the run was.
-  virtual std::vector<Norm> norms() const = 0;
+  std::vector<Norm> norms() const;
   // Why the run is a failure although all its numbers are sound: what should stand has fallen.
   // Nothing if it stands, or nothing should.
   virtual std::optional<std::string> collapse() const { return std::nullopt; }
+
+ protected:
+  // Declares a norm, the main one first, and gives where its error is met or set.
+  Worst& norm(std::string name, std::string unit, std::string meaning) {
+    return norms_.emplace_back(Declared{{std::move(name), 0, std::move(unit), std::move(meaning)}})
+        .error;
+  }
+  // The problem has no such norm after all.
+  void drop(const Worst& error) {
+    for (Declared& one : norms_) one.dropped |= &one.error == &error;
+  }
+
+ private:
+  struct Declared {
+    Norm norm;
+    Worst error = {};
+    bool dropped = false;
+  };
+  std::deque<Declared> norms_;
 };
 
-// Of a scenario with a [problem]. One a run. Throws Refused, naming what is wrong, if the scenario
-// is not such a problem: two springs where the oscillator has one, say.
+// Makes the metric of a run; all that it makes share what is costly to know.
+using MetricMaker = std::function<std::unique_ptr<ErrorMetric>()>;
+
+// Of a scenario with a [problem], which must outlive it. This or the first that is made throws
+// Refused, naming what is wrong, if the scenario is not such a problem: two springs where the
+// oscillator has one, say.
+MetricMaker metrics_of(const Scenario& scenario);
+// One of them.
 std::unique_ptr<ErrorMetric> make_error_metric(const Scenario& scenario);
 
 // Throws Refused as that does, as far as it can be told at once: to know some answers takes runs of
 // their own, or the cube of their bodies.
 void require_problem(const Scenario& scenario);
 
-// The norm "traj": the largest distance from the exact state over the run, in phase space:
-// |dx| / length or |dv| / speed, whichever is larger.
-Norm trajectory_norm(double value, double length, double speed);
+// Of the norm "traj", in phase space: |dx| / length or |dv| / speed, whichever is larger.
+std::string trajectory_meaning(double length, double speed);
 
 // Of problems whose bodies are known at every time: "traj", over the bodies that `exact` gives.
 class TrajectoryMetric : public ErrorMetric {
@@ -76,12 +113,11 @@ class TrajectoryMetric : public ErrorMetric {
 
   TrajectoryMetric(long double length, long double speed, ExactStates exact);
   void look(const Observation& now) override;
-  std::vector<Norm> norms() const override { return {trajectory_norm(worst_, length_, speed_)}; }
 
  private:
   double length_, speed_;
   ExactStates exact_at_;
-  double worst_ = 0;
+  Worst& worst_ = norm("traj", "1", trajectory_meaning(length_, speed_));
   std::vector<Exact> exact_;
 };
 

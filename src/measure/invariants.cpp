@@ -19,7 +19,7 @@ class Model {
     for (std::size_t i = 0; i < scenario.bodies.size(); ++i) players_.enter(i);
   }
 
-  Kept operator()(const std::vector<BodyState>& states) const {
+  Kept operator()(const std::vector<BodyState>& states, const Skins& skins) const {
     std::vector<Body<D>> bodies = players_.world().bodies();
     for (Body<D>& body : bodies)
       if (const auto index = players_.index_of(body.id)) put(body, states[*index]);
@@ -35,7 +35,7 @@ class Model {
     else
       kept.angular_momentum = angular_momentum<D>(all);
     for (const Body<D>& body : bodies) add_flow(body, kept);
-    if (collides_) add_overlaps(bodies, kept);
+    if (collides_) add_overlaps(bodies, skins, kept);
     return kept;
   }
 
@@ -80,38 +80,41 @@ class Model {
   }
 
   // Of all pairs that meet, found by a sweep along the axis x.
-  void add_overlaps(const std::vector<Body<D>>& bodies, Kept& kept) const {
-    std::vector<Box<D>> boxes;
-    std::vector<std::size_t> order;
-    for (const Body<D>& body : bodies) {
-      boxes.push_back(body.box());
-      if (players_.index_of(body.id)) order.push_back(boxes.size() - 1);
+  void add_overlaps(const std::vector<Body<D>>& bodies, const Skins& skins, Kept& kept) const {
+    struct Boxed {
+      std::size_t body;
+      double skin;
+      Box<D> box;  // with its skin
+    };
+    std::vector<Boxed> order;
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      const auto index = players_.index_of(bodies[i].id);
+      if (!index) continue;
+      const double skin = skins.of.empty() ? 0 : skins.of[*index], reach = skin + skins.nearly;
+      const Box<D> box = bodies[i].box();
+      order.push_back({i, skin, {box.lo - reach, box.hi + reach}});
     }
-    std::ranges::stable_sort(order, {}, [&](std::size_t i) { return boxes[i].lo.x; });
-    double sum = 0;
-    std::size_t overlaps = 0;
+    std::ranges::stable_sort(order, {}, [](const Boxed& b) { return b.box.lo.x; });
     for (std::size_t m = 0; m < order.size(); ++m)
       for (std::size_t n = m + 1; n < order.size(); ++n) {
-        const std::size_t i = std::min(order[m], order[n]), j = std::max(order[m], order[n]);
-        if (boxes[order[n]].lo.x > boxes[order[m]].hi.x) break;
-        if (!overlap(boxes[i], boxes[j])) continue;
-        const double depth = depth_between(bodies[i], bodies[j]);
-        sum += depth;
-        overlaps += depth > 0;
-        kept.penetration = std::max(kept.penetration, depth);
+        if (order[n].box.lo.x > order[m].box.hi.x) break;
+        if (!overlap(order[m].box, order[n].box)) continue;
+        const auto [i, j] = std::minmax(order[m].body, order[n].body);
+        add_pair(bodies[i], bodies[j], order[m].skin + order[n].skin, skins.nearly, kept);
       }
-    if (overlaps > 0) kept.mean_penetration = sum / static_cast<double>(overlaps);
   }
 
-  // 0 if they do not overlap, or may.
-  double depth_between(const Body<D>& a, const Body<D>& b) const {
-    if ((!a.moves() && !b.moves()) || are_joined(a.id, b.id)) return 0;
-    const auto manifold = collide<D>(placed(a), placed(b), 0.0);
+  void add_pair(const Body<D>& a, const Body<D>& b, double skin, double nearly, Kept& kept) const {
+    if ((!a.moves() && !b.moves()) || are_joined(a.id, b.id)) return;  // they may overlap
+    const auto manifold = collide<D>(placed(a), placed(b), skin + nearly);
+    if (!manifold) return;
     double depth = 0;
-    if (manifold)
-      for (const ManifoldPoint<D>& point : manifold->points())
-        depth = std::max(depth, -point.separation);
-    return depth;
+    for (const ManifoldPoint<D>& point : manifold->points())
+      depth = std::max(depth, skin - point.separation);
+    ++kept.touching;
+    kept.overlapping += depth > 0;
+    kept.penetrations += depth;
+    kept.penetration = std::max(kept.penetration, depth);
   }
 
   bool collides_;
@@ -123,7 +126,9 @@ class Model {
 Invariants::Invariants(const Scenario& scenario) {
   const WorldSpec& world = scenario.world;
   const auto model = [&]<int D>(std::integral_constant<int, D>) {
-    of_ = [m = std::make_shared<Model<D>>(scenario)](const auto& states) { return (*m)(states); };
+    of_ = [m = std::make_shared<Model<D>>(scenario)](const auto& states, const Skins& skins) {
+      return (*m)(states, skins);
+    };
   };
   world.dimension == 3 ? model(std::integral_constant<int, 3>())
                        : model(std::integral_constant<int, 2>());

@@ -2,7 +2,9 @@
 // alone: by the same formulas for Lantern and for every peer.
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "measure/row.hpp"
@@ -21,7 +23,15 @@ struct Kept {
   double flow = 0;               // sum of |m v|, N s: what a change of momentum is held against
   double swirl = 0;              // sum of |x cross m v| and |L|, the same for angular momentum
   double penetration = 0;        // the deepest of any two bodies, 0 if none overlap
-  double mean_penetration = 0;   // of the pairs that overlap
+  double penetrations = 0;       // of all pairs together, each by its deepest point
+  std::size_t overlapping = 0;   // pairs
+  std::size_t touching = 0;      // or no farther apart than Skins::nearly
+};
+
+// What counts as a body's surface.
+struct Skins {
+  std::span<const double> of = {};  // how far an engine keeps others off each body; empty: nothing
+  double nearly = 0;                // bodies at most so far apart touch
 };
 
 class Invariants {
@@ -30,7 +40,9 @@ class Invariants {
   explicit Invariants(const Scenario& scenario);
 
   // All states must be finite. Bodies that are not there count nothing.
-  Kept of(const std::vector<BodyState>& states) const { return of_(states); }
+  Kept of(const std::vector<BodyState>& states, const Skins& skins = {}) const {
+    return of_(states, skins);
+  }
 
   // Whether the scene keeps it, by its own rules: no drag, no damping and elastic contacts without
   // friction for the energy; nothing that is tied to or meets the world for momentum.
@@ -42,7 +54,7 @@ class Invariants {
   bool keeps_energy_ = false;
   bool keeps_momentum_ = false;
   bool keeps_angular_momentum_ = false;
-  std::function<Kept(const std::vector<BodyState>&)> of_;
+  std::function<Kept(const std::vector<BodyState>&, const Skins&)> of_;
 };
 
 // Follows a run and remembers the largest changes and the deepest penetration.

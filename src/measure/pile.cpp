@@ -3,17 +3,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <memory>
 #include <numbers>
-#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/random.hpp"
-#include "physics/energy.hpp"
-#include "physics/manifold.hpp"
-#include "scenario/players.hpp"
 
 namespace lantern::measure {
 namespace {
@@ -117,95 +112,6 @@ class PileMaker {
   std::vector<BodySpec> bodies_;
 };
 
-template <int D>
-class Gauge {
- public:
-  Gauge(const Pile& pile, const Scenario& scenario)
-      : half_(half_width(pile.dimension)), players_(scenario) {
-    for (std::size_t i = 0; i < scenario.bodies.size(); ++i) players_.enter(i);
-  }
-
-  PileState operator()(const std::vector<BodyState>& states,
-                       const std::vector<double>& skins) const {
-    std::vector<Body<D>> bodies = players_.world().bodies();
-    PileState found;
-    for (Body<D>& body : bodies) {
-      put(body, states[*players_.index_of(body.id)]);
-      found.outside += body.moves() && is_outside(body.position);
-    }
-    found.energy =
-        physics::energy(std::span<const Body<D>>(bodies), players_.world().forces()).total() -
-        at_rest(bodies);
-    look_at_pairs(bodies, skins, found);
-    return found;
-  }
-
- private:
-  struct Boxed {
-    const Body<D>* body;
-    double skin;
-    Box<D> box;  // with its skin
-  };
-
-  static void put(Body<D>& body, const BodyState& state) {
-    body.position = in_dimension<D>(state.position);
-    body.velocity = in_dimension<D>(state.velocity);
-    if constexpr (D == 2) {
-      body.orientation.angle = state.angle;
-      body.angular_momentum = state.angular_momentum.z;
-    } else {
-      body.orientation = state.orientation;
-      body.angular_momentum = state.angular_momentum;
-    }
-  }
-
-  bool is_outside(const Vec<D>& at) const {
-    bool outside = at.y < 0 || std::abs(at.x) > half_;
-    if constexpr (D == 3) outside = outside || std::abs(at.z) > half_;
-    return outside;
-  }
-
-  // What they would have if all lay on the floor.
-  static double at_rest(const std::vector<Body<D>>& bodies) {
-    double sum = 0;
-    for (const Body<D>& body : bodies)
-      if (body.inverse_mass > 0) sum += kGravity * kHalfSize / body.inverse_mass;
-    return sum;
-  }
-
-  // All pairs whose boxes overlap, by a sweep along x.
-  void look_at_pairs(const std::vector<Body<D>>& bodies, const std::vector<double>& skins,
-                     PileState& found) const {
-    std::vector<Boxed> sorted;
-    for (const Body<D>& body : bodies) {
-      const Box<D> box = body.box();
-      const double skin = skins[*players_.index_of(body.id)];
-      sorted.push_back({&body, skin, {box.lo - (skin + kNearly), box.hi + (skin + kNearly)}});
-    }
-    std::ranges::sort(sorted, {}, [](const Boxed& b) { return b.box.lo.x; });
-    double sum = 0;
-    for (std::size_t i = 0; i < sorted.size(); ++i)
-      for (std::size_t j = i + 1; j < sorted.size(); ++j) {
-        const Boxed &a = sorted[i], &b = sorted[j];
-        if (b.box.lo.x > a.box.hi.x) break;
-        if ((!a.body->moves() && !b.body->moves()) || !overlap(a.box, b.box)) continue;
-        const double skin = a.skin + b.skin, margin = skin + kNearly;
-        const auto manifold = collide<D>(placed(*a.body), placed(*b.body), margin);
-        if (!manifold) continue;
-        double depth = 0;
-        for (const ManifoldPoint<D>& point : manifold->points())
-          depth = std::max(depth, skin - point.separation);
-        ++found.touching;
-        sum += depth;
-        found.deepest = std::max(found.deepest, depth);
-      }
-    if (found.touching > 0) found.mean = sum / static_cast<double>(found.touching);
-  }
-
-  double half_;
-  Players<D> players_;
-};
-
 }  // namespace
 
 std::string Pile::name() const {
@@ -243,14 +149,33 @@ Scenario pile_scene(const Pile& pile, double step, StructureKind structure) {
   return Scenario(std::move(spec));
 }
 
-PileGauge::PileGauge(const Pile& pile, const Scenario& scenario) {
-  const auto gauge = [&]<int D>(std::integral_constant<int, D>) {
-    of_ = [g = std::make_shared<Gauge<D>>(pile, scenario)](const auto& states, const auto& skins) {
-      return (*g)(states, skins);
-    };
-  };
-  pile.dimension == 3 ? gauge(std::integral_constant<int, 3>())
-                      : gauge(std::integral_constant<int, 2>());
+PileGauge::PileGauge(const Pile& pile, const Scenario& scenario)
+    : half_(half_width(pile.dimension)), scenario_(scenario), invariants_(scenario) {
+  std::vector<BodyState> lying(scenario.bodies.size());
+  for (std::size_t i = 0; i < lying.size(); ++i) {
+    lying[i].there = true;
+    const Vec<3> apart(3 * static_cast<double>(i), kHalfSize, 0);
+    lying[i].position = falls(i) ? apart : scenario.bodies[i].position;
+  }
+  at_rest_ = invariants_.of(lying).energy;
+}
+
+bool PileGauge::falls(std::size_t body) const {
+  return scenario_.bodies[body].kind == BodyKind::dynamic_body;
+}
+
+PileState PileGauge::of(const std::vector<BodyState>& states,
+                        const std::vector<double>& skins) const {
+  const Kept kept = invariants_.of(states, {skins, kNearly});
+  PileState found{kept.penetration, 0, kept.touching, kept.energy - at_rest_, 0};
+  if (kept.touching > 0) found.mean = kept.penetrations / static_cast<double>(kept.touching);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const Vec<3>& at = states[i].position;
+    const bool is_flat = scenario_.world.dimension == 2;
+    found.outside +=
+        falls(i) && (at.y < 0 || std::abs(at.x) > half_ || (!is_flat && std::abs(at.z) > half_));
+  }
+  return found;
 }
 
 }  // namespace lantern::measure

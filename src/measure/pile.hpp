@@ -3,12 +3,12 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "measure/invariants.hpp"
 #include "scenario/body_state.hpp"
 #include "scenario/scenario.hpp"
 
@@ -50,12 +50,15 @@ class PileGauge {
 
   // `skins`: how far the engine keeps others off each body's surface (Simulation::skin), units. All
   // states finite.
-  PileState of(const std::vector<BodyState>& states, const std::vector<double>& skins) const {
-    return of_(states, skins);
-  }
+  PileState of(const std::vector<BodyState>& states, const std::vector<double>& skins) const;
 
  private:
-  std::function<PileState(const std::vector<BodyState>&, const std::vector<double>&)> of_;
+  bool falls(std::size_t body) const;
+
+  double half_;
+  const Scenario& scenario_;
+  Invariants invariants_;
+  double at_rest_ = 0;  // J, if all lay on the floor
 };
 
 }  // namespace lantern::measure

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/timing.hpp"
 #include "measure/error_metric.hpp"
 #include "measure/simulation.hpp"
 
@@ -26,17 +27,6 @@ inline constexpr std::array<std::string_view, 6> kStatusNames = {"ok",  "diverge
 inline std::string_view to_string(Status status) {
   return kStatusNames[static_cast<std::size_t>(status)];
 }
-
-// Seconds of a whole run, over repeats. Zero repeats: not timed.
-struct Timing {
-  int repeats = 0;
-  double median = 0;
-  double least = 0;
-  double lower_quartile = 0;
-  double upper_quartile = 0;
-  double spread() const { return upper_quartile - lower_quartile; }  // interquartile range
-  bool operator==(const Timing&) const = default;
-};
 
 // Largest relative change over the run; nothing where the scenario does not keep it.
 struct Drift {
@@ -99,8 +89,8 @@ struct Circumstances {
   std::string effort;  // "quick", "normal", "full"
 };
 
-// Of this build on this machine; `version` and `sources` are Lantern's.
-Circumstances here(std::string_view version, std::string_view sources);
+// Of this build on this machine.
+Circumstances here();
 
 // An engine beside Lantern, and how it was run.
 struct PeerRecord {

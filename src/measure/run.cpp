@@ -13,8 +13,6 @@
 #include "base/stop.hpp"
 #include "geometry/not_finite.hpp"
 #include "measure/lantern_solver.hpp"
-#include "measure/own_run.hpp"
-#include "measure/sampler.hpp"
 
 namespace lantern::measure {
 namespace {
@@ -30,6 +28,93 @@ bool all_finite(const BodyState& s) {
   return is_finite<3>(s.position) && is_finite<3>(s.velocity) && is_finite<3>(s.angular_momentum) &&
          std::isfinite(q.w) && is_finite<3>({q.x, q.y, q.z});
 }
+
+// --- a scenario without a known answer is held against a record of its own finer run ---
+
+// Keeps every moment.
+class Recorder : public ErrorMetric {
+ public:
+  void look(const Observation& now) override { record_->push_back(now); }
+  std::shared_ptr<const std::vector<Observation>> record() const { return record_; }
+
+ private:
+  std::shared_ptr<std::vector<Observation>> record_ = std::make_shared<std::vector<Observation>>();
+};
+
+// The distance from a record: of places over the way that the body that moves most has gone from
+// where it began, of velocities over the largest speed.
+class OwnRun : public ErrorMetric {
+ public:
+  explicit OwnRun(std::shared_ptr<const std::vector<Observation>> record)
+      : record_(std::move(record)) {
+    const std::size_t bodies = record_->empty() ? 0 : record_->front().states.size();
+    for (std::size_t i = 0; i < bodies; ++i) {
+      const BodyState* first = nullptr;
+      for (const Observation& moment : *record_) {
+        const BodyState& state = moment.states[i];
+        if (!state.there) continue;
+        if (!first) first = &state;
+        way_ = std::max(way_, glm::length(state.position - first->position));
+        speed_ = std::max(speed_, glm::length(state.velocity));
+      }
+    }
+    worst_ = &norm("traj", "1", trajectory_meaning(way_, speed_));
+  }
+
+  void look(const Observation& now) override {
+    LANTERN_CHECK(next_, <, record_->size());
+    const Observation& then = (*record_)[next_++];
+    const auto against = [](double error, double scale) {
+      if (error == 0) return 0.0;
+      return scale > 0 ? error / scale : std::numeric_limits<double>::infinity();
+    };
+    for (std::size_t i = 0; i < now.states.size(); ++i) {
+      const BodyState &a = now.states[i], &b = then.states[i];
+      if (!a.there || !b.there) continue;
+      worst_->meet(against(glm::length(a.position - b.position), way_));
+      worst_->meet(against(glm::length(a.velocity - b.velocity), speed_));
+    }
+  }
+
+ private:
+  std::shared_ptr<const std::vector<Observation>> record_;
+  double way_ = 0, speed_ = 0;
+  std::size_t next_ = 0;
+  Worst* worst_ = nullptr;
+};
+
+// Writes down how error and energy have gone, about a dozen times, further and further apart.
+class Sampler : public ErrorMetric {
+ public:
+  Sampler(ErrorMetric& metric, const DriftMeter& meter, const Schedule& schedule)
+      : metric_(metric), meter_(meter) {
+    for (const Leg& leg : schedule.legs) looks_ += leg.looks;
+    growth_ = std::max(1.0, std::pow(looks_, 1.0 / kSamples));
+  }
+
+  void look(const Observation& now) override {
+    metric_.look(now);
+    const double seen = seen_++;
+    if (seen < next_ && seen < looks_) return;
+    if (seen > 0)
+      samples_.push_back({now.time, metric_.norms().front().value, meter_.drift().energy});
+    next_ = std::max(seen + 1, std::floor(seen * growth_));
+  }
+  void interfere(const Observation& now, Simulation& simulation) override {
+    metric_.interfere(now, simulation);
+  }
+  const std::vector<DriftSample>& samples() const { return samples_; }
+
+ private:
+  static constexpr double kSamples = 12;
+
+  ErrorMetric& metric_;
+  const DriftMeter& meter_;
+  double looks_ = 0, seen_ = 0, next_ = 1, growth_ = 1;
+  std::vector<DriftSample> samples_;
+};
+
+// --- the runs ---
 
 struct NotANumber {};
 
@@ -123,14 +208,9 @@ void ignore(const Observation&) {}
 
 Reference reference_for(const Scenario& scenario, const Schedule& schedule, double step) {
   if (scenario.problem) {
-    // Tells at once if it is not that problem.
-    const std::shared_ptr<const ErrorMetric> first = make_error_metric(scenario);
-    return {first->reference(),
-            [&scenario, first] {
-              auto fresh = first->fresh();
-              return fresh ? std::move(fresh) : make_error_metric(scenario);
-            },
-            first->reference_error()};
+    const MetricMaker make = metrics_of(scenario);
+    const auto first = make();  // tells at once if it is not that problem
+    return {first->reference(), make, first->reference_error()};
   }
   Method method;
   method.name = "as written";

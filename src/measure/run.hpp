@@ -7,17 +7,17 @@
 #include <span>
 #include <string>
 
+#include "base/timing.hpp"
 #include "measure/error_metric.hpp"
 #include "measure/invariants.hpp"
 #include "measure/schedule.hpp"
-#include "measure/timed.hpp"
 
 namespace lantern::measure {
 
 // What the runs of one scenario are held against.
 struct Reference {
   std::string text;  // "closed form"
-  std::function<std::unique_ptr<ErrorMetric>()> make;
+  MetricMaker make;
   double error = 0;  // its own, estimated, in the main norm
 };
 

@@ -13,10 +13,10 @@
 #include "base/clock.hpp"
 #include "base/error.hpp"
 #include "base/stop.hpp"
+#include "base/timing.hpp"
 #include "geometry/not_finite.hpp"
 #include "measure/lantern_solver.hpp"
 #include "measure/peers.hpp"
-#include "measure/timed.hpp"
 
 namespace lantern::measure {
 namespace {
@@ -29,13 +29,6 @@ constexpr std::uint64_t kWarmSteps = 5;
 // From quick to exact, names of scenario/method.hpp.
 constexpr std::string_view kUsualEfforts[] = {"soft:0.01", "soft:0.001", "soft:0.0001", "soft:8",
                                               "impulse:10"};
-
-// "Bullet" asks for all of its methods. No names ask for all.
-bool is_asked_for(const std::vector<std::string>& names, const Solver& solver) {
-  return names.empty() || std::ranges::any_of(names, [&](const std::string& name) {
-           return solver.name() == name || solver.name().starts_with(name + ":");
-         });
-}
 
 // Null if there is no such method of contacts.
 std::unique_ptr<Solver> own(std::string_view name) {
@@ -53,11 +46,13 @@ std::vector<std::unique_ptr<Solver>> contestants(StepBenchResult& result) {
     if (auto mine = own(name)) all.push_back(std::move(mine));
   if (config.peers)
     for (auto& peer : load_peers(result.missing))
-      if (is_asked_for(config.only, *peer)) all.push_back(std::move(peer));
+      if (is_asked_for(config.only, peer->name())) all.push_back(std::move(peer));
   for (const std::string& name : config.only)
-    if (std::ranges::none_of(all,
-                             [&](const auto& solver) { return is_asked_for({name}, *solver); }))
+    if (std::ranges::none_of(
+            all, [&](const auto& solver) { return is_asked_for({name}, solver->name()); }))
       throw Refused(fmt::format("there is no method of contacts and no engine '{}'", name));
+  for (const auto& solver : all)
+    result.contestants.push_back({solver->name(), solver->version(), ""});
   return all;
 }
 

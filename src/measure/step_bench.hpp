@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "measure/bench.hpp"
 #include "measure/pile.hpp"
-#include "measure/row.hpp"
 
 namespace lantern::measure {
 
@@ -46,13 +46,7 @@ struct StepRow {
   bool is_whole(double seconds) const { return status == Status::ok && simulated >= seconds; }
 };
 
-struct StepBenchResult {
-  Circumstances circumstances;
-  std::string command;  // that made it
-  StepBenchConfig config;
-  std::vector<std::string> missing;  // peers that are not there: a line each
-  std::vector<StepRow> rows;         // in order of piles and solvers
-};
+using StepBenchResult = BenchResult<StepBenchConfig, StepRow>;
 
 // The piles of a run of some minutes, and of one of hours.
 std::vector<Pile> usual_piles();
@@ -66,8 +60,7 @@ std::span<const std::string_view> usual_efforts();
 using StepBenchWatch = std::function<void(const Pile& pile, double share)>;
 
 // Solvers take turns of a quarter of a simulated second each, after a few steps for warmth. Only
-// steps are timed. `result` has config and circumstances, and gets the rest; a pile's rows are
-// added when all of it is done. Throws Refused for a name that is none, and Stopped.
+// steps are timed. Throws Refused for a name that is none, and Stopped.
 void bench_steps(StepBenchResult& result, const StepBenchWatch& watch);
 
 // How long ours would need to be as exact as a peer at a pile.

@@ -1,6 +1,6 @@
 // Stress: what must hold on extreme input, stiff springs and at the limits of stability, case by
 // case. Each case drives the real engine and gives one figure with a meaning, and the bound that it
-// must keep.
+// must keep. What a scenario can say is one, in scenarios/stress/; all else is here.
 #pragma once
 
 #include <functional>
@@ -41,7 +41,7 @@ struct StressOutcome {
   StressResult result;
 };
 
-// All cases, group by group. Names differ.
+// All cases; those of a group need not stand together. Names differ.
 std::span<const StressCase> stress_cases();
 
 // A case that throws has failed, and the message is its detail. Nothing is thrown but Stopped.

@@ -1,7 +1,6 @@
 // Contacts and joints never make energy: needles, plates, spins, mass ratios, overlaps, many steps
 // and sub-steps, and random worlds. What is known to make some is shown to.
 #include <cmath>
-#include <numbers>
 
 #include <fmt/format.h>
 
@@ -138,20 +137,6 @@ StressResult random_worlds(std::uint64_t first, std::uint64_t count) {
 
 // --- what makes energy, and is there to show it ---
 
-// A spring of omega h = 0.5 at h = 0.1 s: by how much its energy has grown after 100 steps.
-StressResult explicit_method_gains() {
-  World<2> world = oscillator_world(Integrator::explicit_euler, 5, 0, 0.25, 0);
-  const double gain = energy_gain(world, 100, 0.1);
-  return at_least(1, gain, "x the start", "explicit Euler, k = 25, m = 1, 100 steps of 0.1 s");
-}
-
-// Beyond its limit, omega h = 2.83, where the scene of the stiff spring has it at 3.
-StressResult runge_kutta_gains() {
-  World<2> world = oscillator_world(Integrator::runge_kutta_4, 30, 0, 0.25, 0);
-  const double gain = energy_gain(world, 100, 0.1);
-  return at_least(1, gain, "x the start", "Runge-Kutta 4, k = 900, m = 1, 100 steps of 0.1 s");
-}
-
 // It notices a ball that lies in the floor, lifts it out, and turns its speed round: what it fell
 // too deep it gains.
 StressResult lecture_gains() {
@@ -185,10 +170,6 @@ std::vector<StressCase> energy_cases() {
       {"energy_random", kGroup, "Random worlds make no energy.", random_few},
       {"energy_random_thousand", kGroup, "A thousand random worlds make no energy.", random_many,
        true},
-      {"energy_explicit_euler", kGroup, "Explicit Euler makes energy, as the lecture shows.",
-       explicit_method_gains},
-      {"energy_runge_kutta_4", kGroup, "Beyond its limit Runge-Kutta 4 makes energy.",
-       runge_kutta_gains},
       {"energy_lecture", kGroup, "The lecture's contact solver makes energy.", lecture_gains}};
 }
 

@@ -1,4 +1,4 @@
-// Steps of every length, numbers that overflow, and bodies that begin inside each other.
+// Steps of every length, and numbers that overflow.
 #include <cmath>
 #include <span>
 
@@ -147,42 +147,6 @@ double blow_up() {
   return silent;
 }
 
-// The greatest speed of two equal bodies that begin `apart` along x, over 4 s; endless if they are
-// still in each other then.
-template <int D>
-double exit_speed(const Body<D>& body, double apart) {
-  Body<D> other = body;
-  other.position.x += apart;
-  World<D> world = world_of<D>({}, {body, other});
-  const double fastest = worst_after_steps(world, 240, kStep, [&] {
-    return largest(glm::length(world.bodies()[0].velocity),
-                   glm::length(world.bodies()[1].velocity));
-  });
-  return deepest(world) <= 1e-3 && is_finite(world) ? fastest : kInfinity;
-}
-
-template <int D>
-double worst_exit_speed(std::initializer_list<double> aparts) {
-  double worst = 0;
-  const Vec<D> place = at<D>(3, 4);
-  for (const double apart : aparts)
-    for (const Body<D>& body : {make_ball<D>(place), make_box<D>(place),
-                                make_body<D>(Capsule{0.3, 0.5}, place, "capsule"),
-                                make_body<D>(AxisBox<D>{Vec<D>(0.5)}, place, "axis box")})
-      worst = largest(worst, exit_speed<D>(body, apart));
-  return worst;
-}
-
-double deep_overlap() {
-  const auto aparts = {0.05, 0.1, 0.4};
-  return largest(worst_exit_speed<2>(aparts), worst_exit_speed<3>(aparts));
-}
-
-double coincident_centres() {
-  const auto aparts = {0.0, 1e-300, 1e-9};
-  return largest(worst_exit_speed<2>(aparts), worst_exit_speed<3>(aparts));
-}
-
 }  // namespace
 
 std::vector<StressCase> step_cases() {
@@ -205,13 +169,7 @@ std::vector<StressCase> step_cases() {
        [] { return overflow_of(kImplicit); }},
       {"blow_up", kGroup, "A spring beyond its method's limit ends the run, naming body and step.",
        none_above(0, "runs", "of 4 explicit methods that do not end naming body and step",
-                  blow_up)},
-      {"deep_overlap", kGroup, "Bodies deep in each other part, and do not fly off.",
-       none_above(1e-6, "m/s", "while they part, 0.05, 0.1 and 0.4 m apart; 4 shapes, 2D and 3D",
-                  deep_overlap)},
-      {"coincident_centres", kGroup, "Bodies with a common centre part, and do not fly off.",
-       none_above(1e-6, "m/s", "while they part, 0, 1e-300 and 1e-9 m apart; 4 shapes, 2D and 3D",
-                  coincident_centres)}};
+                  blow_up)}};
 }
 
 }  // namespace lantern::measure

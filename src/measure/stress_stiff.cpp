@@ -49,20 +49,6 @@ double stiff_drag() {
   });
 }
 
-// With gravity and drag c a body of mass 1 ends at the speed g/c, whatever the step.
-double terminal_speed() {
-  double worst = 0;
-  for (const auto method :
-       {Integrator::implicit_euler, Integrator::implicit_midpoint, Integrator::velocity_verlet})
-    for (const double drag : {10.0, 1e2, 1e4}) {
-      World<2> world(config_of<2>(method, kGravity));
-      world.add({.shape = Sphere{0.5}, .mass = 1, .linear_drag = drag});
-      run(world, 20);
-      worst = largest(worst, std::abs(-world.bodies()[0].velocity.y * drag / kGravity - 1));
-    }
-  return worst;
-}
-
 // A chain of masses along the x axis, soft and hard springs by turns.
 World<2> unequal_chain_of(int links, const WorldConfig<2>& config) {
   World<2> world(config);
@@ -168,9 +154,6 @@ std::vector<StressCase> stiff_cases() {
       {"stiff_drag_velocity_verlet", kGroup, kDrag, drag(stiff_drag<velocity_verlet>)},
       {"stiff_drag_implicit_midpoint", kGroup, kDrag, drag(stiff_drag<implicit_midpoint>)},
       {"stiff_drag_implicit_euler", kGroup, kDrag, drag(stiff_drag<implicit_euler>)},
-      {"terminal_speed", kGroup, "Gravity and drag end at the speed m g/c, at any drag.",
-       none_above(1e-9, "relative", "20 s after the start from rest, c/m 10, 1e2, 1e4",
-                  terminal_speed)},
       {"unequal_chain_implicit_midpoint", kGroup, kChain, chain(unequal_chain<implicit_midpoint>)},
       {"unequal_chain_implicit_euler", kGroup, kChain, chain(unequal_chain<implicit_euler>)},
       {"unequal_rope", kGroup, kRope, [] { return unequal_rope(100); }},

@@ -87,7 +87,10 @@ class PeerRun : public Simulation {
   virtual void step() = 0;
   virtual bool is_finite() const = 0;  // of all bodies
   virtual PeerMotion motion(std::size_t body) const = 0;
-  virtual std::pair<Vec<3>, Vec<3>> centre(std::size_t body) const = 0;  // position, velocity
+  virtual std::pair<Vec<3>, Vec<3>> centre(std::size_t body) const {  // position, velocity
+    const PeerMotion now = motion(body);
+    return {now.position, now.velocity};
+  }
   virtual void push(std::size_t body, const Vec<3>& force, const Vec<3>& arm) = 0;
   virtual void set_velocity(std::size_t body, const Vec<3>& velocity) = 0;
   // Nothing if the peer keeps no whole turns itself.

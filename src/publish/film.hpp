@@ -38,7 +38,7 @@ std::optional<std::string> film_problem(const FilmSettings& settings);
 std::filesystem::path require_ffmpeg();
 
 // What ffmpeg is told, but for its own name: it reads pictures with their times from its standard
-// input (publish/film_stream.hpp) and writes `file`, which is "file:" and a path. The same bytes
+// input (publish/film.cpp) and writes `file`, which is "file:" and a path. The same bytes
 // whatever the machine's cores.
 std::vector<std::string> film_words(const FilmSettings& settings, const std::string& file);
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "render/compare_facts.hpp"
+#include "render/compare.hpp"
 #include "rooms.hpp"
 
 namespace lantern::publish {

@@ -11,9 +11,8 @@
 #include "base/markup.hpp"
 #include "draw/theme.hpp"
 #include "embedded/lesson_files.hpp"
-#include "publish/lesson_facts.hpp"
 #include "publish/packed.hpp"
-#include "render/check_list.hpp"
+#include "render/canvas.hpp"
 #include "render/svg.hpp"
 
 namespace lantern::publish {
@@ -140,12 +139,12 @@ std::string Lesson::picture_of(const DrawList& list) const {
 
 std::string Lesson::html() const {
   LANTERN_CHECK(frames_.count(), >, 0u);
-  return filled(page::lesson_html, [&](std::string_view name) { return part(name); });
+  return html_page(card_.title,
+                   filled(page::lesson_html, [&](std::string_view name) { return part(name); }),
+                   theme_ == "light" ? "" : fmt::format(" data-theme=\"{}\"", theme_));
 }
 
 std::string Lesson::part(std::string_view name) const {
-  if (name == "theme" && theme_ == "light") return "";
-  if (name == "theme") return fmt::format(" data-theme=\"{}\"", theme_);
   if (name == "title") return escaped(card_.title);
   if (name == "idea") return escaped(card_.idea);
   if (name == "card") {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/file.hpp"
 #include "draw/draw_list.hpp"
 #include "publish/lesson_frames.hpp"
 #include "scenario/frame.hpp"
@@ -68,5 +69,27 @@ class Lesson {
   std::string captions_;      // <li> ...
   std::string last_caption_;  // of those
 };
+
+// A list of objects, one for the frame or one for each of its sides:
+//   name, title    of the side; empty without sides
+//   counts         [["pairs", 3], ...], and measures likewise
+//   textures       [id, "name"]
+//   bodies         [id, "name", [x, y], speed, "static" | "asleep" | ""]
+//   nodes          ["root.0", "label", depth, leaf, [body ids], outline, pool slot]: the outline on
+//                  the page, [x, y, ...] in page units, of a flat world; the slot or -1
+//   pairs          [a, b, their boxes overlap]
+//   contacts       [a, b]
+// Measures, places and speeds have five digits: they are to be read, not to be reckoned with.
+std::string facts_for_page(const Frame& frame, const DrawList& list);
+
+// index.html of a folder: each lesson page that stands in it, in the order of the lecture, those
+// without a place there behind the others by name, with its first picture, its idea, how many steps
+// it has and what is to be seen before. Made from those pages alone, so that it is the same
+// whichever of them were written last. Throws IoError if the folder or a page cannot be read.
+std::string lesson_index(const Folder& folder);
+
+// Writes it. False, and nothing is touched, if an index.html stands there that is not of this kind.
+// Throws IoError.
+bool write_lesson_index(const Folder& folder);
 
 }  // namespace lantern::publish

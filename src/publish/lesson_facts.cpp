@@ -1,5 +1,3 @@
-#include "publish/lesson_facts.hpp"
-
 #include <algorithm>
 #include <vector>
 
@@ -8,6 +6,7 @@
 #include "base/json_writer.hpp"
 #include "base/stop.hpp"
 #include "draw/keys.hpp"
+#include "publish/lesson.hpp"
 
 namespace lantern::publish {
 namespace {

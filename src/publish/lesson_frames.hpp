@@ -1,17 +1,89 @@
-// The frames of a lesson as JSON: what each shows, and how it comes out of the one before.
+// The shapes of a lesson's frames, each of them kept once, and what they point at.
 #pragma once
 
 #include <cstdint>
 #include <string>
+#include <string_view>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "draw/draw_list.hpp"
 #include "draw/tween.hpp"
-#include "publish/lesson_shapes.hpp"
-#include "publish/numbered.hpp"
 #include "scenario/frame.hpp"
 
 namespace lantern::publish {
+
+// Gives equal texts the same number, counted from 0 in the order in which they first come, and
+// keeps for each a piece of JSON.
+class Numbered {
+ public:
+  // `make()` gives the JSON of one that is new.
+  template <class Make>
+  std::uint32_t number(std::string identity, const Make& make) {
+    const auto next = static_cast<std::uint32_t>(numbers_.size());
+    const auto [it, fresh] = numbers_.try_emplace(std::move(identity), next);
+    if (fresh) {
+      const std::string piece = make();
+      json_ += json_.empty() ? "" : ",\n";
+      json_ += piece;
+    }
+    return it->second;
+  }
+  // One that is its own JSON.
+  std::uint32_t number(const std::string& json) {
+    return number(json, [&] { return json; });
+  }
+
+  std::size_t size() const { return numbers_.size(); }
+  std::size_t bytes() const { return json_.size(); }
+  std::string json() const { return "[" + json_ + "]"; }
+
+ private:
+  std::unordered_map<std::string, std::uint32_t> numbers_;
+  std::string json_;
+};
+
+// A length of the page as a lesson tells it: in hundredths of a page unit.
+std::int64_t hundredths(double length);
+
+// The tables that rows refer to. A row is a list of whole numbers; points but for the first are
+// told by their way from the one before:
+//   [0, key, style, x, y, width, height, corner radius]     a rectangle
+//   [1, key, style, x, y, dx, dy]                           a line
+//   [2, key, style, x, y, dx, dy ...]                       a polygon
+//   [3, key, style, x, y, size, text]                       a text, from its anchor
+// A style is [fill, stroke, width, dash, snapped]: roles by number, of a text its own and its
+// halo's. A text is ["words", x, glyph, x, glyph ...], where x is in thousandths of the em from the
+// anchor; a glyph is a path in the same unit, relative, y down. A key is ["key", entity ...], see
+// entities_of().
+class LessonShapes {
+ public:
+  // The rows of a frame's shapes, in order.
+  std::vector<std::uint32_t> rows_of(const DrawList& list, const Frame& frame);
+
+  std::size_t rows() const { return rows_.size(); }
+  std::size_t bytes() const;
+  // `"rows": [...], "keys": [...]` and so on.
+  std::string json() const;
+
+ private:
+  std::string row(const DrawShape& shape, std::uint32_t key);
+  std::string row_of(const RectShape& shape, std::uint32_t key);
+  std::string row_of(const LineShape& shape, std::uint32_t key);
+  std::string row_of(const PolygonShape& shape, std::uint32_t key);
+  std::string row_of(const TextShape& shape, std::uint32_t key);
+  std::uint32_t style(Role fill, const Stroke& stroke, bool snapped = false);
+  std::uint32_t text(const TextShape& shape);
+
+  Numbered rows_, keys_, styles_, texts_, glyphs_;
+};
+
+// What the things of a key are, so that a page can tell what belongs together: "node/root.0.3",
+// "body/ann" (and what a texture is), "pair/ann|bob" (in order of their names), "slot/4" of the
+// pool; behind the side's prefix, if there is one. A body without a name is "#7", by its id. Empty
+// for what is nothing of these.
+std::vector<std::string> entities_of(const std::string& key, const Frame& frame);
 
 // What is told of a frame beside its picture and facts.
 struct FrameWords {

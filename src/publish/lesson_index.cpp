@@ -1,5 +1,3 @@
-#include "publish/lesson_index.hpp"
-
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -111,16 +109,17 @@ std::string lesson_index(const Folder& folder) {
   const std::vector<Listed> lessons = lessons_in(folder);
   std::map<std::string, const Listed*> by_name;
   for (const Listed& lesson : lessons) by_name.emplace(lesson.card.scenario, &lesson);
-  return filled(page::index_html, [&](std::string_view name) {
-    if (name == "mark") return std::string(kIndexMark);
-    if (name == "colours") return lesson_colours();
-    if (name == "style") return std::string(page::index_css);
-    if (name == "count")
-      return fmt::format("{} lesson{}", lessons.size(), lessons.size() == 1 ? "" : "s");
-    std::string entries;
-    for (const Listed& lesson : lessons) entries += entry_of(lesson, by_name);
-    return entries;
-  });
+  return html_page("Lessons", filled(page::index_html, [&](std::string_view name) {
+                     if (name == "mark") return std::string(kIndexMark);
+                     if (name == "colours") return lesson_colours();
+                     if (name == "style") return std::string(page::index_css);
+                     if (name == "count")
+                       return fmt::format("{} lesson{}", lessons.size(),
+                                          lessons.size() == 1 ? "" : "s");
+                     std::string entries;
+                     for (const Listed& lesson : lessons) entries += entry_of(lesson, by_name);
+                     return entries;
+                   }));
 }
 
 bool write_lesson_index(const Folder& folder) {

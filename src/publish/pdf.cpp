@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "base/check.hpp"
-#include "render/cairo.hpp"
 #include "render/cairo_painter.hpp"
 #include "render/canvas.hpp"
 

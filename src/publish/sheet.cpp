@@ -1,13 +1,13 @@
 #include "publish/sheet.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <variant>
 
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/number.hpp"
 #include "draw/font.hpp"
 #include "draw/labels.hpp"
 #include "draw/page.hpp"
@@ -54,15 +54,11 @@ std::vector<std::string> lines_of(const std::string& text, double width, std::si
 }  // namespace
 
 std::optional<SheetGrid> sheet_grid(std::string_view words) {
-  SheetGrid grid;
-  const char* const last = words.data() + words.size();
-  const auto columns = std::from_chars(words.data(), last, grid.columns);
-  if (columns.ec != std::errc() || columns.ptr == last || *columns.ptr != 'x') return std::nullopt;
-  const auto rows = std::from_chars(columns.ptr + 1, last, grid.rows);
-  if (rows.ec != std::errc() || rows.ptr != last) return std::nullopt;
-  for (const int number : {grid.columns, grid.rows})
-    if (number < 1 || number > SheetGrid::kMost) return std::nullopt;
-  return grid;
+  const auto grid = two_numbers_in<int>(words, 'x');
+  if (!grid || std::min(grid->first, grid->second) < 1 ||
+      std::max(grid->first, grid->second) > SheetGrid::kMost)
+    return std::nullopt;
+  return SheetGrid{grid->first, grid->second};
 }
 
 SheetLayout::SheetLayout(const Vec<2>& paper, const SheetGrid& grid) : grid_(grid) {

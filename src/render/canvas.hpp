@@ -1,13 +1,65 @@
-// From page units to pixels.
+// What all painters of draw lists have in common.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 
+#include <fmt/format.h>
+
+#include "base/error.hpp"
 #include "draw/draw_list.hpp"
+#include "draw/theme.hpp"
 #include "render/instances.hpp"
 
 namespace lantern::render {
+
+// Red, green, blue and opacity, not multiplied; opacity 0 is not painted at all.
+using Paint = std::array<std::uint8_t, 4>;
+
+// Opaque unless it is tinted. `other` is the role of the tint that is mixed in: of its fill or its
+// line. A role that is none has no colour, only less opacity.
+inline Paint tinted(const Theme& theme, Role role, const Tint* tint, Role Tint::*other) {
+  const auto color = [&](Role of) { return of == Role::none ? Color{} : theme[of]; };
+  const Color own = color(role);
+  if (!tint) return {own.r, own.g, own.b, static_cast<std::uint8_t>(role == Role::none ? 0 : 255)};
+  const Color far = color(tint->*other);
+  const double mine = role == Role::none ? 0 : 1 - tint->share;
+  const double theirs = tint->*other == Role::none ? 0 : tint->share;
+  const double all = mine + theirs;
+  const auto whole = [](double x) { return static_cast<std::uint8_t>(std::floor(x + 0.5)); };
+  const std::uint8_t opacity = whole(255 * tint->opacity * all);
+  if (opacity == 0) return {};
+  const auto mixed = [&](std::uint8_t a, std::uint8_t b) {
+    return whole((a * mine + b * theirs) / all);
+  };
+  return {mixed(own.r, far.r), mixed(own.g, far.g), mixed(own.b, far.b), opacity};
+}
+
+// Throws Refused, naming the shape's number, if a coordinate, size or width is not finite or is
+// beyond a million page units, or if the page has no area, or if some shapes have a tint and others
+// none.
+inline void check_draw_list(const DrawList& list) {
+  constexpr double kMost = 1e6;                                     // page units
+  const auto sane = [](double x) { return std::abs(x) <= kMost; };  // false for NaN
+
+  if (!sane(list.page.x) || !sane(list.page.y) || list.page.x <= 0 || list.page.y <= 0)
+    throw Refused("a draw list's page must have a finite size above zero");
+  if (!list.tints.empty() && list.tints.size() != list.shapes.size())
+    throw Refused(fmt::format("a draw list of {} shapes has {} tints", list.shapes.size(),
+                              list.tints.size()));
+  for (std::size_t i = 0; i < list.shapes.size(); ++i) {
+    bool good = true;
+    const auto look_at = [&](double measure) { good &= sane(measure); };
+    std::visit([&](const auto& s) { for_each_measure(s, look_at); }, list.shapes[i]);
+    if (const auto* text = std::get_if<TextShape>(&list.shapes[i])) look_at(text->align);
+    if (!good)
+      throw Refused(fmt::format(
+          "shape {} of the draw list has a coordinate or size that is not finite or beyond {}", i,
+          kMost));
+  }
+}
 
 // Half upwards, on every machine and in every rounding mode.
 inline double rounded(double x) { return std::floor(x + 0.5); }

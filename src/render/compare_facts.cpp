@@ -1,5 +1,3 @@
-#include "render/compare_facts.hpp"
-
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -10,6 +8,7 @@
 
 #include "base/check.hpp"
 #include "base/utf8.hpp"
+#include "render/compare.hpp"
 
 namespace lantern::render {
 namespace {

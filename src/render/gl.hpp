@@ -1,7 +1,9 @@
-// The OpenGL functions that Lantern calls, looked up in a context.
+// The OpenGL functions that Lantern calls, looked up in a context, and the room that they need.
 #pragma once
 
 #define GL_GLEXT_PROTOTYPES  // for their types alone
+#include <cstdint>
+
 #include <GL/glcorearb.h>
 
 #include "render/context.hpp"
@@ -31,5 +33,17 @@ struct Gl {
   LANTERN_GL_FUNCTIONS(LANTERN_GL_MEMBER)
 #undef LANTERN_GL_MEMBER
 };
+
+// Room for code that is not ours and does not survive an allocation that fails: Mesa and the
+// compiler behind it end the process. So they are called only where there is enough.
+//
+// Throws BackendError unless an OpenGL context, its threads and its shaders find room within the
+// limits of this process (ulimit -v, ulimit -d), and std::runtime_error if it is the budget
+// (--memory) that leaves none. Under such a limit all threads share one arena of the allocator from
+// now on: arenas of their own would take more than all the rest.
+void require_room_for_context();
+
+// The same for a framebuffer of so many pixels, in a context that is there.
+void require_room_for_pixels(std::uint64_t pixels);
 
 }  // namespace lantern::render

@@ -11,7 +11,7 @@
 
 #include "base/check.hpp"
 #include "base/stop.hpp"
-#include "render/band_deflate.hpp"
+#include "render/deflate.hpp"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "render/band_deflate.hpp"
+#include "render/deflate.hpp"
 #include "render/image.hpp"
 
 namespace lantern::render {

@@ -10,12 +10,8 @@
 #include "draw/theme.hpp"
 #include "geometry/ray.hpp"
 #include "render/canvas.hpp"
-#include "render/check_list.hpp"
-#include "render/dashes.hpp"
 #include "render/instances.hpp"
-#include "render/polygon_masks.hpp"
-#include "render/text_masks.hpp"
-#include "render/tinted.hpp"
+#include "render/masks.hpp"
 
 namespace lantern::render {
 

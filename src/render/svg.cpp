@@ -11,8 +11,7 @@
 #include "base/markup.hpp"
 #include "base/stop.hpp"
 #include "draw/font.hpp"
-#include "render/check_list.hpp"
-#include "render/tinted.hpp"
+#include "render/canvas.hpp"
 
 namespace lantern::render {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "draw/labels.hpp"
+#include "report/document.hpp"
 
 namespace lantern::report {
 
@@ -22,16 +22,15 @@ struct Bar {
 
   // Nothing if it was not measured. A value that is not finite misses.
   std::optional<bool> met() const;
+  // Decades from the bound: below 0 is better. Nothing if it was not measured.
+  std::optional<double> distance() const;
 };
 
 // Runs the stress cases that are bars and not slow.
 std::vector<Bar> measured_bars();
 
-double bars_table_height(const std::vector<Bar>& bars);  // page units
-
-// As wide as the place. The strip shows the measured value on a logarithmic scale on which every
-// bar is the middle line: left of it is better.
-void draw_bars_table(const std::vector<Bar>& bars, const Box<2>& place, DrawList& list,
-                     Labels& labels);
+// A line a bar. The column kBarDistance has its distance in decades.
+inline constexpr std::size_t kBarDistance = 3;
+Table table_of(const std::vector<Bar>& bars);
 
 }  // namespace lantern::report

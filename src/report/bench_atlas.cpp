@@ -1,9 +1,11 @@
-#include "report/bench_atlas.hpp"
+// `bench atlas`: how full texture atlases become, and how soon.
+#include <algorithm>
+#include <charconv>
 
 #include <fmt/format.h>
 
-#include "base/grouped.hpp"
-#include "measure/records.hpp"
+#include "measure/atlas_bench.hpp"
+#include "report/benches.hpp"
 
 namespace lantern::measure {
 
@@ -36,76 +38,168 @@ void each_field(const AtlasRow& row, Visit&& visit) {
   visit(Field("wrong_sizes"), row.wrong_sizes);
 }
 
-template <class Visit>
-void each_field(const AtlasPeerWords& c, Visit&& visit) {
-  visit(Field("name"), c.name);
-  visit(Field("version"), c.version);
-  visit(Field("how"), c.how);
-}
-
 }  // namespace lantern::measure
 
 namespace lantern::report {
 namespace {
 
-std::string row_text(const AtlasRow& row, const AtlasRow* peer) {
-  std::string text = fmt::format("  {:<24}", row.contestant);
-  if (row.status == "left out") return fmt::format("{} {}: {}\n", text, row.status, row.reason);
-  const auto ms = [](double seconds) { return fmt::format("{:.3g}", 1e3 * seconds); };
-  text += fmt::format(" {:>7.2f}% {:>13} {:>9} {:>19} {:>9} {:>6} {:>10} {:>10}", 100 * row.fill,
-                      fmt::format("{} x {}", row.width, row.height), ms(row.timing.median),
-                      ms(row.timing.lower_quartile) + " - " + ms(row.timing.upper_quartile),
-                      row.searching.repeats > 0 ? ms(row.searching.median) : "-", row.sides,
-                      row.leaf_tests > 0 ? grouped(static_cast<std::int64_t>(row.leaf_tests)) : "-",
-                      grouped(static_cast<std::int64_t>(row.bytes)));
-  if (row.status != "ok") text += fmt::format("  {}: {}", row.status, row.reason);
-  if (row.packed < row.textures)
-    text += fmt::format("  {} of {} textures", row.packed, row.textures);
-  if (peer && !row.is_peer() && row.status == "ok" && row.timing.median > 0) {
-    const double times = peer->timing.median / row.timing.median;
-    text +=
-        fmt::format("  {:+.2f} points, {:.3g} times as fast", 100 * (row.fill - peer->fill), times);
-  }
-  return text + "\n";
+std::string in_ms(double seconds) { return fmt::format("{:.3g}", 1e3 * seconds); }
+
+Cell remark_on(const AtlasRow& row) {
+  return {row.status + (row.reason.empty() ? "" : ": " + row.reason), row.status == "wrong"};
 }
+
+// Up is fuller, left is sooner.
+Sheet<AtlasRow>::Curve fill_curve(bool search) {
+  Plot plot;
+  plot.title = search ? "Searching the smallest square" : "Packing into it";
+  plot.x_name = "ms of the processor, median; whiskers: quartiles";
+  plot.y_name = "% of the atlas under textures: upper left is better";
+  plot.log_y = false;
+  return {plot, [search](const AtlasRow& row) -> std::optional<PlotPoint> {
+            const Timing& timing = search ? row.searching : row.timing;
+            if (row.status != "ok" || timing.repeats == 0) return std::nullopt;
+            return level_point(timing, 1e3, 100 * row.fill);
+          }};
+}
+
+Sheet<AtlasRow> sheet_of(const AtlasBenchResult& result) {
+  const AtlasBenchConfig& config = result.config;
+  Sheet<AtlasRow> sheet;
+  sheet.format = "lantern.bench.atlas/1";
+  sheet.title = "Texture atlases: how full, how soon";
+  sheet.about = config.atlas
+                    ? "Textures packed into an atlas of a given size."
+                    : "Textures packed into the smallest square: sides from the square root of "
+                      "their area up by 0.2 % until all fit. ms: of one packing into that square, "
+                      "median and quartiles; search: of all sides tried.";
+  sheet.about +=
+      " Contestants take turns; ms are of the processor. Each layout is checked: nothing overlaps, "
+      "all lies inside, sizes are right. Points of fullness, and times as fast: beside the fullest "
+      "other packer.";
+  sheet.head = [&config](JsonWriter& json) {
+    json.members("rounds", config.rounds, "seed", config.seed);
+  };
+  sheet.lists = [&result](JsonWriter& json) {
+    write_rows("contestants", result.contestants, json);
+  };
+  sheet.who = [](const AtlasRow& row) { return row.contestant; };
+  sheet.chapter = [](const AtlasRow& row) {
+    return fmt::format("{}, {} textures", row.set, count_text(row.textures));
+  };
+  sheet.words = [](const AtlasRow& row) -> std::vector<std::string> {
+    return {texture_set_words(row.set)};
+  };
+  const auto beside = [&result](const AtlasRow& row, const auto& text) -> std::string {
+    const AtlasRow* peer = fullest_peer(result.rows, row);
+    if (!peer || row.is_peer() || row.status != "ok" || !(row.timing.median > 0)) return "";
+    return text(*peer);
+  };
+  sheet.columns = {
+      {"full", [](auto& row) { return fmt::format("{:.2f}%", 100 * row.fill); }},
+      {"atlas", [](auto& row) { return fmt::format("{} x {}", row.width, row.height); }},
+      {"textures", [](auto& row) { return count_text(row.packed); }},
+      {"ms", [](auto& row) { return in_ms(row.timing.median); }},
+      {"quartiles", [](auto& row) { return range_text(row.timing, 1e3); }},
+      {"search ms",
+       [](auto& row) { return row.searching.repeats > 0 ? in_ms(row.searching.median) : "-"; }},
+      {"sides", [](auto& row) { return count_text(row.sides); }},
+      {"leaf tests",
+       [](auto& row) { return row.leaf_tests > 0 ? count_text(row.leaf_tests) : "-"; }},
+      {"bytes", [](auto& row) { return count_text(row.bytes); }},
+      {"points",
+       [=](auto& row) {
+         return beside(row, [&](const AtlasRow& peer) {
+           return fmt::format("{:+.2f}", 100 * (row.fill - peer.fill));
+         });
+       }},
+      {"times",
+       [=](auto& row) {
+         return beside(row, [&](const AtlasRow& peer) {
+           return fmt::format("{:.3g}", peer.timing.median / row.timing.median);
+         });
+       }},
+  };
+  sheet.has_numbers = [](const AtlasRow& row) { return row.status != "left out"; };
+  sheet.remark = remark_on;
+  sheet.curves = {fill_curve(false)};
+  if (!config.atlas) sheet.curves.push_back(fill_curve(true));
+  return sheet;
+}
+
+class AtlasBench : public ExperimentOf<AtlasBenchResult> {
+ public:
+  Options options() override {
+    AtlasBenchConfig& c = result_.config;
+    c.counts.clear();
+    return {{"--set",
+             &c.sets,
+             "only these: square, powers, tall, glyphs",
+             {.value = "NAME", .one_each = true}},
+            {"--count",
+             &c.counts,
+             "textures of each set; the default is 500 and 5000",
+             {.value = "N", .least = 1, .most = 1e6, .one_each = true}},
+            {"--sizes",
+             &sizes_,
+             "textures of your own instead: CSV, a line WIDTH,HEIGHT each",
+             {.value = "FILE", .without = "--set,--count"}},
+            {"--size",
+             &atlas_,
+             "into an atlas of this size; the default is the smallest square",
+             {.value = "WxH"}},
+            only_option("only these: first_fit, best_texture, stb_rect_pack, ...", c.only),
+            peers_option("without other packers", c.peers),
+            rounds_option("turns of each contestant; medians count", c.rounds),
+            seed_option("of the sets", c.seed)};
+  }
+  void prepare() override {
+    AtlasBenchConfig& c = result_.config;
+    for (const std::string& name : c.sets) texture_set(name, 1, 1);  // is there one?
+    if (c.counts.empty()) c.counts = AtlasBenchConfig().counts;
+    if (!sizes_.empty()) c.own = read_texture_sizes(sizes_);
+    if (!atlas_.empty()) c.atlas = atlas_size();
+  }
+  std::string unit() const override { return "sets"; }
+  std::size_t stages() const override { return atlas_bench_stages(result_.config); }
+  void run(const std::function<void(const std::string&)>& tell) override {
+    bench_atlases(result_, [&](std::size_t stage, const TextureSet& set) {
+      tell(fmt::format("set {} of {}, {}: {} textures", stage + 1, stages(), set.name,
+                       set.sizes.size()));
+    });
+  }
+  Texts texts() const override { return texts_of(result_); }
+  bool is_good() const override {
+    return std::ranges::none_of(result_.rows,
+                                [](const AtlasRow& row) { return row.status == "wrong"; });
+  }
+
+ private:
+  TextureSize atlas_size() const {
+    constexpr int kLeast = 16, kMost = 65536;
+    TextureSize size{};
+    const char* const end = atlas_.data() + atlas_.size();
+    const auto width = std::from_chars(atlas_.data(), end, size.width);
+    const bool goes_on = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
+    const auto height = std::from_chars(goes_on ? width.ptr + 1 : end, end, size.height);
+    if (height.ec != std::errc() || height.ptr != end ||
+        std::min(size.width, size.height) < kLeast || std::max(size.width, size.height) > kMost)
+      throw Refused(
+          fmt::format("--size {}: give width x height in pixels, {} to {} each, as 1280x720",
+                      atlas_, kLeast, kMost));
+    return size;
+  }
+
+  std::string sizes_, atlas_;
+};
 
 }  // namespace
 
-std::string to_table(const AtlasBenchResult& result) {
-  std::string text = result.config.atlas
-                         ? "textures packed into an atlas of a given size\n"
-                         : "textures packed into the smallest square: sides from the square root "
-                           "of their area up by 0.2 %\nuntil all fit. ms: of one packing into that "
-                           "square, median and quartiles; search: of all sides tried\n";
-  text += "ms are of the processor; points, times as fast: beside the fullest other packer\n";
-  const AtlasRow* last = nullptr;
-  for (const AtlasRow& row : result.rows) {
-    if (!last || row.set != last->set || row.textures != last->textures)
-      text += fmt::format(
-          "\n{}, {} textures\n  {:<24} {:>8} {:>13} {:>9} {:>19} {:>9} {:>6} {:>10} {:>10}\n",
-          row.set, grouped(static_cast<std::int64_t>(row.textures)), "", "full", "atlas", "ms",
-          "quartiles", "search ms", "sides", "leaf tests", "bytes");
-    text += row_text(row, fullest_peer(result.rows, row));
-    last = &row;
-  }
-  return text;
+Texts texts_of(const AtlasBenchResult& result) {
+  const Sheet<AtlasRow> sheet = sheet_of(result);
+  return texts_of(result, sheet, document_of(result, sheet));
 }
 
-std::string to_csv(const AtlasBenchResult& result) { return csv_of(result.rows); }
-
-std::string to_json(const AtlasBenchResult& result) {
-  const Circumstances& c = result.circumstances;
-  JsonWriter json;
-  json.begin_object().line().member("format", "lantern.bench.atlas/1");
-  json.line().member("rounds", result.config.rounds).member("seed", result.config.seed);
-  json.line().member("command", result.command);
-  json.line().member("version", c.version).member("sources", c.sources);
-  json.line().member("compiler", c.compiler).member("flags", c.flags);
-  json.line().member("processor", c.processor);
-  write_rows("contestants", result.contestants, json);
-  write_rows("rows", result.rows, json);
-  json.line().end_object();
-  return json.text() + "\n";
-}
+std::unique_ptr<Experiment> atlas_bench() { return std::make_unique<AtlasBench>(); }
 
 }  // namespace lantern::report

@@ -1,234 +1,258 @@
-#include "report/bench_frames.hpp"
-
+// `bench frames`: how fast frames become files, beside cairo.
 #include <algorithm>
-#include <exception>
-#include <functional>
-#include <memory>
-#include <mutex>
-#include <span>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <thread>
-#include <utility>
 
 #include <fmt/format.h>
 
-#include "base/clock.hpp"
-#include "base/error.hpp"
-#include "base/stop.hpp"
-#include "measure/timed.hpp"
-#include "render/pipeline.hpp"
-#include "render/png.hpp"
-#include "render/renderer.hpp"
-#include "report/cairo_peer.hpp"
+#include "base/counted.hpp"
+#include "draw/page.hpp"
+#include "report/benches.hpp"
+#include "scenario/director.hpp"
 
 namespace lantern::report {
+
+template <class Visit>
+void each_field(const FrameRow& row, Visit&& visit) {
+  visit(Field("sequence"), row.sequence);
+  visit(Field("writer"), row.writer);
+  visit(Field("frames"), row.frames);
+  visit(Field("frames_per_second"), row.frames_per_second);
+  visit(Field("lower_quartile"), row.lower_quartile);
+  visit(Field("upper_quartile"), row.upper_quartile);
+  visit(Field("against_cairo"), row.against_cairo);
+  visit(Field("bytes_per_file"), row.bytes_per_file);
+  const auto counted = [](const std::optional<std::uint64_t>& count) {
+    return count ? std::optional(static_cast<double>(*count)) : std::nullopt;
+  };
+  visit(Field("pixels_drawn"), counted(row.pixels_drawn));
+  visit(Field("bands_packed"), counted(row.bands_packed));
+  visit(Field("bands_kept"), counted(row.bands_kept));
+}
+
+template <class Visit>
+void each_field(const FrameMean& mean, Visit&& visit) {
+  visit(Field("writer"), mean.writer);
+  visit(Field("against_cairo"), mean.against_cairo);
+  visit(Field("bytes_per_file"), mean.bytes_per_file);
+}
+
+template <class Visit>
+void each_field(const StartTimes& s, Visit&& visit) {
+  visit(Field("shaders_known"), s.shaders_known);
+  visit(Field("bare_context_seconds"), s.bare_context);
+  visit(Field("first_file_seconds"), s.first_file);
+}
+
 namespace {
 
-namespace fs = std::filesystem;
+std::string times_text(const std::optional<double>& times) {
+  return times ? fmt::format("{:.2f}", *times) : "–";
+}
 
-struct Round {
-  double seconds = 0;
-  double bytes = 0;
-  std::optional<std::uint64_t> pixels_drawn, bands_packed, bands_kept;
-};
+// Of all pixels of the frames, and of all their bands.
+std::string share_text(const std::optional<std::uint64_t>& part, double whole) {
+  return part ? fmt::format("{:.0f}%", 100 * static_cast<double>(*part) / whole) : "–";
+}
 
-// One sequence, written once.
-class Bench {
+const char* how_of(const std::string& writer) {
+  if (!writer.starts_with("lantern"))
+    return "the same shapes on an image surface, cairo's usual antialiasing, and "
+           "cairo_surface_write_to_png";
+  return writer.ends_with("fast")
+             ? "draws what differs from the picture before, and packs the bands of rows that differ"
+             : "draws what differs from the picture before; libdeflate packs all of it";
+}
+
+// A point a sequence, by its number in the tables.
+Sheet<FrameRow>::Curve curve_of(const FrameBenchResult& result, bool bytes) {
+  Plot plot;
+  plot.title = bytes ? "How large the files are" : "How soon they are written";
+  plot.x_name = "sequence, in the order of the tables";
+  plot.y_name = bytes ? "bytes a file: down is better"
+                      : "frames a second, quartiles as whiskers: up is better";
+  plot.log_x = false;
+  plot.log_y = !bytes;
+  std::vector<std::string> sequences;
+  for (const FrameRow& row : result.rows)
+    if (sequences.empty() || sequences.back() != row.sequence) sequences.push_back(row.sequence);
+  return {plot, [=](const FrameRow& row) -> std::optional<PlotPoint> {
+            const auto at = std::ranges::find(sequences, row.sequence) - sequences.begin();
+            const double x = static_cast<double>(at) + 1;
+            if (bytes) return PlotPoint{{x, row.bytes_per_file}};
+            PlotPoint point{{x, row.frames_per_second}};
+            point.spread = Box<2>{{x, row.lower_quartile}, {x, row.upper_quartile}};
+            return point;
+          }};
+}
+
+Sheet<FrameRow> sheet_of(const FrameBenchResult& result) {
+  const FrameBenchConfig& c = result.config;
+  Sheet<FrameRow> sheet;
+  sheet.format = "lantern.bench.frames/2";
+  sheet.title = "Frames to disk";
+  sheet.about = fmt::format(
+      "Pictures of {} x {} from draw list to file, only those that differ from the one before; "
+      "{} threads encode. Writers take turns in {} rounds: medians, and times as fast as cairo on "
+      "one thread in the same round.",
+      c.width, c.height, c.threads, c.rounds);
+  sheet.head = [&result, &c](JsonWriter& json) {
+    json.members("width", c.width, "height", c.height);
+    json.line().members("rounds", c.rounds, "threads", c.threads);
+    json.line().member("cairo", result.cairo);
+  };
+  sheet.lists = [&result](JsonWriter& json) {
+    write_rows("means", means_of(result), json);
+    write_rows("starts", result.starts, json);
+  };
+  sheet.who = [](const FrameRow& row) { return row.writer; };
+  sheet.chapter = [](const FrameRow&) { return "All sequences"; };
+  sheet.stage = [](const FrameRow& row) {
+    return fmt::format("{}: {} frames", row.sequence, row.frames);
+  };
+  sheet.columns = {
+      {"frames/s", [](auto& row) { return fmt::format("{:.1f}", row.frames_per_second); }},
+      {"quartiles",
+       [](auto& row) {
+         return fmt::format("{:.1f} ... {:.1f}", row.lower_quartile, row.upper_quartile);
+       }},
+      {"x cairo", [](auto& row) { return times_text(row.against_cairo); }},
+      {"bytes/file", [](auto& row) { return fmt::format("{:.0f}", row.bytes_per_file); }},
+      {"drawn",
+       [&c](auto& row) {
+         return share_text(row.pixels_drawn, static_cast<double>(row.frames) * c.width *
+                                                 static_cast<double>(c.height));
+       }},
+      {"packed",
+       [](auto& row) {
+         const std::uint64_t bands = row.bands_packed.value_or(0) + row.bands_kept.value_or(0);
+         return share_text(row.bands_packed, static_cast<double>(bands));
+       }},
+  };
+  sheet.curves = {curve_of(result, false), curve_of(result, true)};
+  return sheet;
+}
+
+// The mean counts each sequence as much.
+Chapter mean_chapter(const FrameBenchResult& result) {
+  Table table{"", {{"", false}, {"x cairo, mean"}, {"bytes/file, mean"}}};
+  for (const FrameMean& mean : means_of(result))
+    table.lines.push_back({{mean.writer},
+                           {mean.writer, times_text(mean.against_cairo),
+                            fmt::format("{:.0f}", mean.bytes_per_file)}});
+  return {"Means", {"Each sequence counts as much."}, {}, {std::move(table)}};
+}
+
+Chapter start_chapter(const FrameBenchResult& result) {
+  Table table{"", {{"ms", false}, {"bare context"}, {"first 1280 x 720 file"}, {"ratio"}}};
+  for (const StartTimes& s : result.starts)
+    table.lines.push_back(
+        {{},
+         {s.shaders_known ? "shaders in Mesa's cache" : "shaders never compiled yet",
+          fmt::format("{:.1f}", 1e3 * s.bare_context), fmt::format("{:.1f}", 1e3 * s.first_file),
+          fmt::format("{:.2f}", s.first_file / s.bare_context)}});
+  return {"The first picture", {"From the start of a process."}, {}, {std::move(table)}};
+}
+
+// A folder for the files of the measurement, gone when it ends.
+class ScratchFolder {
  public:
-  Bench(std::span<const DrawList> lists, const fs::path& folder, const FrameBenchConfig& config)
-      : lists_(lists), folder_(folder), config_(config) {}
-
-  Round lantern(PngEffort effort) {
-    Pipeline::Config c;
-    c.width = config_.width;
-    c.height = config_.height;
-    c.theme = config_.theme;
-    c.effort = effort;
-    c.threads = config_.threads;
-    Work work;
-    Pipeline pipeline(Context::create(config_.backend), c, work);
-    // Shaders are compiled with the first frames: that is measured as the time to start. The last
-    // frame is what stands before the first.
-    for (const std::size_t i : {std::size_t{0}, lists_.size() - 1})
-      pipeline.submit(lists_[i], {}, file(i));
-    pipeline.finish();
-    const std::uint64_t pixels = work.pixels_drawn, packed = work.bands_packed,
-                        kept = work.bands_kept;
-    const Stopwatch watch;
-    for (std::size_t i = 0; i < lists_.size(); ++i)
-      pipeline.submit(lists_[i], {{"Frame", std::to_string(i)}}, file(i));
-    pipeline.finish();
-    Round round = finished(watch.seconds());
-    round.pixels_drawn = work.pixels_drawn - pixels;
-    round.bands_packed = work.bands_packed - packed;
-    round.bands_kept = work.bands_kept - kept;
-    return round;
+  // Nobody else can have made it before.
+  ScratchFolder() {
+    std::string name = std::filesystem::temp_directory_path() / "lantern-bench-XXXXXX";
+    if (::mkdtemp(name.data()) == nullptr)
+      throw IoError(fmt::format("cannot make the folder '{}': {}", name, std::strerror(errno)));
+    path_ = name;
   }
-
-  // Frames in turn on so many threads, each with a surface of its own, as cairo's documentation
-  // tells: each page is painted, and written by cairo_surface_write_to_png.
-  Round cairo(int threads) {
-    const auto step = static_cast<std::size_t>(threads);
-    std::vector<std::unique_ptr<CairoPeer>> peers;
-    for (std::size_t t = 0; t < step; ++t) {
-      peers.push_back(std::make_unique<CairoPeer>(config_.width, config_.height));
-      peers.back()->draw(lists_[t % lists_.size()], config_.theme);
-    }
-    std::exception_ptr error;
-    std::mutex mutex;
-    const auto work = [&](std::size_t t) {
-      try {
-        for (std::size_t i = t; i < lists_.size(); i += step) {
-          stop_if_asked();
-          peers[t]->draw(lists_[i], config_.theme);
-          peers[t]->write_png(file(i));
-        }
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        error = std::current_exception();
-      }
-    };
-    const Stopwatch watch;
-    {
-      std::vector<std::jthread> others;
-      for (std::size_t t = 1; t < step; ++t) others.emplace_back(work, t);
-      work(0);
-    }
-    const double seconds = watch.seconds();
-    if (error) std::rethrow_exception(error);
-    return finished(seconds);
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
   }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
 
  private:
-  fs::path file(std::size_t i) const { return folder_ / fmt::format("bench_{:04}.png", i); }
-
-  // Weighs the files and removes them.
-  Round finished(double seconds) const {
-    Round round;
-    round.seconds = seconds;
-    for (std::size_t i = 0; i < lists_.size(); ++i) {
-      round.bytes += static_cast<double>(fs::file_size(file(i)));
-      fs::remove(file(i));
-    }
-    return round;
-  }
-
-  std::span<const DrawList> lists_;
-  const fs::path& folder_;
-  const FrameBenchConfig& config_;
+  std::filesystem::path path_;
 };
 
-struct Entry {
-  std::string name;
-  std::function<Round(Bench&)> run;
+class FramesBench : public ExperimentOf<FrameBenchResult> {
+ public:
+  explicit FramesBench(ScenarioFinder find) : find_(std::move(find)) {
+    result_.config.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    result_.config.theme = *theme_named("light");
+  }
+
+  Options options() override {
+    FrameBenchConfig& c = result_.config;
+    return {
+        {"FILE", &names_, "scenario files; the default is six of Lantern's in which much moves"},
+        rounds_option("repeats; the median counts", c.rounds, 1000),
+        {"--frames",
+         &c.most_frames,
+         "of a sequence, at most; those that differ count",
+         {.value = "N", .least = 2, .most = 10000}}};
+  }
+  void prepare() override {
+    if (names_.empty())
+      names_ = {"ghost_quadtree", "ghost_maze",  "falling_boxes",
+                "pong_game",      "spring_rope", "tumbling_box"};
+    for (const std::string& name : names_) sequences_.push_back(sequence_of(find_(name)));
+  }
+  std::string announcement() const override {
+    const FrameBenchConfig& c = result_.config;
+    return fmt::format("{} of {} at {} x {}", counted(c.rounds, "round"),
+                       counted(sequences_.size(), "sequence"), c.width, c.height);
+  }
+  std::string unit() const override { return "sequences"; }
+  std::size_t stages() const override { return sequences_.size(); }
+  void run(const std::function<void(const std::string&)>& tell) override {
+    const ScratchFolder folder;
+    bench_frames(result_, sequences_, folder.path(), [&](std::size_t i) {
+      tell(fmt::format("sequence {} of {}, {}", i + 1, stages(), sequences_[i].name));
+    });
+  }
+  Texts texts() const override { return texts_of(result_); }
+
+ private:
+  FrameSequence sequence_of(const std::string& file) const {
+    const FrameBenchConfig& c = result_.config;
+    const Scenario scenario = load_scenario(file);
+    FrameSequence sequence{scenario.name, {}};
+    const std::size_t most = 2 * c.most_frames;  // some of the frames equal the one before
+    Work work;
+    direct(scenario, Pace::step, work, [&](const Frame& frame) {
+      sequence.lists.push_back(draw_frame(frame, page_for(c.width, c.height), work));
+      return sequence.lists.size() < most;
+    });
+    if (sequence.lists.size() < 2)
+      throw Refused(scenario.name + " gives fewer than two frames; choose one in which more moves");
+    return sequence;
+  }
+
+  ScenarioFinder find_;
+  std::vector<std::string> names_;
+  std::vector<FrameSequence> sequences_;
 };
-
-std::vector<Entry> entries_of(const FrameBenchResult& result) {
-  std::vector<Entry> entries{
-      {"lantern, fast", [](Bench& bench) { return bench.lantern(PngEffort::fast); }},
-      {"lantern, small", [](Bench& bench) { return bench.lantern(PngEffort::small); }}};
-  if (result.cairo.empty()) return entries;
-  entries.push_back({"cairo, 1 thread", [](Bench& bench) { return bench.cairo(1); }});
-  const int threads = result.config.threads;
-  if (threads > 1)
-    entries.push_back({fmt::format("cairo, {} threads", threads),
-                       [threads](Bench& bench) { return bench.cairo(threads); }});
-  return entries;
-}
-
-constexpr std::size_t kCairo = 2;  // on one thread, among the entries
-
-FrameRow row_of(const std::vector<Round>& rounds, const std::vector<Round>* cairo,
-                std::size_t frames) {
-  const auto count = static_cast<double>(frames);
-  std::vector<double> rates, ratios;
-  for (std::size_t i = 0; i < rounds.size(); ++i) {
-    rates.push_back(count / rounds[i].seconds);
-    if (cairo) ratios.push_back((*cairo)[i].seconds / rounds[i].seconds);
-  }
-  FrameRow row;
-  row.frames = frames;
-  row.frames_per_second = quantile(rates, 0.5);
-  row.lower_quartile = quantile(rates, 0.25);
-  row.upper_quartile = quantile(rates, 0.75);
-  if (cairo) row.against_cairo = quantile(ratios, 0.5);
-  row.bytes_per_file = rounds[0].bytes / count;
-  row.pixels_drawn = rounds[0].pixels_drawn;
-  row.bands_packed = rounds[0].bands_packed;
-  row.bands_kept = rounds[0].bands_kept;
-  return row;
-}
-
-void bench_sequence(FrameBenchResult& result, const FrameSequence& sequence,
-                    const fs::path& folder) {
-  const std::vector<Entry> entries = entries_of(result);
-  std::vector<std::vector<Round>> rounds(entries.size());
-  Bench bench(sequence.lists, folder, result.config);
-  for (int round = 0; round < result.config.rounds; ++round)
-    for (std::size_t i = 0; i < entries.size(); ++i) rounds[i].push_back(entries[i].run(bench));
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    FrameRow row =
-        row_of(rounds[i], result.cairo.empty() ? nullptr : &rounds[kCairo], sequence.lists.size());
-    row.sequence = sequence.name;
-    row.writer = entries[i].name;
-    result.rows.push_back(std::move(row));
-  }
-}
-
-// Leaves out pictures that equal the one before: to write those again is no drawing.
-void keep_what_differs(FrameSequence& sequence, const FrameBenchConfig& config) {
-  Renderer renderer(Context::create(config.backend), config.width, config.height);
-  std::vector<DrawList> kept;
-  for (DrawList& list : sequence.lists) {
-    const Drawn drawn = renderer.draw(list, config.theme, false);
-    if (std::ranges::find(drawn.changed, true) != drawn.changed.end())
-      kept.push_back(std::move(list));
-    if (kept.size() == config.most_frames) break;
-  }
-  if (kept.size() < 2) throw Refused(sequence.name + " gives fewer than two pictures that differ");
-  sequence.lists = std::move(kept);
-}
 
 }  // namespace
 
-void bench_frames(FrameBenchResult& result, std::vector<FrameSequence> sequences,
-                  const fs::path& folder, const std::function<void(std::size_t)>& begun) {
-  const FrameBenchConfig& config = result.config;
-  if (sequences.empty() || config.rounds < 1 || config.threads < 1)
-    throw Refused("a frame benchmark needs a sequence, a round and a thread");
-  for (const FrameSequence& sequence : sequences)
-    if (sequence.lists.size() < 2)
-      throw Refused(sequence.name + " gives fewer than two pictures that differ");
-  try {
-    result.cairo = CairoPeer(1, 1).version();
-  } catch (const BackendError& error) {
-    result.missing = error.what();
-  }
-  for (const bool known : {false, true})
-    result.starts.push_back(measure_start(sequences[0].lists[0], folder, config, known));
-  for (std::size_t i = 0; i < sequences.size(); ++i) {
-    begun(i);
-    keep_what_differs(sequences[i], config);
-    bench_sequence(result, sequences[i], folder);
-  }
+Texts texts_of(const FrameBenchResult& result) {
+  const Sheet<FrameRow> sheet = sheet_of(result);
+  FrameBenchResult told = result;
+  for (const FrameMean& mean : means_of(result))
+    told.contestants.push_back(
+        {mean.writer, mean.writer.starts_with("lantern") ? "" : result.cairo, how_of(mean.writer)});
+  Document document = document_of(told, sheet);
+  document.chapters.push_back(mean_chapter(result));
+  document.chapters.push_back(start_chapter(result));
+  return texts_of(result, sheet, document);
 }
 
-std::vector<FrameMean> means_of(const FrameBenchResult& result) {
-  std::vector<FrameMean> means;
-  for (const FrameRow& row : result.rows) {
-    if (std::ranges::find(means, row.writer, &FrameMean::writer) != means.end()) continue;
-    FrameMean mean{row.writer, std::nullopt, 0};
-    double rows = 0;
-    for (const FrameRow& r : result.rows) {
-      if (r.writer != row.writer) continue;
-      ++rows;
-      mean.bytes_per_file += r.bytes_per_file;
-      if (r.against_cairo) mean.against_cairo = mean.against_cairo.value_or(0) + *r.against_cairo;
-    }
-    mean.bytes_per_file /= rows;
-    if (mean.against_cairo) *mean.against_cairo /= rows;
-    means.push_back(std::move(mean));
-  }
-  return means;
+std::unique_ptr<Experiment> frames_bench(ScenarioFinder find) {
+  return std::make_unique<FramesBench>(std::move(find));
 }
 
 }  // namespace lantern::report

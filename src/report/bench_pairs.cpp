@@ -1,12 +1,12 @@
-#include "report/bench_pairs.hpp"
-
-#include <cmath>
-#include <optional>
-#include <utility>
+// `bench pairs`: all pairs of moving boxes, and what rays, boxes and balls meet.
+#include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
-#include "measure/records.hpp"
+#include "measure/boxes/worlds.hpp"
+#include "report/benches.hpp"
+#include "report/words.hpp"
 
 namespace lantern::measure {
 
@@ -36,17 +36,12 @@ void each_field(const BoxBenchRow& row, Visit&& visit) {
   visit(Field("entries"), row.counts.entries);
 }
 
-template <class Visit>
-void each_field(const BoxPeerWords& peer, Visit&& visit) {
-  visit(Field("name"), peer.name);
-  visit(Field("version"), peer.version);
-  visit(Field("how"), peer.how);
-}
-
 }  // namespace lantern::measure
 
 namespace lantern::report {
 namespace {
+
+bool has_times(const BoxBenchRow& row) { return row.timing.repeats > 0; }
 
 // "12.3k", for what is only counted.
 std::string short_count(const std::optional<double>& n) {
@@ -55,88 +50,250 @@ std::string short_count(const std::optional<double>& n) {
   return *n < 1e6 ? fmt::format("{:.3g}k", *n / 1e3) : fmt::format("{:.3g}M", *n / 1e6);
 }
 
-bool is_asked(const BoxBenchRow& row) {
+const BoxWorkload* known_workload(const std::string& name) {
   for (const BoxWorkload& workload : box_workloads())
-    if (workload.name == row.workload) return workload.task != BoxTask::pairs;
-  return false;
+    if (workload.name == name) return &workload;
+  return nullptr;
 }
 
-std::string row_text(const BoxBenchResult& result, const BoxBenchRow& row) {
-  std::string text = fmt::format("  {:<17}", row.contestant);
-  if (row.timing.repeats == 0) return fmt::format("{}{}: {}\n", text, row.status, row.reason);
-  const double unit = is_asked(row) ? 1e6 : 1e3;
-  const Timing& t = row.timing;
-  text +=
-      fmt::format(" {:>9.4g} {:>17}", unit * t.median,
-                  fmt::format("{:.3g} - {:.3g}", unit * t.lower_quartile, unit * t.upper_quartile));
-  text += fmt::format(" {:>9.4g}", unit * row.wall);
+bool is_asked(const BoxBenchRow& row) {
+  const BoxWorkload* workload = known_workload(row.workload);
+  return workload && workload->task != BoxTask::pairs;
+}
+
+// As quick as the quickest other library; nothing where there is none.
+std::optional<double> times_of(const BoxBenchResult& result, const BoxBenchRow& row) {
   const BoxBenchRow* peer = fastest_peer(result.rows, row);
-  text += fmt::format(" {:>7}", peer ? fmt::format("{:.3g}", peer->timing.median / t.median) : "");
-  for (const auto& count : {row.allocations, row.bytes, row.counts.pair_tests, row.counts.box_tests,
-                            row.counts.nodes_visited, row.counts.entries})
-    text += fmt::format(" {:>7}", short_count(count));
-  text += "  " + row.setting;
-  if (row.status != "ok") text += fmt::format("  {}: {}", row.status, row.reason);
-  return text + "\n";
+  return peer ? std::optional(peer->timing.median / row.timing.median) : std::nullopt;
 }
 
-std::string stage_text(const BoxBenchRow& row) {
-  std::string text = fmt::format("\n{} with {} boxes", row.workload, row.bodies);
-  const bool asked = is_asked(row);
-  text += fmt::format(": {} {}", row.found, asked ? "bodies found by 400 questions" : "pairs");
-  if (!row.checked.empty()) text += ", checked by " + row.checked;
-  return text +
-         fmt::format("\n  {:<17} {:>9} {:>17} {:>9} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7} {:>7}\n",
-                     asked ? "us a question" : "ms a step", "median", "quartiles", "clock", "times",
-                     "calls", "bytes", "pairs", "boxes", "nodes", "entries");
+// The first that was run knows what was found.
+std::string stage_of(const BoxBenchResult& result, const BoxBenchRow& row) {
+  const BoxBenchRow* told = &row;
+  for (const BoxBenchRow& one : result.rows)
+    if (one.workload == row.workload && one.bodies == row.bodies && !one.checked.empty()) {
+      told = &one;
+      break;
+    }
+  return fmt::format("{} with {} boxes: {} {}{}", row.workload, row.bodies, told->found,
+                     is_asked(row) ? "bodies found by 400 questions" : "pairs",
+                     told->checked.empty() ? "" : ", checked by " + told->checked);
 }
 
-constexpr std::string_view kPairsMeanings =
-    "Each contestant gives all pairs, each once, in order of ids, within its time; what others "
-    "find\n"
-    "is ordered by our own code, and boxes are given to all alike. Milliseconds are of the\n"
-    "processor, all threads together; clock: by the clock; times: as quick as the "
-    "quickest\n"
-    "other library; calls: for memory in a warm step; bytes: held for each box, pairs too; pairs,\n"
-    "boxes, nodes, entries: comparisons of boxes with boxes and with nodes, nodes visited, bodies "
-    "in\n"
-    "leaves. Where nobody counts nothing stands.\n";
+constexpr std::string_view kAbout =
+    "All pairs of boxes that overlap, step by step, while the boxes move; and what rays, boxes and "
+    "balls meet. All contestants get the same boxes in the same run, in turns; each gives its "
+    "pairs "
+    "in order of ids, each once, within its time. What others find is ordered by Lantern’s own "
+    "code. Times of a step, or of a question, are of the processor, all threads together; clock: "
+    "by "
+    "the clock; times: as quick as the quickest other library; calls: for memory in a warm step; "
+    "bytes: held for each box, pairs too; pairs, boxes, nodes, entries: comparisons of boxes with "
+    "boxes and with nodes, nodes visited, bodies in leaves. Where nobody counts nothing stands.";
 
-}  // namespace
+// Nanoseconds a box, or a question; or the ratio to the quickest other library. Of worlds of one
+// size there is no plot.
+Sheet<BoxBenchRow>::Curve curve_of(const BoxBenchResult& result, bool as_ratio) {
+  Plot plot;
+  plot.title = as_ratio ? "Times as quick as the quickest other library"
+                        : "Time a box and step, or a question";
+  plot.x_name = "boxes";
+  plot.y_name = as_ratio ? "ratio; above 1 is quicker" : "nanoseconds";
+  std::map<std::string, std::set<std::uint64_t>> sizes;
+  for (const BoxBenchRow& row : result.rows) sizes[row.workload].insert(row.bodies);
+  return {plot, [&result, as_ratio, sizes](const BoxBenchRow& row) -> std::optional<PlotPoint> {
+            if (sizes.at(row.workload).size() < 2 || !has_times(row) || !row.is_good())
+              return std::nullopt;
+            const auto x = static_cast<double>(row.bodies);
+            if (as_ratio) {
+              const auto times = times_of(result, row);
+              return times ? std::optional(PlotPoint{{x, *times}}) : std::nullopt;
+            }
+            const double unit = is_asked(row) ? 1e9 : 1e9 / x;
+            const Timing& t = row.timing;
+            PlotPoint point{{x, unit * t.median}};
+            point.spread = Box<2>{{x, unit * t.lower_quartile}, {x, unit * t.upper_quartile}};
+            return point;
+          }};
+}
 
-std::string to_table(const BoxBenchResult& result) {
-  std::string text(kPairsMeanings);
+Sheet<BoxBenchRow> sheet_of(const BoxBenchResult& result) {
+  Sheet<BoxBenchRow> sheet;
+  sheet.format = "lantern.bench.pairs/1";
+  sheet.title = "Pairs of boxes";
+  sheet.about = kAbout;
+  sheet.head = [&result](JsonWriter& json) {
+    json.members("seed", result.config.seed, "rounds", result.config.rounds);
+  };
+  sheet.lists = [&result](JsonWriter& json) {
+    std::vector<Contestant> peers = result.contestants;
+    std::erase_if(peers, [](const Contestant& one) { return !one.is_peer(); });
+    write_rows("peers", peers, json);
+  };
+  sheet.who = [](const BoxBenchRow& row) { return row.contestant; };
+  sheet.chapter = [](const BoxBenchRow& row) { return row.workload; };
+  sheet.words = [&result](const BoxBenchRow& row) -> std::vector<std::string> {
+    const BoxWorkload* workload = known_workload(row.workload);
+    if (workload) return {std::string(workload->words)};
+    return {result.config.own ? result.config.own->words : ""};
+  };
+  sheet.stage = [&result](const BoxBenchRow& row) { return stage_of(result, row); };
+  sheet.columns = {
+      {"median", [](auto& row) { return seconds_text(row.timing.median); }},
+      {"quartiles",
+       [](auto& row) {
+         return fmt::format("{} - {}", seconds_text(row.timing.lower_quartile),
+                            seconds_text(row.timing.upper_quartile));
+       }},
+      {"clock", [](auto& row) { return seconds_text(row.wall); }},
+      {"times",
+       [&result](auto& row) {
+         const auto times = times_of(result, row);
+         return times ? fmt::format("{:.3g}", *times) : "";
+       }},
+      {"found", [](auto& row) { return count_text(row.found); }},
+      {"calls", [](auto& row) { return short_count(row.allocations); }},
+      {"bytes", [](auto& row) { return short_count(row.bytes); }},
+      {"pairs", [](auto& row) { return short_count(row.counts.pair_tests); }},
+      {"boxes", [](auto& row) { return short_count(row.counts.box_tests); }},
+      {"nodes", [](auto& row) { return short_count(row.counts.nodes_visited); }},
+      {"entries", [](auto& row) { return short_count(row.counts.entries); }},
+  };
+  sheet.has_numbers = has_times;
+  sheet.remark = [](const BoxBenchRow& row) -> Cell {
+    if (row.status == "ok") return row.setting;
+    return {fmt::format("{}{}: {}", row.setting.empty() ? "" : row.setting + "; ", row.status,
+                        row.reason),
+            row.status == "wrong"};
+  };
+  sheet.curves = {curve_of(result, false), curve_of(result, true)};
+  return sheet;
+}
+
+// Those of all rows, with a sentence on those that were run.
+std::vector<Contestant> contestants_of(const BoxBenchResult& result) {
+  std::vector<Contestant> all;
+  for (const BoxBenchRow& row : result.rows) {
+    if (std::ranges::find(all, row.contestant, &Contestant::name) != all.end()) continue;
+    const auto run = std::ranges::find(result.contestants, row.contestant, &Contestant::name);
+    all.push_back({row.contestant, row.version, run == result.contestants.end() ? "" : run->how});
+  }
+  return all;
+}
+
+// Each world beside the quickest other library.
+Table ratio_table(const BoxBenchResult& result, const std::vector<Choice>& choices) {
+  Table table{"How many times as quick as the quickest other library",
+              {{"world", false}, {"boxes"}}};
+  for (const Choice& choice : choices) table.columns.push_back({choice.name, true, {choice.name}});
   const BoxBenchRow* last = nullptr;
   for (const BoxBenchRow& row : result.rows) {
     if (!last || last->workload != row.workload || last->bodies != row.bodies) {
-      // The first that was run knows what was found.
-      const BoxBenchRow* told = &row;
-      for (const BoxBenchRow& one : result.rows)
-        if (told->checked.empty() && one.workload == row.workload && one.bodies == row.bodies)
-          told = &one;
-      text += stage_text(*told);
+      Table::Line& line = table.lines.emplace_back();
+      line.cells = {row.workload, count_text(row.bodies)};
+      line.cells.resize(2 + choices.size(), Cell("–"));
     }
-    text += row_text(result, row);
     last = &row;
+    const auto at = std::ranges::find(choices, row.contestant, &Choice::name) - choices.begin();
+    Cell& cell = table.lines.back().cells[2 + static_cast<std::size_t>(at)];
+    if (!has_times(row))
+      cell = row.status;
+    else if (!row.is_good())
+      cell = {"wrong", true};
+    else if (const auto times = times_of(result, row))
+      cell = fmt::format("{:.3g}", *times);
   }
-  return text;
+  return table;
 }
 
-std::string to_csv(const BoxBenchResult& result) { return csv_of(result.rows); }
+class PairsBench : public ExperimentOf<BoxBenchResult> {
+ public:
+  Options options() override {
+    BoxBenchConfig& c = result_.config;
+    return {
+        {"--workload",
+         &workloads_,
+         "only these: uniform, clustered, mixed, thin, coincident, brownian, free_fall, gravity, "
+         "town, or what is asked: rays, first_hits, boxes, balls; uniform_2d is only one of two "
+         "dimensions",
+         {.value = "NAME", .one_each = true}},
+        {"--bodies",
+         &c.bodies,
+         "how many boxes; the default is each workload's own numbers",
+         {.value = "N", .least = 2, .most = 2e7, .one_each = true}},
+        only_option("only these: quadtree, sort_and_sweep, CGAL, ...", c.only),
+        {"--boxes",
+         &boxes_,
+         "boxes of your own instead: CSV, a line a box (lo_x,lo_y,hi_x,hi_y or named columns), or "
+         ".aabbs of Broadmark",
+         {.value = "FILE", .without = "--workload"}},
+        {"--full", &c.full, "up to a million boxes: the better part of an hour"},
+        peers_option("without other libraries", c.peers),
+        {"--seconds",
+         &seconds_,
+         "that a contestant is timed at a world, but three rounds at least; the default is 0.1, "
+         "with --full 4",
+         {.value = "S", .above_0 = true}},
+        longest_option("leave out who needs more seconds a step than this; the default is 1, with "
+                       "--full 10",
+                       longest_),
+        rounds_option("turns of each contestant; medians count", c.rounds),
+        seed_option("of the boxes", c.seed)};
+  }
+  void prepare() override {
+    BoxBenchConfig& c = result_.config;
+    c.seconds = seconds_.value_or(c.full ? 4 : c.seconds);
+    c.longest = longest_.value_or(c.full ? 10 : c.longest);
+    if (c.full) c.search = 4;
+    if (boxes_.empty())
+      c.workloads = workloads();
+    else
+      c.own = read_boxes(boxes_, c.seed);
+  }
+  std::string unit() const override { return "worlds"; }
+  std::size_t stages() const override { return box_stages(result_.config); }
+  void run(const std::function<void(const std::string&)>& tell) override {
+    bench_boxes(result_, [&](std::size_t stage, const std::string& words) {
+      tell(fmt::format("world {} of {}, {}", stage + 1, stages(), words));
+    });
+  }
+  Texts texts() const override { return texts_of(result_); }
+  bool is_good() const override { return std::ranges::all_of(result_.rows, &BoxBenchRow::is_good); }
 
-std::string to_json(const BoxBenchResult& result) {
-  const Circumstances& c = result.circumstances;
-  JsonWriter json;
-  json.begin_object().line().member("format", "lantern.bench.pairs/1");
-  json.line().member("command", result.command).member("seed", result.config.seed);
-  json.line().member("rounds", result.config.rounds);
-  json.line().member("version", c.version).member("sources", c.sources);
-  json.line().member("compiler", c.compiler).member("flags", c.flags);
-  json.line().member("processor", c.processor);
-  write_rows("peers", result.peers, json);
-  write_rows("rows", result.rows, json);
-  json.line().end_object();
-  return json.text() + "\n";
+ private:
+  std::vector<const BoxWorkload*> workloads() const {
+    std::vector<const BoxWorkload*> all;
+    std::vector<std::string_view> names;
+    for (const BoxWorkload& one : box_workloads()) {
+      names.push_back(one.name);
+      if (workloads_.empty()) all.push_back(&one);
+    }
+    for (const std::string& name : workloads_) {
+      const auto found = box_workloads_named(name);
+      if (found.empty())
+        throw Refused(with_suggestion(fmt::format("there is no workload '{}'", name), name, names,
+                                      names.size()));
+      all.insert(all.end(), found.begin(), found.end());
+    }
+    return all;
+  }
+
+  std::vector<std::string> workloads_;
+  std::string boxes_;
+  std::optional<double> seconds_, longest_;
+};
+
+}  // namespace
+
+Texts texts_of(const BoxBenchResult& result) {
+  const Sheet<BoxBenchRow> sheet = sheet_of(result);
+  BoxBenchResult told = result;
+  told.contestants = contestants_of(result);
+  Document document = document_of(told, sheet);
+  if (!result.rows.empty()) document.head.push_back(ratio_table(result, document.choices));
+  return texts_of(result, sheet, document);
 }
+
+std::unique_ptr<Experiment> pairs_bench() { return std::make_unique<PairsBench>(); }
 
 }  // namespace lantern::report

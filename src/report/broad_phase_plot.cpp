@@ -5,7 +5,6 @@
 
 #include "draw/labels.hpp"
 #include "draw/number_text.hpp"
-#include "report/page_parts.hpp"
 #include "report/pages.hpp"
 
 namespace lantern::report {

@@ -1,3 +1,5 @@
+#include "report/measure_files.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,7 +9,6 @@
 #include <nlohmann/json.hpp>
 
 #include "measure/records.hpp"
-#include "report/measure_tables.hpp"
 #include "scenario/scenario_name.hpp"
 
 // Where the rows are, since they are found by the rows' type.

@@ -8,15 +8,11 @@
 
 #include <fmt/format.h>
 
-#include "draw/plot.hpp"
-#include "draw/plot_marks.hpp"
-#include "report/page_parts.hpp"
 #include "report/words.hpp"
 
 namespace lantern::report {
 namespace {
 
-constexpr double kPlotMargin = 60;
 constexpr const char* kSeconds = "seconds for the whole run: median, quartiles";
 constexpr double kNearOrder = 0.25;  // an order of 3.4 is no h³
 constexpr double kFarOff = 1e3;      // errors beyond are at the edge, or the others would be a line
@@ -165,14 +161,6 @@ std::string file_name(const ProblemRows& problem) {
   return name.empty() ? problem.problem + ".toml" : name;
 }
 
-std::string circumstances_text(const Circumstances& c) {
-  std::string text = "Lantern " + c.version;
-  for (const std::string& part : {c.compiler, c.flags, c.processor})
-    if (!part.empty()) text += " · " + part;
-  return text +
-         fmt::format(" · seed {}{}", c.seed, c.effort.empty() ? "" : " · effort: " + c.effort);
-}
-
 Plot cost_plot(const ProblemRows& problem, const Cost& cost, const Looks& looks, bool with_orders) {
   Plot plot;
   plot.beyond = failure_words(problem);
@@ -266,21 +254,56 @@ bool is_one_count(const ProblemRows& problem, const WorkCount& work) {
   return counts.size() == 1;
 }
 
-DrawList draw_problem(const ProblemRows& problem, const Measurement& measurement) {
-  const Looks looks = looks_of(measurement.rows);
-  DrawList list;
-  Labels labels(list);
-  draw_page_title(problem_words(problem),
-                  fmt::format("{} against cost  ·  {}",
-                              has_whole_errors(problem) ? "outcome" : "error", file_name(problem)),
-                  kPlotMargin, list, labels);
-  const double bottom =
-      draw_page_foot(notes_on(problem), circumstances_text(measurement.circumstances), kPlotMargin,
-                     list, labels) -
-      18;
-  auto [left, right] = plots_of(problem, looks);
-  draw_plot_pair(std::move(left), std::move(right), bottom, kPlotMargin, list, labels);
-  return list;
+// --- how error and energy go with time ---
+
+namespace {
+
+// Nothing if no run has samples.
+std::optional<double> shared_step(const ProblemRows& problem) {
+  std::map<double, std::size_t> runs;  // of each step
+  for (const Row& row : problem.rows)
+    if (!row.samples.empty()) ++runs[row.step];
+  const auto most = std::ranges::max_element(
+      runs, {}, [](const auto& entry) { return std::pair(entry.second, -entry.first); });
+  return most == runs.end() ? std::nullopt : std::optional(most->first);
+}
+
+// The value of a sample; nothing for one that has none.
+using SampleValue = std::optional<double> (*)(const DriftSample&);
+constexpr SampleValue kError = [](const DriftSample& s) { return std::optional(s.error); };
+constexpr SampleValue kEnergy = [](const DriftSample& s) { return s.energy; };
+
+Plot drift_plot(const ProblemRows& problem, const Looks& looks, double step, SampleValue value) {
+  Plot plot;
+  plot.x_name = fmt::format("seconds since the start, in steps of {} s", figure(step));
+  for (const MethodRows& method : by_method(problem)) {
+    PlotSeries& series = plot.series.emplace_back(series_of(method, looks));
+    const auto row = std::ranges::find(method.rows, step, &Row::step);
+    if (row == method.rows.end()) continue;
+    for (const DriftSample& sample : row->samples)
+      if (const auto y = value(sample)) {
+        PlotPoint point{{sample.time, *y}};
+        point.beyond = !std::isfinite(*y);
+        series.points.push_back(point);
+      }
+  }
+  send_far_ones_off(plot);
+  return plot;
+}
+
+}  // namespace
+
+std::optional<DriftPlots> drift_plots(const ProblemRows& problem, const Looks& looks) {
+  const auto step = shared_step(problem);
+  if (!step) return std::nullopt;
+  DriftPlots plots{drift_plot(problem, looks, *step, kError),
+                   drift_plot(problem, looks, *step, kEnergy)};
+  plots.error.title = "Error so far against time";
+  plots.error.y_name = error_words(problem);
+  plots.energy.title = "Drift of the energy against time";
+  plots.energy.y_name = "largest change of the energy so far, relative";
+  plots.energy.empty = "the problem does not keep its energy";
+  return plots;
 }
 
 }  // namespace lantern::report

@@ -1,11 +1,10 @@
-// A problem's error against what it costs, as pictures.
+// A problem's error against what it costs, and against time.
 #pragma once
 
 #include <map>
 #include <string>
 #include <utility>
 
-#include "draw/draw_list.hpp"
 #include "draw/plot.hpp"
 #include "report/problem_rows.hpp"
 
@@ -20,14 +19,6 @@ Plot cost_plot(const ProblemRows& problem, const Cost& cost, const Looks& looks,
 // right or wrong are shown by their outcome, and what they cost against the step: in seconds, or
 // where none is timed in work. Their series are in the order of by_method.
 std::pair<Plot, Plot> plots_of(const ProblemRows& problem, const Looks& looks);
-
-// A page of 1600 x 900: error against seconds at the left, against counted work at the right, one
-// legend, notes below. Where no row is timed, the left plot says so. Looks and circumstances
-// are those of the measurement, of which the problem is a part.
-DrawList draw_problem(const ProblemRows& problem, const Measurement& measurement);
-
-// "Lantern 0.1.0 · gcc 13 · AMD ... · seed 1".
-std::string circumstances_text(const Circumstances& circumstances);
 
 // "oscillator, stiff" of oscillator_stiff; only the name where the variant is plain.
 std::string problem_words(const ProblemRows& problem);
@@ -55,5 +46,15 @@ Plot step_plot(const ProblemRows& problem, const Cost& value, const Looks& looks
 
 // Whether a count of work is the same for all runs that have it, so that nothing is to be seen.
 bool is_one_count(const ProblemRows& problem, const WorkCount& work);
+
+// How runs of a problem go astray with time, of runs with one step: that which most methods share,
+// of several the finest. Series are in the order of by_method, without points for who has no such
+// run.
+struct DriftPlots {
+  Plot error;   // the main norm so far, against seconds since the start
+  Plot energy;  // its drift so far; without points where the problem does not keep it
+};
+// Nothing if no run has samples.
+std::optional<DriftPlots> drift_plots(const ProblemRows& problem, const Looks& looks);
 
 }  // namespace lantern::report

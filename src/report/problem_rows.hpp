@@ -2,6 +2,7 @@
 // which work is counted.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -10,7 +11,6 @@
 #include <vector>
 
 #include "measure/row.hpp"
-#include "report/pareto.hpp"
 
 namespace lantern::report {
 
@@ -80,5 +80,20 @@ std::vector<std::vector<std::string>> equal_methods(const ProblemRows& problem);
 // What a reader must know beside the numbers: what the main norm is, how good its reference is, and
 // who is measured otherwise than the rest. A sentence each.
 std::vector<std::string> notes_on(const ProblemRows& problem);
+
+// --- which runs no other run beats ---
+
+// What a run costs; nothing for one that cannot be compared.
+using Cost = std::function<std::optional<double>(const Row&)>;
+
+// Indices of the points of which no other has both an error and a cost that are not larger, and one
+// of them less; ascending in cost. Of equal points the first. Points that are not finite are out.
+std::vector<std::size_t> pareto_front(std::span<const Vec<2>> cost_and_error);
+
+// The same of rows, which should be of one problem: those that are ok, with an error and a cost.
+std::vector<std::size_t> pareto_front(std::span<const Row> rows, const Cost& cost);
+
+// Seconds of a whole run; nothing for a row that was not timed.
+std::optional<double> seconds_of(const Row& row);
 
 }  // namespace lantern::report

@@ -7,7 +7,6 @@
 #include "draw/font.hpp"
 #include "draw/labels.hpp"
 #include "draw/pen.hpp"
-#include "report/page_parts.hpp"
 #include "report/pages.hpp"
 #include "report/problem_rows.hpp"
 

@@ -1,5 +1,5 @@
 // What stands after -o decides what a run becomes.
-#include "app/destination.hpp"
+#include "app/output/destination.hpp"
 
 #include <string>
 

@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/process.hpp"
-#include "base/program.hpp"
+#include "base/child.hpp"
 
 namespace lantern::app {
 namespace {

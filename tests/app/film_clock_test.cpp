@@ -1,9 +1,9 @@
 // The speed of a film.
-#include "app/film_clock.hpp"
+#include "app/output/film_clock.hpp"
 
 #include <gtest/gtest.h>
 
-#include "app/in_betweens.hpp"
+#include "app/output/render_job.hpp"
 #include "rooms.hpp"
 
 namespace lantern::app {

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/process.hpp"
-#include "base/program.hpp"
+#include "base/child.hpp"
 #include "render/png.hpp"
 #include "rooms.hpp"
 

@@ -1,5 +1,5 @@
 // The words in which a long run is told of.
-#include "app/forecast.hpp"
+#include "app/progress.hpp"
 
 #include <gtest/gtest.h>
 

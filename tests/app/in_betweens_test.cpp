@@ -1,5 +1,5 @@
 // --tween and --fps: pictures between the frames, and no trace of them where they are not wanted.
-#include "app/in_betweens.hpp"
+#include "app/output/render_job.hpp"
 
 #include <algorithm>
 #include <map>

@@ -12,7 +12,7 @@
 
 #include "app/commands/command_line.hpp"
 #include "app/process.hpp"
-#include "base/program.hpp"
+#include "base/child.hpp"
 
 namespace lantern::app {
 namespace {

@@ -198,10 +198,11 @@ TEST(BenchPairs, ReadsBoxesOfOnesOwn) {
       << bad.err;
 }
 
-// A program without its modules beside it, as it is installed.
+// A program without other engines beside it, as it is installed.
 TEST(BenchPairs, NamesThePackagesOfWhatIsMissing) {
   const fs::path out = fresh_folder("bench_missing");
   fs::create_hard_link(LANTERN_BINARY, out / "lantern");
+  fs::create_hard_link(LANTERN_BUILD "/lantern_lab.so", out / "lantern_lab.so");
   const std::string alone = (out / "lantern").string() +
                             " bench pairs --workload uniform_2d --rounds 2 --bodies 50 --only ";
   const Outcome o = shell(alone + "quadtree");

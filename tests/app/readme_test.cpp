@@ -75,7 +75,7 @@ TEST(Readme, CommandsWork) {
   for (const std::string& block : all) {
     std::istringstream lines(block);
     for (std::string line; std::getline(lines, line);) {
-      if (line.empty() || line == "./run test") continue;  // that one is running now
+      if (line.empty() || line == "./run test" || line == "./run lab") continue;  // it is built
       ++commands;
       if (is_left_out(line)) continue;
       // The demo must not build under this test's feet: it is run with the program as built.

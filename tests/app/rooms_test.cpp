@@ -32,7 +32,8 @@ const std::map<std::string, std::set<std::string>> kRooms = {
     {"measure", {"scenario"}},
     {"peers", {"measure"}},
     {"report", {"measure", "draw", "render"}},
-    {"app", {"publish", "report"}},
+    {"app", {"publish"}},
+    {"lab", {"app", "report"}},
 };
 
 std::set<std::string> seen_from(const std::string& room) {

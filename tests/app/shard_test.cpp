@@ -1,5 +1,5 @@
 // Runs in parts: which part has what, and that they are one run when they are merged.
-#include "app/shard.hpp"
+#include "app/folders/shard.hpp"
 
 #include <map>
 #include <numeric>
@@ -9,9 +9,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "app/json_members.hpp"
+#include "app/folders/kept_files.hpp"
 #include "app/process.hpp"
-#include "app/shard_record.hpp"
 #include "app/terminal.hpp"
 
 namespace lantern::app {

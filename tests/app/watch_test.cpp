@@ -5,8 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "app/process.hpp"
-#include "app/reload.hpp"
-#include "app/watched_files.hpp"
+#include "app/output/watch.hpp"
 
 namespace lantern::app {
 namespace {

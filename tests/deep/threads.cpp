@@ -12,7 +12,7 @@
 #include "base/file.hpp"
 #include "base/random.hpp"
 #include "base/stop.hpp"
-#include "render/encode_pool.hpp"
+#include "render/pipeline.hpp"
 
 namespace lantern::render {
 namespace {

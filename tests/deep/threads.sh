@@ -7,9 +7,8 @@ folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 
 "${CXX:-g++}" -std=c++20 -g -O1 -fsanitize=thread -I"$root/src" \
-  "$root/tests/deep/threads.cpp" "$root"/src/base/*.cpp "$root/src/render/encode_pool.cpp" \
-  "$root"/src/render/png*.cpp "$root/src/render/seal.cpp" "$root"/src/render/*deflate.cpp \
-  "$root/src/render/block_writer.cpp" "$root/src/render/huffman.cpp" \
+  "$root/tests/deep/threads.cpp" "$root"/src/base/*.cpp "$root/src/render/pipeline.cpp" \
+  "$root"/src/render/png*.cpp "$root/src/render/seal.cpp" "$root/src/render/deflate.cpp" \
   -lfmt -ldeflate -o "$folder/threads"
 mkdir "$folder/files"
 TSAN_OPTIONS="halt_on_error=0 exitcode=66" "$folder/threads" "$folder/files"

@@ -10,7 +10,6 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
-#include "measure/atlas_contest.hpp"
 
 namespace lantern::measure {
 namespace {

@@ -1,5 +1,5 @@
 // Worlds of boxes, those who find their pairs, and the bench that runs them.
-#include "measure/box_bench.hpp"
+#include "measure/boxes/bench.hpp"
 
 #include <algorithm>
 #include <cstdlib>
@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "measure/box_truth.hpp"
 #include "measure/broad_phase_cost.hpp"
 
 namespace lantern::measure {

@@ -1,5 +1,5 @@
 // Boxes of a user's own, and what is wrong in their files.
-#include "measure/box_files.hpp"
+#include "measure/boxes/worlds.hpp"
 
 #include <cstdint>
 #include <cstring>

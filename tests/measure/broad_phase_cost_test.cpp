@@ -108,7 +108,9 @@ TEST(BroadPhaseCost, CountsRepeatExactly) {
   ASSERT_EQ(first.size(), broad_phase_rows(a, quick()));
   for (std::size_t i = 0; i < first.size(); ++i)
     EXPECT_EQ(first[i].counts, second[i].counts) << "row " << i << " depends on more than the seed";
-  EXPECT_NE(to_csv(measured(seeded_box_scenes(kBodies, 7)[1])), to_csv(first))
+  const std::vector<BroadPhaseCost> other = measured(seeded_box_scenes(kBodies, 7)[1]);
+  EXPECT_FALSE(
+      std::ranges::equal(other, first, {}, &BroadPhaseCost::counts, &BroadPhaseCost::counts))
       << "another seed gives the same boxes";
 }
 
@@ -181,14 +183,6 @@ bodies = ["late"]
   EXPECT_EQ(boxes.frames[0][1].box, (Box<2>{{2, 2}, {4, 4}}));
   EXPECT_EQ(boxes.bounds, (Box<2>{{0, 0}, {16, 16}}));
   for (const BroadPhaseCost& row : measured(scene)) EXPECT_EQ(row.counts.true_pairs, 1u);
-}
-
-TEST(BroadPhaseCost, TextsTellEveryRow) {
-  const std::vector<BoxScene> scenes = {seeded_box_scenes(kBodies, 10)[1]};
-  const std::vector<BroadPhaseCost> rows = measured(scenes[0]);
-  const std::string csv = to_csv(rows);
-  EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), rows.size() + 1);
-  EXPECT_NE(to_json(rows, scenes).find("\"lantern.measure.broad_phase/2\""), std::string::npos);
 }
 
 }  // namespace

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "measure/closed_forms.hpp"
+#include "measure/forms/closed_forms.hpp"
 #include "measure/contact_runs.hpp"
-#include "measure/linkage.hpp"
+#include "measure/forms/linkage.hpp"
 
 namespace lantern::measure {
 namespace {

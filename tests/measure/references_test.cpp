@@ -5,9 +5,9 @@
 
 #include "../physics/exact_oscillator.hpp"
 #include "geometry/elliptic.hpp"
-#include "measure/closed_forms.hpp"
-#include "measure/dormand_prince.hpp"
-#include "measure/precise.hpp"
+#include "measure/forms/closed_forms.hpp"
+#include "measure/forms/dormand_prince.hpp"
+#include "measure/forms/precise.hpp"
 
 namespace lantern::measure {
 namespace {

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "measure/closed_forms.hpp"
+#include "measure/forms/closed_forms.hpp"
 #include "measure/dormand_prince_solver.hpp"
 #include "measure/lantern_solver.hpp"
 #include "measure/problems.hpp"

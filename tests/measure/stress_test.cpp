@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cmath>
+#include <filesystem>
 #include <ostream>
 #include <set>
 #include <stdexcept>
@@ -76,6 +77,18 @@ TEST(Stress, AFigureBeyondItsBoundFails) {
                           [] { return at_most(0, 1, "m"); }};
   EXPECT_FALSE(run_case(broken).result.good);
   EXPECT_EQ(run_case(broken).result.figure, 1);
+}
+
+// Every file of scenarios/stress/ is a case.
+TEST(Stress, ScenariosAreCases) {
+  std::set<std::string_view> names;
+  for (const StressCase& one : stress_cases()) names.insert(one.name);
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(LANTERN_ROOT "/scenarios/stress")) {
+    EXPECT_TRUE(names.contains(entry.path().stem().string())) << entry.path();
+    ++files;
+  }
+  EXPECT_GT(files, 15u);
 }
 
 TEST(Stress, WhatIsThrownIsAFailedCase) {

@@ -12,7 +12,6 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "publish/lesson_facts.hpp"
 #include "publish/lesson_frames.hpp"
 #include "publish/packed.hpp"
 

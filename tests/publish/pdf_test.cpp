@@ -12,10 +12,10 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
-#include "base/program.hpp"
+#include "base/child.hpp"
 #include "draw/labels.hpp"
 #include "fresh_folder.hpp"
-#include "render/cairo.hpp"
+#include "render/cairo_painter.hpp"
 #include "render/png.hpp"
 #include "render/renderer.hpp"
 #include "render/sample_scene.hpp"

@@ -1,8 +1,7 @@
-#include "render/compare_facts.hpp"
+#include "render/compare.hpp"
 
 #include <gtest/gtest.h>
 
-#include "render/compare.hpp"
 #include "render/seal.hpp"
 
 namespace lantern::render {

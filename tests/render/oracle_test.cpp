@@ -5,11 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
-#include "render/dashes.hpp"
-#include "render/polygon_masks.hpp"
+#include "render/masks.hpp"
 #include "render/sample_scene.hpp"
 #include "render/support.hpp"
-#include "render/text_masks.hpp"
 
 namespace lantern::render {
 namespace {

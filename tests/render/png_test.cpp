@@ -8,8 +8,7 @@
 #include <libdeflate.h>
 
 #include "base/random.hpp"
-#include "render/band_deflate.hpp"
-#include "render/huffman.hpp"
+#include "render/deflate.hpp"
 #include "render/sample_scene.hpp"
 #include "render/support.hpp"
 

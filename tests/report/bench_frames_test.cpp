@@ -1,11 +1,10 @@
-#include "report/bench_frames.hpp"
-
 #include <filesystem>
 
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
 #include "fresh_folder.hpp"
+#include "report/benches.hpp"
 
 namespace lantern::report {
 namespace {
@@ -45,7 +44,7 @@ TEST(BenchFrames, MeansCountEachSequenceAsMuch) {
 
 TEST(BenchFrames, TextsTellWhatWasCounted) {
   const FrameBenchResult result = some_frames();
-  const std::string table = to_table(result), csv = to_csv(result), page = to_html(result);
+  const auto [table, csv, json, page] = texts_of(result);
   EXPECT_NE(table.find("10%"), table.npos) << "one picture's pixels of ten pictures'" << table;
   EXPECT_NE(table.find("75%"), table.npos) << "three bands of four were packed" << table;
   EXPECT_NE(csv.find("a,\"lantern, fast\",10,400,400,400,20,1000,2073600,3,1\r\n"), csv.npos)

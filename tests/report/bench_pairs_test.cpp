@@ -1,10 +1,10 @@
 // Tables and the page of `bench pairs`.
-#include "report/bench_pairs.hpp"
-
 #include <algorithm>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+
+#include "report/benches.hpp"
 
 namespace lantern::report {
 namespace {
@@ -26,7 +26,7 @@ BoxBenchResult some_pairs() {
   BoxBenchResult result;
   result.command = "lantern bench pairs --workload <uniform>";
   result.circumstances.processor = "AMD";
-  result.peers = {{"CGAL", "5", "in its best way"}};
+  result.contestants = {{"CGAL", "5", "in its best way"}};
   for (const std::uint64_t bodies : {1000, 10000}) {
     const double seconds = 1e-7 * static_cast<double>(bodies);
     result.rows.push_back(row("quadtree", "", bodies, seconds));
@@ -53,37 +53,37 @@ TEST(BenchPairsReport, TheQuickestWithRightPairsIsTheMeasure) {
 }
 
 TEST(BenchPairsReport, TheTableTellsAll) {
-  const std::string text = to_table(some_pairs());
+  const std::string text = texts_of(some_pairs()).table;
   for (const char* words :
        {"uniform_2d with 1000 boxes: 500 pairs, checked by brute force", "quadtree", "CGAL",
         "wrong: 4 missed, 0 invented", "missing: apt-get install libbullet-dev"})
     EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
-  EXPECT_NE(text.find("  quadtree                0.1      0.095 - 0.11       0.1       3"),
+  EXPECT_NE(text.find("  quadtree  100 µs    95 µs - 110 µs  100 µs      3    500"),
             std::string::npos)
       << text;
 }
 
 TEST(BenchPairsReport, JsonAndCsvHaveTheSameRows) {
   const BoxBenchResult result = some_pairs();
-  const auto json = nlohmann::json::parse(to_json(result));
+  const auto json = nlohmann::json::parse(texts_of(result).json);
   EXPECT_EQ(json["format"], "lantern.bench.pairs/1");
   ASSERT_EQ(json["rows"].size(), result.rows.size());
   EXPECT_EQ(json["rows"][1]["contestant"], "octree");
   EXPECT_DOUBLE_EQ(json["rows"][1]["seconds"]["median"].get<double>(), 2e-4);
   EXPECT_FALSE(json["rows"][4]["seconds"].contains("median"));
-  const std::string csv = to_csv(result);
+  const std::string csv = texts_of(result).csv;
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')),
             result.rows.size() + 1);
 }
 
 TEST(BenchPairsReport, ThePageStandsAlone) {
-  const std::string page = to_html(some_pairs());
+  const std::string page = texts_of(some_pairs()).html;
   for (const char* words :
        {"<!DOCTYPE html>", "--workload &lt;uniform&gt;", "in its best way", "Time a box and step",
         "class=\"plot\"", "wrong</span>", "missing: apt-get", "</html>"})
     EXPECT_NE(page.find(words), std::string::npos) << words;
   EXPECT_EQ(page.find("http"), std::string::npos) << "something is loaded from elsewhere";
-  EXPECT_NE(to_html(BoxBenchResult{}).find("</html>"), std::string::npos);
+  EXPECT_NE(texts_of(BoxBenchResult{}).html.find("</html>"), std::string::npos);
 }
 
 }  // namespace

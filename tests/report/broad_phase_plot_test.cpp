@@ -5,6 +5,7 @@
 
 #include "draw/draw_list.hpp"
 #include "draw/layout_check.hpp"
+#include "report/benches.hpp"
 #include "report/pages.hpp"
 
 namespace lantern::report {
@@ -65,6 +66,22 @@ TEST(BroadPhasePage, WithoutRowsItSaysSo) {
   const DrawList list = draw_broad_phase_page({}, scene, StructureKind::quadtree);
   EXPECT_TRUE(says_part(list, "Nothing was measured."));
   expect_readable(list, "empty");
+}
+
+TEST(BroadPhaseTexts, TellEveryRowAndTheCheapestInTheTable) {
+  BroadPhaseResult result;
+  result.config.scenes = {seeded_box_scenes(100, 10)[1]};
+  result.config.capacities = {1, 8};
+  result.config.depth_limits = {3};
+  result.config.timing.repeats = 0;
+  const BoxScene& scene = result.config.scenes[0];
+  result.rows = measure_broad_phases(scene, result.config, [] {});
+  const Texts texts = texts_of(result);
+  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(texts.csv, '\n')), result.rows.size() + 1);
+  EXPECT_NE(texts.json.find("\"lantern.measure.broad_phase/2\""), std::string::npos);
+  EXPECT_NE(texts.json.find("\"words\": \"" + scene.words), std::string::npos) << texts.json;
+  for (const char* words : {"clustered_2d", "quadtree", "depth limit 3", "false/true"})
+    EXPECT_NE(texts.table.find(words), std::string::npos) << words << texts.table;
 }
 
 }  // namespace

@@ -1,14 +1,14 @@
 // Error and energy against the time that has passed.
-#include "report/drift_plots.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "draw/layout_check.hpp"
-#include "render/check_list.hpp"
-#include "report/html_page.hpp"
+#include "render/canvas.hpp"
+#include "report/measure_document.hpp"
+#include "report/measure_plots.hpp"
+#include "report/pages.hpp"
 #include "report/sample_rows.hpp"
 
 namespace lantern::report {
@@ -71,7 +71,7 @@ TEST(DriftPlots, MakeAPageAndStandOnTheWebPage) {
     ++drawn;
   }
   EXPECT_GT(drawn, 0u);
-  const std::string html = to_html(std::span(&m, 1), {});
+  const std::string html = to_html(document_of(std::span(&m, 1), {}));
   std::size_t told = 0;
   for (std::size_t at = 0; (at = html.find("Drift of the energy", at)) != std::string::npos; ++at)
     ++told;

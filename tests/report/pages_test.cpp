@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "draw/layout_check.hpp"
-#include "render/check_list.hpp"
+#include "render/canvas.hpp"
 #include "report/measure_plots.hpp"
 #include "report/sample_rows.hpp"
 

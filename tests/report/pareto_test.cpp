@@ -1,4 +1,4 @@
-#include "report/pareto.hpp"
+#include "report/problem_rows.hpp"
 
 #include <algorithm>
 #include <cmath>

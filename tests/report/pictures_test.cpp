@@ -9,7 +9,6 @@
 #include "render/renderer.hpp"
 #include "render/svg.hpp"
 #include "report/measure_plots.hpp"
-#include "report/measure_tables.hpp"
 #include "report/pages.hpp"
 #include "report/sample_rows.hpp"
 

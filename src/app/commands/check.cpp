@@ -4,7 +4,6 @@
 
 #include "app/answer.hpp"
 #include "app/commands/command.hpp"
-#include "app/inputs.hpp"
 #include "app/run_scenario.hpp"
 #include "app/scenario_folder.hpp"
 #include "app/terminal.hpp"
@@ -89,10 +88,7 @@ void write(JsonWriter& json, const Verdict& v) {
   json.member("frames", v.report.frames).member("expectations", v.report.expectations);
   write(json, "problems", v.problems);
   write(json, "warnings", v.warnings);
-  json.key("facts").begin_array();
-  for (const std::string& fact : v.facts) json.value(fact);
-  json.end_array();
-  json.end_object();
+  json.member("facts", v.facts).end_object();
 }
 
 std::string joined_facts(const std::vector<std::string>& facts) {

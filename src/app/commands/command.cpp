@@ -105,6 +105,20 @@ void add_all(const Command& command, Words names, std::vector<CommandPath>& all)
   for (const Command& below : command.commands) add_all(below, names, all);
 }
 
+std::string for_a_shell(const std::string& word) {
+  constexpr std::string_view kPlain =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == word.npos) return word;
+  std::string quoted = "'";
+  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
+}
+
+Words& remembered_words() {
+  static Words words;
+  return words;
+}
+
 }  // namespace
 
 Option json_option(bool& json) { return {"--json", &json, "print JSON instead of a table"}; }
@@ -142,6 +156,18 @@ Options manners() {
            &read_colour,
            "colour in messages; auto asks the terminal, NO_COLOR and CLICOLOR_FORCE",
            {.value = "WHEN", .words = {"auto", "always", "never"}}}};
+}
+
+const Words& command_line_words() { return remembered_words(); }
+
+void remember_command_line(int argc, const char* const* argv) {
+  if (argc > 1) remembered_words().assign(argv + 1, argv + argc);
+}
+
+std::string command_text(const Words& words) {
+  std::string text = "lantern";
+  for (const std::string& word : words) text += " " + for_a_shell(word);
+  return text;
 }
 
 const Command& whole_program() {

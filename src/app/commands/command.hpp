@@ -8,8 +8,9 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <variant>
 #include <vector>
+
+#include "base/option.hpp"
 
 namespace lantern::app {
 
@@ -23,48 +24,6 @@ enum ExitCode {
   kInterrupted = 130,
 };
 
-// Where the value of an option goes; its type says what may stand there. A vector takes several, an
-// optional tells whether the option was given, a function is called while the line is read: without
-// a value, or with a word, of which it gives what is wrong, if anything is.
-using OptionTarget =
-    std::variant<bool*, std::string*, int*, double*, std::uint64_t*, std::optional<int>*,
-                 std::optional<double>*, std::optional<std::uint64_t>*, std::vector<std::string>*,
-                 std::vector<int>*, std::vector<double>*, std::vector<std::uint64_t>*, void (*)(),
-                 std::optional<std::string> (*)(const std::string&)>;
-
-// What it takes: the type of a number, or of each of several.
-template <class T>
-struct TakenBy {
-  using Type = T;
-};
-template <class T>
-struct TakenBy<std::optional<T>> : TakenBy<T> {};
-template <class T>
-struct TakenBy<std::vector<T>> : TakenBy<T> {};
-
-using Words = std::vector<std::string>;
-
-// What else may be said of an option.
-struct OptionTraits {
-  const char* value = "";      // what stands for its value, "PATH"; empty: its type
-  Words words = {};            // one of these, and nothing else
-  double least = 0, most = 0;  // if that is not the same: within these
-  bool above_0 = false;
-  bool required = false;
-  bool one_each = false;     // of several values each has the option's name before it
-  bool* given = nullptr;     // becomes true if it is given
-  const char* without = "";  // options above it, "--set,--count", that must not be given beside it
-};
-
-// A row of a command's options.
-struct Option {
-  const char* names;  // "-o,--output"; "FILE" stands by itself; "!--no-peers" makes false
-  OptionTarget to;
-  const char* help;  // in a line; what it is by default is told with it if `to` has any
-  OptionTraits is = {};
-};
-using Options = std::vector<Option>;
-
 // What the command line asks for; gives the exit code.
 using Run = std::function<int()>;
 
@@ -73,6 +32,8 @@ struct Command {
   const char* help;                    // in a line
   std::function<Run(Options&)> begin;  // gives its options, and what runs with their values
   std::vector<Command> commands = {};  // below it; then it does not run itself
+  // Why it cannot be had, whatever stands behind it; empty if it can.
+  std::function<std::string()> missing = {};
 };
 
 // A command whose options are read into `Values`.
@@ -118,12 +79,18 @@ Command doctor_command();
 Command golden_command();
 Command compare_command();
 Command structure_command();
-std::vector<Command> lab_commands();  // measure, bench and stress
+std::vector<Command> lab_commands();  // measure, bench and stress (app/lab.hpp)
 Command reference_command();
 Command schema_command();
 Command manual_command();
 Command completions_command();
 Command help_command();
+
+// The words of this process's command line, without the program's name.
+const Words& command_line_words();
+void remember_command_line(int argc, const char* const* argv);
+// Such words as they would be typed: "lantern bench step --pile boxes2d:500".
+std::string command_text(const Words& words);
 
 // The program itself, with every command in the order of the help.
 const Command& whole_program();

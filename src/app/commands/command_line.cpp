@@ -96,6 +96,12 @@ class Parser : public CLI::App {
   void complete() { _trigger_pre_parse(0); }
 
   static void add_row(CLI::App& app, const Command& row, Run& run) {
+    if (const std::string why = row.missing ? row.missing() : ""; !why.empty()) {
+      app.prefix_command();  // whatever its options would be
+      app.footer(why + ".");
+      app.callback([&run, why] { run = [why]() -> int { throw UsageError(why); }; });
+      return;
+    }
     Options options;
     const Run begun = row.begin ? row.begin(options) : nullptr;
     std::ranges::move(manners(), std::back_inserter(options));

@@ -14,13 +14,12 @@
 
 #include "app/answer.hpp"
 #include "app/commands/command.hpp"
-#include "app/kept_files.hpp"
-#include "app/named_files.hpp"
+#include "app/folders/kept_files.hpp"
+#include "app/output/sinks.hpp"
 #include "app/terminal.hpp"
 #include "base/counted.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
-#include "render/compare_facts.hpp"
 #include "render/png.hpp"
 #include "render/seal.hpp"
 

@@ -31,8 +31,8 @@ std::string told(const StageTally& stage) {
   std::string text;
   for (const Amount& a : stage.amounts)
     if (a.n > 0 || &a == &stage.amounts.front())
-      text += fmt::format("{}{} {}", text.empty() ? "" : ", ",
-                          grouped(static_cast<std::int64_t>(a.n), " "), a.n == 1 ? a.name : a.many);
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", lantern::grouped(a.n, " "),
+                          a.n == 1 ? a.name : a.many);
   return text + (stage.note.empty() ? "" : "; ") + stage.note;
 }
 

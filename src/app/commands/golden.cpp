@@ -11,14 +11,13 @@
 
 #include "app/answer.hpp"
 #include "app/commands/command.hpp"
-#include "app/forecast.hpp"
-#include "app/golden_list.hpp"
-#include "app/golden_sink.hpp"
-#include "app/inputs.hpp"
-#include "app/kept_files.hpp"
-#include "app/render_job.hpp"
+#include "app/commands/golden_sinks.hpp"
+#include "app/folders/kept_files.hpp"
+#include "app/output/destination.hpp"
+#include "app/output/render_job.hpp"
+#include "app/progress.hpp"
 #include "app/run_scenario.hpp"
-#include "app/selection.hpp"
+#include "app/scenario_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
@@ -150,11 +149,8 @@ class GoldenRun {
     for (const std::string& file : input_files(options_.files)) {
       GoldenSuite suite;
       suite.scenario = suite.file = file;
-      auto scenario = load_or_complain(file, code_);
-      if (scenario)
-        suite.scenario = scenario->name;
-      else
-        suite.error = why_not_read(file);
+      auto scenario = load_or_complain(file, code_, &suite.error);
+      if (scenario) suite.scenario = scenario->name;
       if (scenario && !files.emplace(scenario->name, file).second)
         throw UsageError(
             fmt::format("'{}' and '{}' are both scenarios named '{}'; they would have "
@@ -162,13 +158,6 @@ class GoldenRun {
                         files[scenario->name], file, scenario->name));
       loaded_.emplace_back(std::move(suite), std::move(scenario));
     }
-  }
-
-  static std::string why_not_read(const std::string& file) try {
-    load_scenario(file);
-    return "could not be read";
-  } catch (const std::exception& e) {
-    return e.what();
   }
 
   // An error of this scenario lets the others run.
@@ -242,14 +231,13 @@ class GoldenRun {
                                    goldens.scenario.name, words));
     GoldenUpdate sink(goldens);
     run_it(suite, goldens, sink);
+    changes_ = sink.changes();
     for (const auto& [what, names] :
-         {std::pair{"written", sink.written()}, std::pair{"removed", sink.removed()},
-          std::pair{"left alone, since it is not as Lantern made it", sink.strange()}})
+         {std::pair{"written", changes_.written}, std::pair{"removed", changes_.removed},
+          std::pair{"left alone, since it is not as Lantern made it", changes_.strange}})
       if (!names.empty()) say(about_files(suite.scenario, what, names));
-    if (sink.written().empty() && sink.removed().empty())
+    if (changes_.written.empty() && changes_.removed.empty())
       say(fmt::format("{}: the golden frames are as they were", suite.scenario));
-    written_ = sink.written();
-    removed_ = sink.removed();
   }
 
   void run_it(GoldenSuite& suite, const Goldens& goldens, FrameSink& sink) {
@@ -265,14 +253,14 @@ class GoldenRun {
                                         suite.good(), "frames", suite.cases.size(), "differing",
                                         suite.differing(), "unmet", suite.unmet_count);
     if (!suite.error.empty()) json_.member("error", suite.error);
-    list_in_json("findings", suite.findings);
+    json_.member("findings", suite.findings);
     json_.line().key("frames_that_differ").begin_array();
     for (const GoldenCase& c : suite.cases)
       if (!c.findings.empty()) tell_of(c);
     json_.end_array();
     if (options_.update) {
-      list_in_json("written", std::exchange(written_, {}));
-      list_in_json("removed", std::exchange(removed_, {}));
+      json_.members("written", changes_.written, "removed", changes_.removed);
+      changes_ = {};
     }
     json_.end_object();
     std::string line;
@@ -288,19 +276,13 @@ class GoldenRun {
 
   void tell_of(const GoldenCase& c) {
     json_.line().begin_object().members("frame", c.frame, "event", c.event);
-    list_in_json("findings", c.findings);
+    json_.member("findings", c.findings);
     json_.key("facts").begin_array();
     for (const FactsDifference& d : c.facts.differences) {
       json_.begin_object();
       json_.members("path", d.path, "expected", d.expected, "found", d.actual).end_object();
     }
     json_.end_array().end_object();
-  }
-
-  void list_in_json(const char* name, const std::vector<std::string>& texts) {
-    json_.key(name).begin_array();
-    for (const std::string& text : texts) json_.value(text);
-    json_.end_array();
   }
 
   // The page is made if frames differ or it is asked for. Its file, if there is one.
@@ -334,7 +316,7 @@ class GoldenRun {
   std::vector<std::pair<GoldenSuite, std::optional<Scenario>>> loaded_;
   std::vector<GoldenSuite> suites_;
   std::size_t shown_left_ = kMostShown;
-  std::vector<std::string> written_, removed_;  // of the scenario that was updated last
+  GoldenUpdate::Changes changes_;  // of the scenario that was updated last
   Work work_;
   JsonWriter json_ = answer_of("golden");
   int code_ = kGood;

@@ -77,8 +77,7 @@ std::string key_of(std::string_view text) {
 
 // What a picture is made from: the frame, and every shape that is drawn of it.
 MadeFrom made_from_all(const Frame& frame, const DrawList& list, const Theme& theme) {
-  return {key_of(to_json(frame)),
-          key_of(to_svg(list, theme, false, kWidth, kHeight))};
+  return {key_of(to_json(frame)), key_of(to_svg(list, theme, false, kWidth, kHeight))};
 }
 
 // Is it there, as it would be made now?

@@ -9,24 +9,21 @@
 
 #include "app/answer.hpp"
 #include "app/commands/command.hpp"
-#include "app/destination.hpp"
-#include "app/file_sink.hpp"
-#include "app/folder_sink.hpp"
-#include "app/forecast.hpp"
-#include "app/inputs.hpp"
-#include "app/kept_files.hpp"
-#include "app/render_job.hpp"
+#include "app/folders/kept_files.hpp"
+#include "app/folders/shard.hpp"
+#include "app/output/destination.hpp"
+#include "app/output/render_job.hpp"
+#include "app/output/sinks.hpp"
+#include "app/progress.hpp"
 #include "app/run_scenario.hpp"
-#include "app/selection.hpp"
-#include "app/shard_render.hpp"
-#include "app/staged_sink.hpp"
+#include "app/scenario_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/counted.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
 #include "base/stop.hpp"
 #include "draw/page.hpp"
-#include "publish/lesson_index.hpp"
+#include "publish/lesson.hpp"
 
 namespace lantern::app {
 namespace {
@@ -122,42 +119,6 @@ Options render_options(RenderOptions& o) {
   return options;
 }
 
-// The picture of the one chosen frame to standard output.
-class StdoutSink : public StagedSink {
- public:
-  StdoutSink(const RenderJob& job, const Manifest& manifest, Selection& selection, Work& work)
-      : job_(job), manifest_(manifest), selection_(selection), work_(work) {}
-
- protected:
-  void draw(const Frame& frame, const Staging& staging) override {
-    if (!selection_.takes(frame)) return;
-    last_ = frame.index;
-    if (++chosen_ > 1) return;
-    first_ = frame.index;
-    const Pipeline::Config& as = job_.picture;
-    const DrawList list = job_.page_of(frame, staging, work_);
-    bytes_ = picture_of(job_, as, frame, list, manifest_.frame_from(frame.index), work_);
-  }
-  void close(const DirectorReport&) override {
-    selection_.require_some();
-    if (chosen_ != 1)
-      throw UsageError(
-          fmt::format("-o - writes one frame, but {} are chosen, from {} to {}; --frames {} is the "
-                      "last of them",
-                      chosen_, first_, last_, last_));
-    write_stdout(bytes_);
-  }
-
- private:
-  const RenderJob& job_;
-  Manifest manifest_;
-  Selection& selection_;
-  Work& work_;
-  std::size_t chosen_ = 0;
-  std::uint32_t first_ = 0, last_ = 0;  // index of a chosen frame
-  std::string bytes_;
-};
-
 // All scenarios that can be read; what is wrong with the others is said at once.
 std::vector<Scenario> load_all(const std::vector<std::string>& files, int& code) {
   std::vector<Scenario> scenarios;
@@ -176,37 +137,17 @@ std::vector<Scenario> load_all(const std::vector<std::string>& files, int& code)
 }
 
 // What came of the frames of one scenario, for a program and for a person.
-void tell_of(const FolderSink& sink, const Scenario& scenario, const DirectorReport& report,
+void tell_of(const FolderSink::Made& made, const Scenario& scenario, const DirectorReport& report,
              JsonWriter& json) {
-  json.line().begin_object().members("scenario", scenario.name, "folder", sink.path().string(),
-                                     "drawn", sink.drawn(), "kept", sink.kept(), "in_betweens",
-                                     sink.in_betweens(), "expectations", report.expectations,
-                                     "unmet", report.unmet.count());
+  const std::string folder = made.path.string();
+  json.line().begin_object().members("scenario", scenario.name, "folder", folder, "drawn",
+                                     made.drawn, "kept", made.kept, "in_betweens", made.in_betweens,
+                                     "expectations", report.expectations, "unmet",
+                                     report.unmet.count());
   json.end_object();
-  const std::string between =
-      sink.in_betweens() > 0 ? " and " + counted(sink.in_betweens(), "in-between") : "";
-  say(fmt::format("{}: {}{} in {}{}", scenario.name, counted(sink.drawn() + sink.kept(), "frame"),
-                  between, sink.path().string(),
-                  sink.kept() ? fmt::format(", {} of them there already", sink.kept()) : ""));
-}
-
-std::unique_ptr<FileSink> make_file_sink(const Sequence& sequence) {
-  switch (sequence.to.kind()) {
-    case OutputKind::picture:
-      return make_picture_sink(sequence);
-    case OutputKind::film:
-      return make_film_sink(sequence);
-    case OutputKind::document:
-      return make_document_sink(sequence);
-    case OutputKind::sheet:
-      return make_sheet_sink(sequence);
-    case OutputKind::page:
-      return make_page_sink(sequence);
-    case OutputKind::folder:
-    case OutputKind::standard_output:
-      break;
-  }
-  throw UsageError(fmt::format("-o {}: no file", sequence.to.ending()));
+  say(fmt::format("{}: {}{} in {}{}", scenario.name, counted(made.drawn + made.kept, "frame"),
+                  made.in_betweens > 0 ? " and " + counted(made.in_betweens, "in-between") : "",
+                  folder, made.kept ? fmt::format(", {} of them there already", made.kept) : ""));
 }
 
 // The same of files that the user named.
@@ -246,28 +187,25 @@ int render_one(const RenderJob& job, const Destination& to, const Scenario& scen
   const RenderOptions& options = job.options;
   const Pace pace = pace_of(options.pace, scenario);
   Selection selection(options.frames, options.at, extent_of(scenario, pace).frames);
-  if (to.kind() == OutputKind::standard_output) {
-    StdoutSink sink(job, job.manifest(scenario, pace), selection, work);
-    return tell(run_scenario(scenario, pace, sink, work), options.strict);
-  }
   if (to.kind() != OutputKind::folder) {
     const auto sink = make_file_sink({job, to, scenario, pace, selection, work});
     const RunResult result = run_scenario(scenario, pace, *sink, work, selection.most());
     const int code = tell(result, options.strict);
-    tell_of(sink->made(), scenario, result.report, json);
+    if (to.is_file()) tell_of(sink->made(), scenario, result.report, json);
     return code;
   }
   const auto most = selection.most() ? selection.most() : extent_of(scenario, pace).frames;
   job.in_betweens.require_few(most);
   const Part& part = shard.part(index);
   if (part.is_none()) return kGood;
-  FolderSink sink(job, scenario, pace, selection, work, part);
+  const auto sink = make_folder_sink(job, scenario, pace, selection, work, part);
   const auto of_part = part.is_all() || !most ? selection.most() : std::optional(part.count(*most));
   const RunResult result =
-      run_scenario(scenario, pace, sink, work, of_part, job.in_betweens.most());
-  shard.drawn(index, sink);
+      run_scenario(scenario, pace, *sink, work, of_part, job.in_betweens.most());
+  const FolderSink::Made& made = sink->made();
+  shard.drawn(index, made.drawn + made.kept, made.chosen, made.has_atlas);
   const int code = tell(result, options.strict);
-  tell_of(sink, scenario, result.report, json);
+  tell_of(made, scenario, result.report, json);
   return code;
 }
 

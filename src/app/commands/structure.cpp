@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "app/answer.hpp"
-#include "app/commands.hpp"
+#include "app/commands/command.hpp"
 #include "app/structure_names.hpp"
 #include "app/terminal.hpp"
 #include "base/counted.hpp"
@@ -41,19 +41,6 @@ Options structure_check_options(StructureCheckOptions& o) {
       seed_option(o.seed, "of the random worlds"),
       {"-o,--output", &o.output, "folder for NAME_fails.toml", {.value = "DIR"}},
       json_option(o.json)};
-}
-
-Options structure_bench_options(StructureBenchOptions& o) {
-  return {{"NAME", &o.names, "structures; the default is all of them"},
-          {"--bodies",
-           &o.bodies,
-           "how many bodies; the default is 100, 400 and 1600",
-           {.value = "N", .least = 2, .most = 1'000'000, .one_each = true}},
-          seed_option(o.seed, "of the random worlds"),
-          {"--rounds", &o.rounds, "repeats; the median counts", {.least = 1, .most = 1000}},
-          {"-o,--output", &o.output, "folder for bench_structure.csv and .json", {.value = "DIR"}},
-          memory_option(),
-          json_option(o.json)};
 }
 
 std::string point(const Vec<2>& p) { return fmt::format("[{}, {}]", p.x, p.y); }
@@ -208,8 +195,7 @@ Command structure_command() {
                    "Hold structures against brute force on random worlds; the smallest world on "
                    "which one fails is told and written as a scenario",
                    check_structures, structure_check_options),
-           command("bench", "Time structures beside each other and brute force, in turns",
-                   structure_bench_command, structure_bench_options)}};
+           structure_bench_command()}};
 }
 
 }  // namespace lantern::app

@@ -1,3 +1,5 @@
+#include "app/output/watch.hpp"
+
 #include <chrono>
 #include <filesystem>
 #include <string>
@@ -7,11 +9,9 @@
 #include <fmt/format.h>
 
 #include "app/commands/command.hpp"
-#include "app/destination.hpp"
-#include "app/reload.hpp"
-#include "app/render_job.hpp"
+#include "app/output/destination.hpp"
+#include "app/output/render_job.hpp"
 #include "app/terminal.hpp"
-#include "app/watched_files.hpp"
 #include "base/error.hpp"
 #include "base/stop.hpp"
 

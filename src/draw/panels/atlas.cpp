@@ -313,10 +313,6 @@ double atlas_width(const Frame& frame, double height) {
 
 }  // namespace
 
-// The packed image, and beside it the textures that wait or were refused; of an atlas with a screen
-// those are shown one by one until the first is packed. It wants this width at a height.
-PanelView atlas_panel() { return {.name = "atlas", .draw = draw_atlas, .width = atlas_width}; }
-
 DrawList draw_atlas_image(const Frame& frame) {
   DrawList list;
   list.page = atlas_size(frame);
@@ -326,5 +322,9 @@ DrawList draw_atlas_image(const Frame& frame) {
                    kMostPatternParts, list, t.turned);
   return list;
 }
+
+// The packed image, and beside it the textures that wait or were refused; of an atlas with a screen
+// those are shown one by one until the first is packed. It wants this width at a height.
+PanelView atlas_panel() { return {.name = "atlas", .draw = draw_atlas, .width = atlas_width}; }
 
 }  // namespace lantern::draw

@@ -1,0 +1,216 @@
+#include "app/output/render_job.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <thread>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/output/destination.hpp"
+#include "app/run_scenario.hpp"
+#include "app/terminal.hpp"
+#include "base/file.hpp"
+#include "base/grouped.hpp"
+#include "base/hash.hpp"
+#include "base/stop.hpp"
+#include "draw/page.hpp"
+#include "draw/tween.hpp"
+#include "embedded/version.hpp"
+#include "render/svg.hpp"
+#include "spatial/structure_kind.hpp"
+
+namespace lantern::app {
+
+namespace {
+
+// Between the picture at a time's begin and the one at its end.
+std::uint64_t within(double seconds, double fps) {
+  return static_cast<std::uint64_t>(std::max(0.0, std::floor(seconds * fps + 0.5) - 1));
+}
+
+}  // namespace
+
+InBetweens::InBetweens(std::optional<std::uint64_t> tween, std::optional<double> fps) {
+  number_ = tween.value_or(0);
+  if (fps) {
+    fps_ = *fps;
+    number_ = within(kChange, fps_);
+  }
+}
+
+std::string InBetweens::setting() const {
+  if (!wanted()) return "";
+  return fps_ > 0 ? fmt::format("{} fps", fps_) : fmt::format("{}", number_);
+}
+
+std::uint64_t InBetweens::between(const Frame& a, const Frame& b) const {
+  return fps_ > 0 && is_one_movement(a, b) ? within(b.time - a.time, fps_) : number_;
+}
+
+bool InBetweens::is_one_movement(const Frame& a, const Frame& b) {
+  const double passed = b.time - a.time;
+  return passed > 0 && passed < kChange;
+}
+
+Motion InBetweens::motion(const Frame& a, const Frame& b) {
+  return is_one_movement(a, b) ? Motion::steady : Motion::eased;
+}
+
+void InBetweens::require_few(std::optional<std::uint64_t> frames) const {
+  const std::uint64_t known = std::max<std::uint64_t>(frames.value_or(2), 1);
+  if (!wanted() || (number_ <= kMostPictures && known + (known - 1) * number_ <= kMostPictures))
+    return;
+  throw UsageError(
+      fmt::format("--tween {}: up to {} frames and {} in-betweens before each but the "
+                  "first are more than {} pictures; ask for fewer",
+                  number_, known, number_, lantern::grouped(kMostPictures, " ")));
+}
+
+namespace {
+
+constexpr const char* kUsualSize = "1600x900";
+constexpr int kUsualDots = 160;  // to the inch: a frame of 1600 pixels is 10 inches wide on paper
+
+// The ids of two files differ unless they show the same frame in the same way. A new version of
+// Lantern changes none of them, so that files can be compared.
+SvgWords svg_words(const RenderJob& job, const Frame& frame, const MadeFrom& from) {
+  const std::uint64_t key = Hash().add(frame.scenario).add(from.picture).value();
+  return {frame.title, frame.caption, fmt::format("l{:08x}-", key >> 32),
+          job.options.text == "text"};
+}
+
+}  // namespace
+
+RenderJob::RenderJob(const RenderOptions& o)
+    : options(o),
+      backend(*backend_named(o.backend)),
+      format(o.format == "svg" ? FileKind::svg : FileKind::png),
+      in_betweens(o.tween, o.fps) {
+  std::tie(picture.width, picture.height) =
+      parse_size(o.size.empty() ? kUsualSize : o.size, Renderer::kMostPixels);
+  picture.theme = *theme_named(o.theme);
+  picture.transparent = o.transparent;
+  picture.effort = o.png == "small" ? PngEffort::small : PngEffort::fast;
+  picture.pixels_per_metre = static_cast<int>(std::lround(o.dpi / 0.0254));
+  picture.threads =
+      o.threads.value_or(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+}
+
+Display RenderJob::display_of(const Frame& frame) const {
+  Display display = frame.display;
+  if (options.no_title) display.title = false;
+  if (options.no_caption) display.caption = false;
+  if (options.no_counters) display.counters = false;
+  if (options.legend) display.legend = true;
+  return display;
+}
+
+Vec<2> RenderJob::points() const {
+  return Vec<2>(picture.width, picture.height) * (72.0 / options.dpi);
+}
+
+DrawList RenderJob::page_of(const Frame& frame, const Staging& staging, Work& work) const {
+  const Vec<2> page = page_for(picture.width, picture.height);
+  const Display display = display_of(frame);
+  if (display == frame.display) return draw_frame(frame, staging, page, work);
+  Frame switched = frame;
+  switched.display = display;
+  return draw_frame(switched, staging, page, work);
+}
+
+namespace {
+
+// What a structure that this program was given says depends on its code, which is no part of
+// Lantern's sources.
+std::uint64_t program_hash() {
+  constexpr std::size_t kMostBytes = std::size_t{1} << 31;
+  static const std::uint64_t hash =
+      std::hash<std::string>()(read_file("/proc/self/exe", kMostBytes));
+  return hash;
+}
+
+}  // namespace
+
+Manifest RenderJob::manifest(const Scenario& scenario, Pace pace) const {
+  Manifest m(name_of(scenario));
+  m.title = scenario.title;
+  m.seed = scenario.seed;
+  m.pace = pace;
+  m.size = fmt::format("{}x{}", picture.width, picture.height);
+  m.theme = options.theme;
+  m.format = format;
+  m.png = picture.effort;
+  m.transparent = options.transparent;
+  m.in_betweens = in_betweens.setting();
+  m.in_between_digits =
+      std::max(2, static_cast<int>(fmt::formatted_size("{}", in_betweens.most())));
+  m.scenario_hash = scenario.text_hash;
+  if (known_structures().size() > kStructureKinds.size()) m.scenario_hash ^= program_hash();
+  for (const auto& [on, name] :
+       {std::pair{options.no_title, "no-title"}, std::pair{options.no_caption, "no-caption"},
+        std::pair{options.no_counters, "no-counters"}, std::pair{options.legend, "legend"}})
+    if (on) m.switches.emplace_back(name);
+  if (format == FileKind::svg && options.text == "text") m.switches.emplace_back("text");
+  if (format == FileKind::png && options.dpi != kUsualDots)
+    m.switches.push_back(fmt::format("dpi-{}", options.dpi));
+  return m;
+}
+
+std::unique_ptr<Pipeline> RenderJob::make_pipeline(Work& work) const {
+  return as_asked(
+      [&] { return std::make_unique<Pipeline>(Context::create(backend), picture, work); });
+}
+
+std::unique_ptr<Renderer> RenderJob::make_renderer(int width, int height, Work& work) const {
+  return as_asked([&] {
+    auto renderer = std::make_unique<Renderer>(Context::create(backend), width, height);
+    ++work.graphics_contexts;
+    return renderer;
+  });
+}
+
+std::vector<PngText> texts_of(const Frame& frame) {
+  return {{"Title", frame.title},
+          {"Software", fmt::format("Lantern {}", kVersion)},
+          {"Scenario", frame.scenario},
+          {"Frame", fmt::format("{}", frame.index)},
+          {"Seed", fmt::format("{}", frame.seed)}};
+}
+
+std::string picture_of(const RenderJob& job, const Pipeline::Config& as, const Frame& frame,
+                       const DrawList& list, const MadeFrom& from, Work& work) {
+  if (job.format == FileKind::svg)
+    return sealed(
+        FileKind::svg,
+        to_svg(list, as.theme, as.transparent, as.width, as.height, svg_words(job, frame, from)),
+        from);
+  Image image;
+  job.make_renderer(as.width, as.height, work)->draw(list, as.theme, as.transparent, image);
+  ++work.frames_drawn;
+  ++work.frames_encoded;
+  return sealed(FileKind::png, encode_png(image, as.effort, texts_of(frame), as.pixels_per_metre),
+                from);
+}
+
+void FrameWalk::go_on(const Frame& frame, const Staging& staging) {
+  before_ = std::exchange(here_, Stop{frame});
+  staging_ = &staging;
+}
+
+const DrawList& FrameWalk::page_of(Stop& stop) {
+  if (!stop.page) stop.page = job_.page_of(stop.frame, *staging_, work_);
+  return *stop.page;
+}
+
+DrawList FrameWalk::in_between(double t) {
+  stop_if_asked();
+  ++work_.in_betweens;
+  return between(page_before(), page(), t, InBetweens::motion(before_->frame, here_->frame));
+}
+
+}  // namespace lantern::app

@@ -1,0 +1,164 @@
+// What `lantern render` is asked for, read once; a picture made so; what stands between two of
+// them.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/folders/frame_folder.hpp"
+#include "app/terminal.hpp"
+#include "base/work.hpp"
+#include "draw/draw_list.hpp"
+#include "draw/staging.hpp"
+#include "draw/tween.hpp"
+#include "render/pipeline.hpp"
+#include "scenario/frame.hpp"
+
+namespace lantern::app {
+
+class InBetweens {
+ public:
+  // More pictures than this, frames and in-betweens, are not made of one scenario.
+  static constexpr std::uint64_t kMostPictures = 100'000;
+  // A change lasts so long, seconds, when it is shown at the wanted number of pictures a second.
+  static constexpr double kChange = 0.5;
+
+  InBetweens() = default;
+  // Both are asked for only of a film, which has a clock of its own (app/output/film_clock.hpp).
+  InBetweens(std::optional<std::uint64_t> tween, std::optional<double> fps);
+
+  bool wanted() const { return number_ > 0; }
+  // What they were asked for with: "7", "30 fps"; empty if they were not.
+  std::string setting() const;
+  // Before a frame there are never more.
+  std::uint64_t most() const { return number_; }
+
+  // Between two frames that follow each other. World time that goes on in small steps is shown at
+  // its own speed: the more pictures a second, the more fit between two moments.
+  std::uint64_t between(const Frame& a, const Frame& b) const;
+  // Does the world's time go on from the one to the other in a small step?
+  static bool is_one_movement(const Frame& a, const Frame& b);
+  // A change is eased; moments of one movement are passed steadily.
+  static Motion motion(const Frame& a, const Frame& b);
+
+  // Throws UsageError if so many frames, or two of a number that is not known, would be too many.
+  void require_few(std::optional<std::uint64_t> frames) const;
+
+ private:
+  std::uint64_t number_ = 0;
+  double fps_ = 0;  // pictures a second; 0: always the same number
+};
+
+struct RenderOptions {
+  std::vector<std::string> files;
+  std::string output = "output";  // folder or file, see Destination; "-" is standard output
+  std::string sheet;              // "3x2": frames across and down a page; empty for none
+  std::string frames;             // "7", "3-9", "3-", "-9"; empty for all
+  std::string at;                 // an event or a time in seconds; empty for all
+  std::string size;               // pixels; empty for 1600x900, and for a sheet A4 across
+  int dpi = 160;                  // pixels to the inch, where a picture meets paper
+  std::string format = "png";     // png, svg
+  std::string text = "outlines";  // of SVG: outlines, text
+  std::string theme = "light";
+  std::string pace;              // step, event; empty for the scenario's own
+  std::string png = "fast";      // fast, small
+  std::string backend = "auto";  // auto, osmesa, egl
+  bool transparent = false;
+  bool no_title = false, no_caption = false, no_counters = false;  // not drawn
+  bool legend = false;                                             // drawn in any case
+  bool strict = false;                                             // warnings are errors
+  std::optional<int> threads;                         // that encode; none for one a core
+  std::optional<std::uint64_t> tween = std::nullopt;  // in-betweens before each frame but the first
+  std::optional<double> fps = std::nullopt;           // or as many as a change of half a second has
+  bool reloading = false;  // a page loads itself again when it was made again (app/output/watch.hpp)
+  std::string shard = "";  // "2/4": the second of four parts; empty for all
+  std::optional<double> hold = std::nullopt;     // seconds of each still of a film
+  bool format_given = false, png_given = false;  // on the command line
+  bool json = false;
+};
+
+// Draws what is asked for; gives the exit code.
+int draw_scenarios(const RenderOptions& options);
+// Draws, and again what was saved since, until Ctrl-C: exit code 130.
+int watch_scenarios(const RenderOptions& options);
+
+// What the command line asks for, and not the scenario, may be refused: what `make` refuses is told
+// as the user's mistake, between these words.
+template <class Make>
+auto as_asked(const Make& make, const char* before = "", const char* behind = "") try {
+  return make();
+} catch (const Refused& refused) {
+  throw UsageError(before + std::string(refused.what()) + behind);
+}
+
+struct RenderJob {
+  // Throws UsageError for a size that cannot be. The options must outlive this.
+  explicit RenderJob(const RenderOptions& options);
+
+  const RenderOptions& options;
+  Pipeline::Config picture;  // how the picture of a frame is made
+  Backend backend = Backend::automatic;
+  FileKind format = FileKind::png;  // of a frame's picture, where it is a file
+  InBetweens in_betweens;
+
+  // What of the frame is shown: as the scenario has it, and the command line.
+  Display display_of(const Frame& frame) const;
+
+  // The picture on paper, in points of 1/72 inch.
+  Vec<2> points() const;
+
+  // The frame as a page, with what the command line switches on and off.
+  DrawList page_of(const Frame& frame, const Staging& staging, Work& work) const;
+
+  // Graphics for the job's pictures, or for some of this size. Throws BackendError, and UsageError
+  // for pictures that are too large.
+  std::unique_ptr<Pipeline> make_pipeline(Work& work) const;
+  std::unique_ptr<Renderer> make_renderer(int width, int height, Work& work) const;
+
+  // Of a folder that holds no frame yet.
+  Manifest manifest(const Scenario& scenario, Pace pace) const;
+};
+
+// What a PNG says of its frame.
+std::vector<PngText> texts_of(const Frame& frame);
+
+// A whole file, sealed, in the job's format; `as` tells size and style, which the job's own
+// pictures take from job.picture. For PNG it starts graphics and ends them.
+std::string picture_of(const RenderJob& job, const Pipeline::Config& as, const Frame& frame,
+                       const DrawList& list, const MadeFrom& from, Work& work);
+
+// Stands on a frame and knows the one before it. A page is laid out when it is first asked for.
+class FrameWalk {
+ public:
+  FrameWalk(const RenderJob& job, Work& work) : job_(job), work_(work) {}
+
+  // On to the next chosen frame. The staging is that of the frame and must outlive the stay there.
+  void go_on(const Frame& frame, const Staging& staging);
+
+  const Frame& here() const { return here_->frame; }
+  const DrawList& page() { return page_of(*here_); }
+  // The one that was chosen before; null on the first.
+  const Frame* before() const { return before_ ? &before_->frame : nullptr; }
+  const DrawList& page_before() { return page_of(*before_); }
+  // No frame lies between the two: something may be shown that does.
+  bool goes_on() const { return before_ && before_->frame.index + 1 == here_->frame.index; }
+  // What is seen at `t` of the way, from 0, the frame before, to 1, this one.
+  DrawList in_between(double t);
+
+ private:
+  struct Stop {
+    Frame frame;
+    std::optional<DrawList> page = std::nullopt;
+  };
+  const DrawList& page_of(Stop& stop);
+
+  const RenderJob& job_;
+  Work& work_;
+  const Staging* staging_ = nullptr;
+  std::optional<Stop> before_, here_;
+};
+
+}  // namespace lantern::app

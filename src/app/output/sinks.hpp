@@ -1,0 +1,146 @@
+// Where frames go that are drawn: they wait until all are there that share a layout with them.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/folders/shard.hpp"
+#include "app/output/destination.hpp"
+#include "app/output/render_job.hpp"
+#include "app/run_scenario.hpp"
+#include "base/file.hpp"
+#include "base/work.hpp"
+#include "draw/staging.hpp"
+
+namespace lantern::app {
+
+// Keeps the frames of a sequence, at most `Bound` of them, and then gives each with what its group
+// shares; the axes of charts are those of all that were kept. A frame's picture depends on the
+// scenario alone: the bound is counted in frames and in bytes estimated from what a frame lists.
+// When a run is stopped before its end, frames that were waiting are not drawn.
+class StagedSink : public FrameSink {
+ public:
+  struct Bound {
+    std::size_t frames = 1000;
+    std::size_t bytes = std::size_t{64} << 20;
+  };
+  StagedSink() = default;
+  explicit StagedSink(const Bound& bound) : bound_(bound) {}
+
+  void frame(const Frame& frame) final;
+  void finish(const DirectorReport& report) final;
+  std::uint64_t waiting() const final { return undrawn_; }
+
+ protected:
+  // Every frame of the run, in order.
+  virtual void draw(const Frame& frame, const Staging& staging) = 0;
+  // After the last one.
+  virtual void close(const DirectorReport& report) = 0;
+
+ private:
+  void flush();
+
+  Bound bound_;
+  std::vector<Frame> waiting_;
+  std::size_t bytes_ = 0;  // of those
+  std::atomic<std::uint64_t> undrawn_{0};
+};
+
+// Frames into DIR/<scenario>/: a picture and facts each, a manifest, and the finished atlas. Each
+// chosen frame is drawn when its group is whole, unless its picture stands there already; of a part
+// only that part's, and the atlas with the last frame. The disk is left as it was until the first
+// one. Its run throws IoError, BackendError, and UsageError for a picture that is too large and if
+// no frame was chosen.
+class FolderSink : public StagedSink {
+ public:
+  struct Made {
+    std::filesystem::path path;
+    std::size_t drawn = 0, kept = 0;
+    std::uint64_t chosen = 0;     // of the whole run, whoever draws them
+    std::size_t in_betweens = 0;  // there now
+    bool has_atlas = false;       // it stands there, whole
+  };
+  // After finish().
+  const Made& made() const { return made_; }
+
+ protected:
+  Made made_;
+};
+// All that is given to it must outlive it.
+std::unique_ptr<FolderSink> make_folder_sink(const RenderJob& job, const Scenario& scenario,
+                                             Pace pace, Selection& selection, Work& work,
+                                             const Part& part);
+
+// What a sink is made for. All of it must outlive the sink.
+struct Sequence {
+  const RenderJob& job;
+  const Destination& to;
+  const Scenario& scenario;
+  Pace pace;
+  Selection& selection;
+  Work& work;
+
+  std::filesystem::path file_of(const Frame& frame) const {
+    return to.file({scenario.name, frame.step, frame.index});
+  }
+  // That `why` speaks against what stands after -o.
+  [[noreturn]] void refuse(const std::string& why) const;
+};
+
+// Frames into files that the user names, or onto standard output. A file has its name only when it
+// is whole: when a run fails or is interrupted, what stood there before still does. Each kind
+// throws UsageError for what it cannot do, before the run if it can be known then.
+class FileSink : public StagedSink {
+ public:
+  struct Made {
+    std::uint64_t frames = 0;                      // in the files
+    std::vector<std::filesystem::path> files;      // whole, in order
+    std::optional<double> seconds = std::nullopt;  // that films take in all,
+    double rate = 0;                               // at so many pictures a second
+  };
+  // After finish().
+  const Made& made() const { return made_; }
+
+ protected:
+  explicit FileSink(const Sequence& sequence) : of_(sequence) {}
+
+  // Every chosen frame, in order.
+  virtual void take(const Frame& frame, const Staging& staging) = 0;
+  // After the last one; there was one.
+  virtual void end() = 0;
+
+  // Where a file of this name goes, see make_place().
+  FilePlace place_of(const std::filesystem::path& file) const;
+  // Makes the folder and writes the whole file, in which so many frames are. Throws IoError; what
+  // stood there before then still does.
+  void write(const std::filesystem::path& file, std::string_view bytes, std::uint64_t frames);
+
+  const Sequence of_;
+  Made made_;
+
+ private:
+  void draw(const Frame& frame, const Staging& staging) final;
+  void close(const DirectorReport& report) final;
+};
+
+// The sink for this kind of output, which is no folder.
+std::unique_ptr<FileSink> make_file_sink(const Sequence& sequence);
+// Each of them in a file of its own.
+std::unique_ptr<FileSink> make_picture_sink(const Sequence& sequence);
+std::unique_ptr<FileSink> make_stdout_sink(const Sequence& sequence);
+std::unique_ptr<FileSink> make_film_sink(const Sequence& sequence);
+std::unique_ptr<FileSink> make_document_sink(const Sequence& sequence);
+std::unique_ptr<FileSink> make_sheet_sink(const Sequence& sequence);
+std::unique_ptr<FileSink> make_page_sink(const Sequence& sequence);
+
+// Where a file goes that an option names, if it may be written: see require_free(). Its folder is
+// made: `users`, which the user has named, links and all; and what is below, through no link.
+FilePlace make_place(const std::filesystem::path& file, const std::filesystem::path& users);
+
+}  // namespace lantern::app

@@ -1,0 +1,157 @@
+#include "app/output/watch.hpp"
+
+#include <exception>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include "app/terminal.hpp"
+#include "base/error.hpp"
+#include "base/file.hpp"
+#include "base/hash.hpp"
+#include "base/json_writer.hpp"
+
+namespace lantern::app {
+
+namespace fs = std::filesystem;
+
+WatchedFiles::WatchedFiles(const std::vector<std::string>& files) {
+  for (const std::string& file : files) {
+    const Stamp stamp = stamp_of(file);
+    files_.push_back({file, stamp, std::nullopt, hash_of(file).value_or(0)});
+  }
+}
+
+WatchedFiles::Stamp WatchedFiles::stamp_of(const std::string& file) {
+  struct stat found {};
+  std::error_code error;
+  const auto written = fs::last_write_time(file, error);
+  if (error || ::stat(file.c_str(), &found) != 0) return std::nullopt;
+  return std::tuple(written, static_cast<std::uintmax_t>(found.st_size),
+                    static_cast<std::uint64_t>(found.st_ino));
+}
+
+std::optional<std::uint64_t> WatchedFiles::hash_of(const std::string& file) try {
+  constexpr std::size_t kMostBytes = std::size_t{1} << 28;
+  return Hash().add(read_file(file, kMostBytes)).value();
+} catch (const IoError&) {
+  return std::nullopt;
+}
+
+// A stamp that has rested is older than a clock tick, so that whatever is written later has
+// another.
+std::vector<std::string> WatchedFiles::changed() {
+  std::vector<std::string> changed;
+  gone_.clear();
+  back_.clear();
+  for (Watched& one : files_) {
+    const Stamp now = stamp_of(one.file);
+    const bool rests = now == one.looked_at;
+    one.looked_at = now;
+    if (rests && one.is_gone != !now) {
+      one.is_gone = !now;
+      (now ? back_ : gone_).push_back(one.file);
+    }
+    if (!now || !rests || now == one.told) continue;
+    const auto hash = hash_of(one.file);
+    if (!hash) continue;
+    one.told = now;
+    if (*hash == one.hash) continue;
+    one.hash = *hash;
+    changed.push_back(one.file);
+  }
+  return changed;
+}
+
+namespace {
+
+constexpr const char* kScript = R"(<script>
+(() => {{
+  let known = null;
+  window.lanternVersion = version => {{
+    if (known !== null && known !== version) location.reload();
+    known = version;
+  }};
+  setInterval(() => {{
+    const script = document.createElement("script");
+    script.src = encodeURIComponent({}) + "?" + Date.now();
+    script.onload = script.onerror = () => script.remove();
+    document.head.append(script);
+  }}, 500);
+}})();
+</script>
+)";
+
+constexpr std::string_view kCall = "lanternVersion(";
+
+struct Version {
+  FilePlace place;
+  std::string bytes;
+};
+
+std::vector<Version>& written() {
+  static std::vector<Version> versions;
+  return versions;
+}
+
+std::string version_file(std::string_view page) { return fmt::format("{}.version.js", page); }
+
+// What stands there; nothing if nothing does. Throws IoError for a link, a folder or a device.
+std::optional<std::string> standing(const FilePlace& place) {
+  constexpr std::size_t kMostBytes = 1000;  // of ours
+  return place.folder.read(place.name, kMostBytes);
+}
+
+// In a script, "</script>" would end it wherever it stands.
+std::string script_string(std::string_view text) {
+  std::string quoted = json_string(text);
+  for (std::size_t at = 0; (at = quoted.find('<', at)) != quoted.npos;)
+    quoted.replace(at, 1, "\\u003c");
+  return quoted;
+}
+
+}  // namespace
+
+std::string reload_script(const std::filesystem::path& page) {
+  return fmt::format(kScript, script_string(version_file(page.filename().string())));
+}
+
+void require_version_place(const FilePlace& page) {
+  const FilePlace place(page.folder, version_file(page.name));
+  require_writable(place);
+  const auto is_ours = [&] {
+    try {
+      return standing(place).value_or(std::string(kCall)).starts_with(kCall);
+    } catch (const IoError&) {
+      return false;
+    }
+  };
+  if (!is_ours())
+    throw UsageError(fmt::format(
+        "'{}' is not Lantern's, and the page is told by it that it was made again; name "
+        "another page",
+        place.path().string()));
+}
+
+void tell_version(const FilePlace& page, std::string_view bytes) {
+  const FilePlace place(page.folder, version_file(page.name));
+  const std::string text = fmt::format("{}\"{:016x}\");\n", kCall, Hash().add(bytes).value());
+  write_file(place, text);
+  std::erase_if(written(), [&](const Version& old) { return old.place.path() == place.path(); });
+  written().push_back({place, text});
+}
+
+void forget_versions() noexcept {
+  for (const Version& version : written()) try {
+      if (standing(version.place) == version.bytes) version.place.folder.remove(version.place.name);
+    } catch (const std::exception&) {
+      // it is somebody else's by now
+    }
+  written().clear();
+}
+
+}  // namespace lantern::app

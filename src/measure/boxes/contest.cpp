@@ -1,0 +1,370 @@
+#include "measure/boxes/contest.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include <fmt/format.h>
+
+#include "base/counted.hpp"
+#include "base/stop.hpp"
+#include "measure/broad_phase_cost.hpp"
+#include "measure/peer_modules.hpp"
+#include "measure/peers.hpp"
+#include "spatial/pair_order.hpp"
+#include "spatial/query.hpp"
+
+namespace lantern::measure {
+
+namespace {
+
+template <int D>
+const BoxUpdates<D>& updates_in(const BoxStage& stage) {
+  return std::get<BoxUpdates<D>>(stage.scene.boxes);
+}
+template <int D>
+const Questions<D>& questions_in(const BoxStage& stage) {
+  return std::get<Questions<D>>(stage.questions);
+}
+
+// --- how one is run ---
+
+// One that finds pairs, whoever it is.
+template <int D>
+class PeerPairs : public BoxRun {
+ public:
+  PeerPairs(const BoxStage& stage, const BoxPeer& peer, std::unique_ptr<PairFinder<D>> finder)
+      : scene_(updates_in<D>(stage)), peer_(peer), finder_(std::move(finder)) {}
+
+  void step(std::size_t frame) override {
+    pairs_.clear();
+    finder_->find(scene_.frames[frame], pairs_);
+    into_order(pairs_, static_cast<std::uint32_t>(scene_.frames[frame].size()));
+  }
+  const std::vector<Pair>& found() const override { return pairs_; }
+  std::optional<std::uint64_t> allocations() const override {
+    return peer_.allocations ? std::optional(peer_.allocations()) : std::nullopt;
+  }
+
+ private:
+  const BoxUpdates<D>& scene_;
+  const BoxPeer& peer_;
+  std::unique_ptr<PairFinder<D>> finder_;
+  std::vector<Pair> pairs_;
+};
+
+template <int D>
+class OwnPairs : public BoxRun {
+ public:
+  OwnPairs(const BoxStage& stage, const BroadPhaseConfig<D>& config)
+      : scene_(updates_in<D>(stage)), broad_phase_(config) {}
+
+  void step(std::size_t frame) override { broad_phase_.update(scene_.frames[frame]); }
+  const std::vector<Pair>& found() const override { return broad_phase_.pairs(); }
+  std::optional<std::uint64_t> allocations() const override {
+    return broad_phase_.counters().allocations;
+  }
+  BoxCounts counts() const override {
+    const BroadPhaseCounters& c = broad_phase_.counters();
+    const Counters tree = broad_phase_.dynamic().counters();
+    const auto number = [](std::uint64_t n) { return static_cast<double>(n); };
+    return {number(c.pair_tests), number(tree.box_tests), number(c.nodes_visited),
+            number(tree.nodes), number(tree.entries)};
+  }
+
+ private:
+  const BoxUpdates<D>& scene_;
+  BroadPhase<D> broad_phase_;
+};
+
+template <int D>
+class OwnOracle : public Oracle<D> {
+ public:
+  explicit OwnOracle(const BroadPhaseConfig<D>& config) : broad_phase_(config) {}
+
+  void build(Boxes<D> boxes) override { broad_phase_.build(boxes); }
+  void along(const Ray<D>& ray, std::vector<BodyId>& ids) override {
+    raycast_all_into(hits_, broad_phase_.dynamic(), ray);
+    for (const RayHit& hit : hits_.hits) ids.push_back(hit.id);
+  }
+  bool first(const Ray<D>& ray, std::vector<BodyId>& ids) override {
+    const NearestHit nearest = raycast_nearest(broad_phase_.dynamic(), ray);
+    if (nearest.hit) ids.push_back(nearest.hit->id);
+    return true;
+  }
+  void within(const Box<D>& box, std::vector<BodyId>& ids) override { inside(box, ids); }
+  void within(const Ball<D>& ball, std::vector<BodyId>& ids) override { inside(ball, ids); }
+
+ private:
+  template <class Volume>
+  void inside(const Volume& volume, std::vector<BodyId>& ids) {
+    overlap_query_into(found_, broad_phase_.dynamic(), volume);
+    ids.insert(ids.end(), found_.ids.begin(), found_.ids.end());
+  }
+
+  BroadPhase<D> broad_phase_;
+  AllHits hits_;
+  Found found_;
+};
+
+// One that is asked, whoever it is. It is built before the first step.
+template <int D>
+class Asked : public BoxRun {
+ public:
+  Asked(const BoxStage& stage, std::unique_ptr<Oracle<D>> oracle)
+      : task_(stage.task),
+        boxes_(updates_in<D>(stage).frames[0]),
+        questions_(questions_in<D>(stage)),
+        oracle_(std::move(oracle)) {
+    oracle_->build(boxes_);
+  }
+
+  void step(std::size_t) override {
+    found_.clear();
+    for (std::uint32_t i = 0; i < kQuestions; ++i) {
+      ids_.clear();
+      ask(i);
+      std::sort(ids_.begin(), ids_.end());
+      for (const BodyId id : ids_) found_.push_back({i, id});
+    }
+  }
+  const std::vector<Pair>& found() const override { return found_; }
+
+ private:
+  void ask(std::size_t i) {
+    if (task_ == BoxTask::rays) return oracle_->along(questions_.rays[i], ids_);
+    if (task_ == BoxTask::boxes) return oracle_->within(questions_.boxes[i], ids_);
+    if (task_ == BoxTask::balls) return oracle_->within(questions_.balls[i], ids_);
+    if (!oracle_->first(questions_.rays[i], ids_)) keep_first(questions_.rays[i]);
+  }
+
+  void keep_first(const Ray<D>& ray) {
+    std::optional<RayHit> best;
+    for (const BodyId id : ids_)
+      if (const auto span = span_in(ray, boxes_[id].box))
+        if (const RayHit hit{id, span->from}; !best || RayHit::before(hit, *best)) best = hit;
+    ids_.clear();
+    if (best) ids_.push_back(best->id);
+  }
+
+  BoxTask task_;
+  Boxes<D> boxes_;
+  const Questions<D>& questions_;
+  std::unique_ptr<Oracle<D>> oracle_;
+  std::vector<BodyId> ids_;
+  std::vector<Pair> found_;
+};
+
+// --- who takes part ---
+
+class OwnContestantOf : public BoxContestant {
+ public:
+  explicit OwnContestantOf(StructureKind kind) : kind_(kind), traits_(traits_of(kind)) {}
+
+  std::string name() const override { return std::string(to_string(kind_)); }
+  bool can(const BoxStage& stage) const override { return is_possible(kind_, stage.dimension()); }
+
+  // Leaves of 16 that are about as large as their bodies' shares of the world.
+  // Of a grid 2^first levels; of an aabb_tree one of the margins.
+  BoxSetting likely(const BoxStage& stage) const override {
+    if (!traits_.splits) return {};
+    const double children = name() == "kd_tree" ? 2 : std::pow(2.0, stage.dimension());
+    const double leaves = std::max(1.0, static_cast<double>(stage.bodies()) / 8);
+    return {4, std::clamp(static_cast<int>(std::lround(std::log(leaves) / std::log(children))), 1,
+                          kDeepest)};
+  }
+  bool has(const BoxSetting& s) const override {
+    if (traits_.has(Setting::levels)) return s.first >= 0 && s.first <= 3 && s.second == 0;
+    if (traits_.has(Setting::margin))
+      return s.first >= 0 && s.first < static_cast<int>(kMargins.size()) && s.second == 0;
+    if (!traits_.splits) return s == BoxSetting{};
+    return s.first >= 1 && s.first <= 9 && s.second >= 1 && s.second <= kDeepest;
+  }
+  std::string words(const BoxSetting& s) const override {
+    if (traits_.has(Setting::levels)) return counted(1 << s.first, "level");
+    if (traits_.has(Setting::margin))
+      return fmt::format("margin {:g}", kMargins[static_cast<std::size_t>(s.first)]);
+    return traits_.splits ? fmt::format("capacity {}, depth limit {}", 1 << s.first, s.second) : "";
+  }
+  std::unique_ptr<BoxRun> start(const BoxStage& stage, const BoxSetting& setting) const override {
+    if (stage.dimension() == 2) return start_in<2>(stage, setting);
+    return start_in<3>(stage, setting);
+  }
+
+ private:
+  static constexpr int kDeepest = 16;
+  static constexpr std::array kMargins = {0.0, 0.05, 0.1, 0.2, 0.4};
+
+  template <int D>
+  std::unique_ptr<BoxRun> start_in(const BoxStage& stage, const BoxSetting& setting) const {
+    BroadPhaseConfig<D> config;
+    config.kind = kind_;
+    config.build = Build::at_once;
+    config.bounds = updates_in<D>(stage).bounds;
+    if (traits_.has(Setting::levels)) config.levels = 1u << setting.first;
+    if (traits_.has(Setting::margin))
+      config.margin = kMargins[static_cast<std::size_t>(setting.first)];
+    if (traits_.splits) {
+      config.capacity = 1u << setting.first;
+      config.max_depth = static_cast<std::uint32_t>(setting.second);
+    }
+    if (stage.task == BoxTask::pairs) return std::make_unique<OwnPairs<D>>(stage, config);
+    return std::make_unique<Asked<D>>(stage, std::make_unique<OwnOracle<D>>(config));
+  }
+
+  StructureKind kind_;
+  StructureTraits traits_;
+};
+
+class PeerContestant : public BoxContestant {
+ public:
+  explicit PeerContestant(BoxPeer peer) : peer_(std::move(peer)) {}
+
+  std::string name() const override { return peer_.name; }
+  std::string version() const override { return peer_.version; }
+  std::string how() const override { return peer_.how; }
+  bool can(const BoxStage& stage) const override {
+    const bool flat = stage.dimension() == 2;
+    if (stage.task == BoxTask::pairs) return flat ? bool(peer_.pairs_2d) : bool(peer_.pairs_3d);
+    return flat ? bool(peer_.oracle_2d) : bool(peer_.oracle_3d);
+  }
+  BoxSetting likely(const BoxStage&) const override { return {}; }
+  bool has(const BoxSetting& s) const override {
+    return s.second == 0 && s.first >= 0 && s.first < static_cast<int>(peer_.settings.size());
+  }
+  std::string words(const BoxSetting& s) const override {
+    return peer_.settings[static_cast<std::size_t>(s.first)];
+  }
+  std::unique_ptr<BoxRun> start(const BoxStage& stage, const BoxSetting& setting) const override {
+    const auto place = static_cast<std::size_t>(setting.first);
+    const bool flat = stage.dimension() == 2;
+    if (stage.task != BoxTask::pairs) {
+      if (flat) return std::make_unique<Asked<2>>(stage, peer_.oracle_2d(place));
+      return std::make_unique<Asked<3>>(stage, peer_.oracle_3d(place));
+    }
+    if (flat) return std::make_unique<PeerPairs<2>>(stage, peer_, peer_.pairs_2d(place));
+    return std::make_unique<PeerPairs<3>>(stage, peer_, peer_.pairs_3d(place));
+  }
+
+ private:
+  BoxPeer peer_;
+};
+
+constexpr PeerModule kBoxModules[] = {
+    {"CGAL", "lantern_peer_boxes_cgal.so", "libcgal-dev"},
+    {"Boost", "lantern_peer_boxes_boost.so", "libboost-dev"},
+    {"Bullet", "lantern_peer_boxes_bullet.so", "libbullet-dev"},
+    {"Box2D", "lantern_peer_boxes_box2d.so", "libbox2d-dev"},
+};
+
+}  // namespace
+
+std::vector<std::unique_ptr<BoxContestant>> own_box_contestants() {
+  std::vector<std::unique_ptr<BoxContestant>> all;
+  const auto automatic = structure_named("auto");
+  if (automatic) all.push_back(std::make_unique<OwnContestantOf>(*automatic));
+  for (const StructureKind kind : known_structures())
+    if (!traits_of(kind).has(Setting::planes) && kind != automatic)
+      all.push_back(std::make_unique<OwnContestantOf>(kind));
+  return all;
+}
+
+std::vector<std::unique_ptr<BoxContestant>> peer_box_contestants(
+    std::vector<std::string>& missing) {
+  std::vector<std::unique_ptr<BoxContestant>> all;
+  for (BoxPeer& peer : peers_of<BoxPeer>(kBoxModules, "lantern_box_peers", missing))
+    all.push_back(std::make_unique<PeerContestant>(std::move(peer)));
+  return all;
+}
+
+std::vector<std::string> box_peer_names(std::vector<std::string>& missing) {
+  std::vector<std::string> names;
+  for (const BoxPeer& peer : peers_of<BoxPeer>(kBoxModules, "lantern_box_peers", missing))
+    names.push_back(peer.name + " " + peer.version);
+  return names;
+}
+
+void into_order(std::vector<Pair>& pairs, std::uint32_t bodies) {
+  thread_local FoundPairs found;
+  thread_local PairOrder order;
+  thread_local std::vector<BodyId> names;
+  if (names.size() != bodies) {
+    names.resize(bodies);
+    std::iota(names.begin(), names.end(), BodyId{0});
+  }
+  found.clear();
+  found.reserve(pairs.size(), 0);
+  for (const Pair& pair : pairs) found.add(pair.a, pair.b);
+  order.order(found, names, pairs);
+}
+
+// --- what is to be found ---
+
+BoxTruth::BoxTruth(const BoxStage& stage, std::size_t frame) {
+  stage.dimension() == 2 ? force<2>(stage, frame) : force<3>(stage, frame);
+}
+
+template <int D>
+void BoxTruth::force(const BoxStage& stage, std::size_t frame) {
+  const std::vector<Proxy<D>>& boxes = std::get<BoxUpdates<D>>(stage.scene.boxes).frames[frame];
+  if (stage.task != BoxTask::pairs)
+    answer<D>(stage);
+  else if (boxes.size() <= kMostForced)
+    truth_ = pairs_by_force<D>(boxes);
+  else
+    force_sample<D>(boxes);
+}
+
+template <int D>
+void BoxTruth::force_sample(Boxes<D> boxes) {
+  is_sample_ = true;
+  stride_ = boxes.size() / kSample;
+  for (std::size_t i = 0; i < boxes.size(); i += stride_) {
+    stop_if_asked();
+    for (std::size_t j = 0; j < boxes.size(); ++j) {
+      if (j == i || (j % stride_ == 0 && j < i)) continue;
+      if ((boxes[i].is_static && boxes[j].is_static) || !overlap(boxes[i].box, boxes[j].box))
+        continue;
+      truth_.push_back({std::min(boxes[i].id, boxes[j].id), std::max(boxes[i].id, boxes[j].id)});
+    }
+  }
+  std::sort(truth_.begin(), truth_.end());
+}
+
+template <int D>
+void BoxTruth::answer(const BoxStage& stage) {
+  const Boxes<D> boxes = std::get<BoxUpdates<D>>(stage.scene.boxes).frames[0];
+  const auto& q = std::get<Questions<D>>(stage.questions);
+  for (std::uint32_t i = 0; i < kQuestions; ++i) {
+    stop_if_asked();
+    std::optional<RayHit> best;
+    for (const Proxy<D>& body : boxes) {
+      const auto span = span_in(q.rays[i], body.box);
+      const bool is_met = stage.task == BoxTask::boxes   ? overlap(q.boxes[i], body.box)
+                          : stage.task == BoxTask::balls ? overlap(q.balls[i], body.box)
+                                                         : span.has_value();
+      if (!is_met) continue;
+      if (stage.task != BoxTask::first_hits)
+        truth_.push_back({i, body.id});
+      else if (const RayHit hit{body.id, span->from}; !best || RayHit::before(hit, *best))
+        best = hit;
+    }
+    if (best) truth_.push_back({i, best->id});
+  }
+}
+
+BoxTruth::Verdict BoxTruth::judge(std::span<const Pair> found) const {
+  if (!is_sample_) return {count_missing(truth_, found), count_missing(found, truth_)};
+  std::vector<Pair> of_sample;
+  for (const Pair& pair : found)
+    if (pair.a % stride_ == 0 || pair.b % stride_ == 0) of_sample.push_back(pair);
+  return {count_missing(truth_, of_sample), count_missing(of_sample, truth_)};
+}
+
+std::string BoxTruth::words() const {
+  if (!is_sample_) return "brute force";
+  return fmt::format("brute force of every {}th body", stride_);
+}
+
+}  // namespace lantern::measure

@@ -1,0 +1,480 @@
+// Bodies that slide, roll and topple on the ground, on a slope and on a plate.
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "measure/metrics/reading.hpp"
+
+namespace lantern::measure {
+
+// --- bodies that are thrown along level ground ---
+
+namespace {
+
+// Blocks that slide over level ground until friction has stopped them: after v / (mu g) seconds and
+// v^2 / (2 mu g) units, straight on, whatever their heading.
+class Slide : public ErrorMetric {
+ public:
+  explicit Slide(const Scenario& scenario) : ground_(ground_of(scenario)) {
+    require_links(scenario, 0);
+    const double gravity = pull_onto(scenario, ground_);
+    for (const std::size_t i : moving_bodies(scenario)) {
+      const BodySpec& body = scenario.bodies[i];
+      require_on_ground(scenario, ground_, i);
+      const double speed = glm::length(body.velocity);
+      if (!(speed > 0) || std::abs(glm::dot(body.velocity, ground_.normal)) > 1e-12 * speed)
+        refuse_problem(scenario, fmt::format("'{}' does not slide along the ground", body.name));
+      const double mu = friction_between(scenario, i, ground_.body);
+      if (!(mu > 0)) refuse_problem(scenario, fmt::format("'{}' has no friction", body.name));
+      const Vec<3> heading = body.velocity / speed;
+      if (turns(body) &&
+          (is_ball(body) || mu * reach_along(body, ground_.normal) > reach_along(body, heading)))
+        refuse_problem(scenario, fmt::format("'{}' would roll or topple", body.name));
+      sliders_.push_back({i, body.position, heading, speed, mu * gravity});
+      if (sliders_.back().time() > scenario.problem->seconds)
+        refuse_problem(scenario, fmt::format("'{}' still slides at the end", body.name));
+    }
+    if (sliders_.size() < 2) drop(apart_);
+  }
+
+  void look(const Observation& now) override {
+    double most = 0, least = 0;
+    for (const Slider& s : sliders_) {
+      const BodyState& state = now.states[s.body];
+      const double along = glm::dot(state.velocity, s.heading);
+      const Vec<3> way = state.position - s.start;
+      // Where it will stop, and when, if friction goes on as it should.
+      const double ahead = along * std::abs(along) / (2 * s.braking);
+      const Vec<3> off = way + s.heading * ahead - s.heading * s.distance();
+      const double error = glm::length(off - ground_.normal * glm::dot(off, ground_.normal));
+      distance_.meet(error / s.distance());
+      const bool slides = std::abs(along) > kStill * s.speed || !std::isfinite(along);
+      const double end = now.time + along / s.braking;
+      if (slides || now.time < s.time()) time_.meet((end - s.time()) / s.time());
+      const double share = (glm::dot(way, s.heading) + ahead) / s.distance();
+      most = &s == &sliders_.front() ? share : std::max(most, share);
+      least = &s == &sliders_.front() ? share : std::min(least, share);
+    }
+    apart_.meet(most - least);
+  }
+
+ private:
+  static constexpr double kStill = 1e-6;  // of its first speed: so slow is stopped
+
+  struct Slider {
+    std::size_t body = 0;
+    Vec<3> start{0.0}, heading{0.0};
+    double speed = 0, braking = 0;  // mu g
+    double time() const { return speed / braking; }
+    double distance() const { return speed * speed / (2 * braking); }
+  };
+
+  Footing ground_;
+  std::vector<Slider> sliders_;
+  Worst& distance_ = norm("distance", "1",
+                          "largest error of the place where a body stops, or by its speed would "
+                          "stop, over the distance to there");
+  Worst& time_ = norm("time", "1", "largest error of the moment at which it stops, relative");
+  Worst& apart_ = norm("agree", "1", "largest difference between the bodies' distances, relative");
+};
+
+// Balls that are thrown along level ground without spin. Friction brakes them and makes them turn,
+// until they roll. With inertia k m r^2 (k = 2/5, of a disc 1/2) they slip at first with v, and
+//
+//   slip(t) = v - (1 + 1/k) mu g t       so it rolls at t = k/(1+k) v/(mu g) = 2/7 v/(mu g)
+//                                        with v/(1+k) = 5/7 v, for ever
+class SlipThenRoll : public ErrorMetric {
+ public:
+  explicit SlipThenRoll(const Scenario& scenario)
+      : ground_(ground_of(scenario)), k_(roundness(scenario)) {
+    require_links(scenario, 0);
+    const double gravity = pull_onto(scenario, ground_);
+    for (const std::size_t i : moving_bodies(scenario)) {
+      const BodySpec& body = scenario.bodies[i];
+      require_on_ground(scenario, ground_, i);
+      if (!is_ball(body) || !turns(body) || body.spin != 0)
+        refuse_problem(scenario, fmt::format("'{}' is no ball that begins to turn", body.name));
+      const double speed = glm::length(body.velocity);
+      if (!(speed > 0) || std::abs(glm::dot(body.velocity, ground_.normal)) > 1e-12 * speed)
+        refuse_problem(scenario, fmt::format("'{}' does not go along the ground", body.name));
+      const double mu = friction_between(scenario, i, ground_.body);
+      if (!(mu > 0)) refuse_problem(scenario, fmt::format("'{}' has no friction", body.name));
+      balls_.push_back({i, body.position, body.velocity / speed, speed, mu * gravity,
+                        reach_along(body, ground_.normal)});
+      if (rolls_after(balls_.back()) > scenario.problem->seconds)
+        refuse_problem(scenario, fmt::format("'{}' still slips at the end", body.name));
+    }
+  }
+
+  void look(const Observation& now) override {
+    for (const Ball& ball : balls_) {
+      const BodyState& state = now.states[ball.body];
+      const double rolls = rolls_after(ball);
+      const double slipping = std::min(now.time, rolls), rolling = now.time - slipping;
+      const double end_speed = ball.speed / (1 + k_);
+      const double slid = ball.speed * slipping - ball.braking * slipping * slipping / 2;
+      const double speed = ball.speed - ball.braking * slipping;
+      const double way_until_rolls = rolls * (ball.speed + end_speed) / 2;
+      distance_.meet(
+          glm::length(state.position - ball.start - ball.heading * (slid + end_speed * rolling)) /
+          way_until_rolls);
+      speed_.meet(glm::length(state.velocity - ball.heading * speed) / ball.speed);
+      const Vec<3> touching =
+          state.velocity + glm::cross(state.angular_velocity, -ball.radius * ground_.normal);
+      const double slip = glm::dot(touching, ball.heading);
+      const double end = now.time + slip / (ball.braking * (1 + 1 / k_));
+      const bool slips = std::abs(slip) > kStill * ball.speed || !std::isfinite(slip);
+      if (slips || now.time < rolls) time_.meet((end - rolls) / rolls);
+    }
+  }
+
+ private:
+  static constexpr double kStill = 1e-6;  // of its first speed: so little slip is none
+
+  struct Ball {
+    std::size_t body = 0;
+    Vec<3> start{0.0}, heading{0.0};
+    double speed = 0, braking = 0, radius = 0;  // braking: mu g
+  };
+
+  double rolls_after(const Ball& ball) const { return k_ / (1 + k_) * ball.speed / ball.braking; }
+
+  Footing ground_;
+  double k_;
+  std::vector<Ball> balls_;
+  Worst& distance_ =
+      norm("distance", "1", "largest error of a place over the run, over the distance slipped");
+  Worst& time_ = norm("time", "1", "largest error of the moment from which it rolls, relative");
+  Worst& speed_ = norm("v", "1", "largest error of a velocity, over the first speed");
+};
+
+}  // namespace
+
+MetricMaker slide_metric(const Scenario& s) { return made_of<Slide>(s); }
+MetricMaker slip_then_roll_metric(const Scenario& s) { return made_of<SlipThenRoll>(s); }
+
+// --- bodies that are put on a slope ---
+
+namespace {
+
+// Blocks and balls that are put on a slope. A block stays iff tan a <= mu, else it slides with
+// g (sin a - mu cos a). A ball of inertia k m r^2 rolls with g sin a / (1 + k) iff
+// tan a <= mu (1 + k) / k, else it slips, and slides as a block does.
+class Incline : public ErrorMetric {
+ public:
+  explicit Incline(const Scenario& scenario)
+      : ground_(ground_of(scenario)), slope_(slope_of(scenario, ground_)), k_(roundness(scenario)) {
+    require_links(scenario, 0);
+    for (const std::size_t i : moving_bodies(scenario)) add(scenario, i);
+  }
+
+  void look(const Observation& now) override {
+    if (!(now.time > 0)) return;
+    Worst error;
+    double wrong = 0;
+    for (const Slider& s : sliders_) {
+      const BodyState& state = now.states[s.body];
+      const double way = glm::dot(state.position - s.start, slope_.downhill);
+      const double found = 2 * way / (now.time * now.time);
+      error.meet((found - s.acceleration) / std::hypot(slope_.pull, slope_.push));
+      wrong += is_wrong(s, state, found, now.time);
+    }
+    acceleration_.set(error.value());
+    wrong_.set(wrong);
+  }
+
+ private:
+  struct Slider {
+    std::size_t body = 0;
+    Vec<3> start{0.0};
+    double acceleration = 0;
+    double radius = 0;  // of a ball, else 0
+    double excess = 0;  // acceleration (of a ball: of its slip) that friction cannot hold; below 0
+                        // what it could hold besides
+  };
+
+  void add(const Scenario& scenario, std::size_t index) {
+    const BodySpec& body = scenario.bodies[index];
+    require_on_ground(scenario, ground_, index);
+    require_at_rest(scenario, index);
+    const double grip = friction_between(scenario, index, ground_.body) * slope_.pull;
+    Slider s{index, body.position, std::max(slope_.push - grip, 0.0), 0, slope_.push - grip};
+    if (is_ball(body) && turns(body)) {
+      s.radius = reach_along(body, ground_.normal);
+      s.excess = slope_.push - grip * (1 + 1 / k_);
+      if (s.excess <= 0) s.acceleration = slope_.push / (1 + k_);
+    } else if (turns(body) && std::min(grip, slope_.push) * reach_along(body, ground_.normal) >
+                                  slope_.pull * reach_along(body, slope_.downhill)) {
+      refuse_problem(scenario, fmt::format("'{}' would topple", body.name));
+    }
+    sliders_.push_back(s);
+  }
+
+  // What a body does is told apart half way between the two.
+  bool is_wrong(const Slider& s, const BodyState& state, double found, double time) const {
+    double gains = found;
+    if (s.radius > 0) {
+      const Vec<3> touching =
+          state.velocity + glm::cross(state.angular_velocity, -s.radius * ground_.normal);
+      gains = glm::dot(touching, slope_.downhill) / time;
+    }
+    const bool goes = !(gains <= std::abs(s.excess) / 2);
+    return goes != (s.excess > 0);
+  }
+
+  Footing ground_;
+  Slope slope_;
+  double k_;
+  std::vector<Slider> sliders_;
+  Worst& acceleration_ = norm("a", "1",
+                              "error of the mean acceleration from start to end, over that of "
+                              "gravity; of the worst body");
+  Worst& wrong_ = norm("class", "bodies",
+                       "how many stay, slide, roll or slip at the end that should do the opposite");
+};
+
+constexpr double kTopples = 0.1;  // radians: one that leans so far does not come back
+constexpr double kIsTold = 0.2;   // radians that it must have turned by the end of the problem
+
+// Boxes that are put on a slope too rough to slide on. One of half width w and half height h
+// topples over its lower edge iff tan a > w / h: iff its centre is beyond that edge.
+class Topple : public ErrorMetric {
+ public:
+  explicit Topple(const Scenario& scenario)
+      : ground_(ground_of(scenario)), slope_(slope_of(scenario, ground_)) {
+    require_links(scenario, 0);
+    for (const std::size_t i : moving_bodies(scenario)) add(scenario, i);
+  }
+
+  void look(const Observation& now) override {
+    double wrong = 0;
+    for (Box& box : boxes_) {
+      const Rotation<3>& r = now.states[box.body].orientation;
+      const Vec<3> leans = matrix(r) * box.up;
+      const double tilt = std::atan2(glm::length(glm::cross(ground_.normal, leans)),
+                                     glm::dot(ground_.normal, leans));
+      if (!(tilt < kTopples)) box.has_toppled = true;
+      if (!box.should) tilt_.meet(tilt);
+      wrong += box.has_toppled != box.should;
+    }
+    wrong_.set(wrong);
+  }
+
+ private:
+  struct Box {
+    std::size_t body = 0;
+    Vec<3> up{0.0};  // the normal of the ground in the axes of the body
+    bool should = false;
+    bool has_toppled = false;
+  };
+
+  void add(const Scenario& scenario, std::size_t index) {
+    const BodySpec& body = scenario.bodies[index];
+    const auto refuse = [&](const char* why) {
+      refuse_problem(scenario, fmt::format("'{}' {}", body.name, why));
+    };
+    require_on_ground(scenario, ground_, index);
+    const auto* shape = std::get_if<OrientedBox<3>>(&body.shape);
+    if (!shape || !turns(body)) refuse("is no box that turns");
+    require_at_rest(scenario, index);
+    const double mu = friction_between(scenario, index, ground_.body);
+    if (!(mu * slope_.pull > slope_.push)) refuse("would slide");
+    Box box;
+    box.body = index;
+    const Mat<3> axes = matrix(turned(Rotation<3>(), body.axis * body.angle));
+    box.up = glm::transpose(axes) * ground_.normal;
+    const double w = reach_along(body, slope_.downhill), h = reach_along(body, ground_.normal);
+    double flattest = 1;
+    for (int i = 0; i < 3; ++i)
+      flattest = std::min(flattest, 1 - std::abs(glm::dot(axes[i], ground_.normal)));
+    if (flattest > 1e-9) refuse("does not stand flat on the ground");
+    box.should = slope_.push * h > slope_.pull * w;
+    if (box.should && tilt_after(scenario.problem->seconds, w, h) < kIsTold)
+      refuse("needs more seconds to topple");
+    boxes_.push_back(box);
+  }
+
+  // Of a box that tips over its edge, near to the start: about the edge its inertia over its mass
+  // is 4/3 (w^2 + h^2), and what turns it grows with the angle.
+  double tilt_after(double seconds, double w, double h) const {
+    const double inertia = 4.0 / 3 * (w * w + h * h);
+    const double at_first = (slope_.push * h - slope_.pull * w) / inertia;
+    const double growth = (slope_.pull * h + slope_.push * w) / inertia;
+    return at_first / growth * (std::cosh(std::sqrt(growth) * seconds) - 1);
+  }
+
+  Footing ground_;
+  Slope slope_;
+  std::vector<Box> boxes_;
+  Worst& wrong_ =
+      norm("class", "boxes",
+           "how many stand at the end that should have toppled, or topple that should stand");
+  Worst& tilt_ = norm("tilt", "rad", "largest tilt over the run of a box that should stand");
+};
+
+}  // namespace
+
+MetricMaker incline_metric(const Scenario& s) { return made_of<Incline>(s); }
+MetricMaker topple_metric(const Scenario& s) { return made_of<Topple>(s); }
+
+// --- what rolls and slides on a plate that slides itself ---
+
+namespace {
+
+// A plate on level or sloping ground, which is pulled, and balls and boxes on it, all along one
+// line and from rest. With gravity g along it, and N = m g across, a rider takes from the plate
+//
+//   f = c m (A - g)     while it sticks: c = 1 of a box; k/(1 + k) of what rolls, inertia k m r^2
+//   f = mu N            else
+//   M A = F + M g - mu0 (M + sum of m) g across - sum of f
+//
+// so that everything goes by a constant acceleration.
+struct Slide1D {
+  double pull = 0;             // F, N
+  double along = 0;            // gravity along the line, units a second²
+  double across = 0;           // and onto the ground
+  double mass = 0, rough = 0;  // M, mu0
+};
+
+struct Rider {
+  std::size_t body = 0;
+  double mass = 0, share = 1, rough = 0;  // m, c, mu
+  bool slips = false;
+  double acceleration = 0;
+};
+
+double plate_acceleration(const Slide1D& plate, const std::vector<Rider>& riders) {
+  double force = plate.pull + plate.mass * plate.along, inertia = plate.mass, load = plate.mass;
+  for (const Rider& r : riders) {
+    load += r.mass;
+    if (r.slips) force -= r.rough * r.mass * plate.across;
+    if (!r.slips) force += r.share * r.mass * plate.along;
+    if (!r.slips) inertia += r.share * r.mass;
+  }
+  return (force - plate.rough * load * plate.across) / inertia;
+}
+
+// Gives A, and each rider its own. Whoever would need more friction than there is slips; that
+// quickens the plate, so that the next may slip, too.
+double settle(const Slide1D& plate, std::vector<Rider>& riders) {
+  for (;;) {
+    const double plate_goes = plate_acceleration(plate, riders);
+    bool changed = false;
+    for (Rider& r : riders) {
+      const double needs = r.share * (plate_goes - plate.along);
+      if (r.slips || needs <= r.rough * plate.across) continue;
+      r.slips = changed = true;
+    }
+    if (changed) continue;
+    for (Rider& r : riders)
+      r.acceleration =
+          plate.along + (r.slips ? r.rough * plate.across : r.share * (plate_goes - plate.along));
+    return plate_goes;
+  }
+}
+
+class BallOnPlate : public ErrorMetric {
+ public:
+  explicit BallOnPlate(const Scenario& scenario) : ground_(ground_of(scenario)) {
+    require_links(scenario, 0);
+    Slide1D plate;
+    const std::size_t below = find_plate(scenario);
+    heading_ = line_of(scenario, below, plate);
+    plate.mass = mass_of_body(scenario, below);
+    plate.rough = friction_between(scenario, below, ground_.body);
+    std::vector<Rider> riders;
+    for (const std::size_t i : moving_bodies(scenario)) {
+      require_at_rest(scenario, i);
+      if (i != below) riders.push_back(rider(scenario, i, below));
+    }
+    const double goes = settle(plate, riders);
+    if (!(goes > 0)) refuse_problem(scenario, "its plate does not move");
+    moving_.push_back({below, scenario.bodies[below].position, goes});
+    for (const Rider& r : riders)
+      moving_.push_back({r.body, scenario.bodies[r.body].position, r.acceleration});
+    scale_ = goes;
+    seconds_ = scenario.problem->seconds;
+  }
+
+  void look(const Observation& now) override {
+    for (const Moving& m : moving_) {
+      const BodyState& state = now.states[m.body];
+      const Vec<3> way = heading_ * (m.acceleration * now.time * now.time / 2);
+      const Vec<3> velocity = heading_ * (m.acceleration * now.time);
+      velocity_.meet(glm::length(state.velocity - velocity) / (scale_ * seconds_));
+      place_.meet(glm::length(state.position - m.start - way) / (scale_ * seconds_ * seconds_ / 2));
+    }
+  }
+
+ private:
+  struct Moving {
+    std::size_t body = 0;
+    Vec<3> start{0.0};
+    double acceleration = 0;
+  };
+
+  // The lowest box.
+  std::size_t find_plate(const Scenario& scenario) const {
+    const std::vector<std::size_t> bodies = moving_bodies(scenario);
+    const auto height = [&](std::size_t i) {
+      return glm::dot(scenario.bodies[i].position, ground_.normal);
+    };
+    const std::size_t lowest = *std::ranges::min_element(bodies, {}, height);
+    require_on_ground(scenario, ground_, lowest);
+    if (is_ball(scenario.bodies[lowest])) refuse_problem(scenario, "it has no plate");
+    return lowest;
+  }
+
+  // Along gravity and the forces that its script begins with, which must pull the plate.
+  Vec<3> line_of(const Scenario& scenario, std::size_t plate, Slide1D& forces) const {
+    Vec<3> pull(0.0);
+    for (const Step& step : scenario.steps) {
+      if (const auto* push = std::get_if<ApplyForce>(&step.verb)) {
+        if (push->body != plate) refuse_problem(scenario, "its force does not pull the plate");
+        pull += push->force;
+      }
+      if (traits_of(step.verb).passes_time) break;
+    }
+    const Vec<3>& gravity = scenario.world.gravity;
+    forces.across = -glm::dot(gravity, ground_.normal);
+    const Vec<3> along = gravity + ground_.normal * forces.across;
+    const Vec<3> sum = pull + along;
+    if (!(forces.across > 0) || !(glm::length(sum) > 0) ||
+        std::abs(glm::dot(pull, ground_.normal)) > 1e-12 * glm::length(pull) ||
+        !are_parallel(pull, sum) || !are_parallel(along, sum))
+      refuse_problem(scenario, "nothing pulls the plate along one line");
+    const Vec<3> heading = sum / glm::length(sum);
+    forces.pull = glm::dot(pull, heading);
+    forces.along = glm::dot(along, heading);
+    return heading;
+  }
+
+  Rider rider(const Scenario& scenario, std::size_t index, std::size_t plate) const {
+    const BodySpec &body = scenario.bodies[index], &below = scenario.bodies[plate];
+    const double gap = glm::dot(body.position - below.position, ground_.normal) -
+                       reach_along(body, ground_.normal) - reach_along(below, ground_.normal);
+    if (std::abs(gap) > 1e-9 * reach_along(body, ground_.normal))
+      refuse_problem(scenario, fmt::format("'{}' does not lie on the plate", body.name));
+    const bool rolls = is_ball(body) && turns(body);
+    const double k = roundness(scenario);
+    return {index, mass_of_body(scenario, index), rolls ? k / (1 + k) : 1,
+            friction_between(scenario, index, plate)};
+  }
+
+  Footing ground_;
+  Vec<3> heading_{0.0};
+  std::vector<Moving> moving_;
+  double scale_ = 1, seconds_ = 1;
+  Worst& velocity_ =
+      norm("v", "1", "largest error of a velocity over the run, over the plate's at the end");
+  Worst& place_ = norm("place", "1", "largest error of a place over the run, over the plate's way");
+};
+
+}  // namespace
+
+MetricMaker ball_on_plate_metric(const Scenario& s) { return made_of<BallOnPlate>(s); }
+
+}  // namespace lantern::measure

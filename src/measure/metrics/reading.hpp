@@ -1,0 +1,165 @@
+// The error metrics of all problems, and what they read from a scenario: masses, links, materials,
+// places and speeds. Each throws Refused, naming what is wrong, if the scenario is not that
+// problem.
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "geometry/flat.hpp"
+#include "measure/error_metric.hpp"
+#include "measure/forms/closed_forms.hpp"
+
+namespace lantern::measure {
+
+using MetricsOf = MetricMaker(const Scenario&);
+
+// Of a metric that reads all it needs when it is made.
+template <class Metric>
+MetricMaker made_of(const Scenario& scenario) {
+  return [&scenario] { return std::make_unique<Metric>(scenario); };
+}
+
+// Of bodies that are known at every time (TrajectoryMetric).
+inline MetricMaker trajectories(long double length, long double speed,
+                                TrajectoryMetric::ExactStates exact) {
+  return [length, speed, exact = std::move(exact)] {
+    return std::make_unique<TrajectoryMetric>(length, speed, exact);
+  };
+}
+
+// Bodies that never touch.
+MetricsOf projectile_metric;  // any number of bodies that are thrown, with or without drag
+// One body on one spring to a fixed point, under any damping: along a line, or, if the spring has
+// no rest length and no damping, in any direction.
+MetricsOf oscillator_metric;
+// Bodies in a row between one or two fixed points, tied each to the next by springs without
+// damping, moving along the row.
+MetricsOf chain_metric;
+MetricsOf kepler_metric;    // two bodies that attract each other, one of which may be static
+MetricsOf pendulum_metric;  // one body on a rod, or on a stiff spring as long as it is at rest
+MetricsOf free_top_metric;  // one body that turns freely in 3D
+
+// Bodies on joints.
+MetricsOf linkage_metric;             // a flat linkage of pins and rods that swings, open or closed
+MetricsOf heavy_top_metric;           // one body on a pin at a fixed point, under gravity
+MetricsOf bridge_metric;              // joints that something falls on
+MetricsOf springs_along_pins_metric;  // bodies on pins, with springs along them
+
+// Bodies in contact.
+MetricsOf bouncing_ball_metric;
+MetricsOf blocks_and_wall_metric;
+MetricsOf collisions_metric;
+MetricsOf billiards_metric;
+MetricsOf slide_metric;
+MetricsOf slip_then_roll_metric;
+MetricsOf incline_metric;
+MetricsOf topple_metric;
+MetricsOf stack_metric;
+MetricsOf hanging_chain_metric;
+MetricsOf ball_on_plate_metric;  // what rolls and slides on a plate that slides down a slope
+MetricsOf rocking_block_metric;
+MetricsOf dominoes_metric;
+MetricsOf pile_metric;      // bodies that fall into a container and come to rest
+MetricsOf standing_metric;  // bodies that begin at rest and should stay there
+
+// What is asked of those whose answer is costly to know, without the answer.
+void require_chain(const Scenario& scenario);
+void require_linkage(const Scenario& scenario);
+void require_heavy_top(const Scenario& scenario);
+void require_dominoes(const Scenario& scenario);
+
+// --- what they read from a scenario ---
+
+// Throws Refused: "'slide' is no problem of kind slide: <why>".
+[[noreturn]] void refuse_problem(const Scenario& scenario, std::string_view why);
+
+// Indices of the bodies that forces move.
+std::vector<std::size_t> dynamic_bodies(const Scenario& scenario);
+
+// The only one. Refuses none and several.
+std::size_t the_body(const Scenario& scenario);
+
+// Refuses any other number of springs and joints.
+void require_links(const Scenario& scenario, std::size_t count);
+
+// For answers that know nothing of them: refuses contacts and attraction where there are two bodies
+// or more, bodies that are steered or begin asleep, and forces of the script.
+void require_nothing_else(const Scenario& scenario, bool may_attract = false);
+
+// As the engine has it.
+double mass_of_body(const Scenario& scenario, std::size_t body);
+
+// A spring or rod as the engine makes it: between the centres of bodies, or a centre and a fixed
+// point.
+struct Tie {
+  std::size_t a = 0;
+  std::optional<std::size_t> b;  // a dynamic body; none: it ends at `anchor`
+  LongVec anchor{0.0L};
+  long double rest_length = 0;
+};
+
+// Refuses an end that is off a body's centre or on a kinematic body.
+Tie read_tie(const Scenario& scenario, const LinkSpec& link);
+
+// Whether both point along one line, exactly but for rounding; zero does with any.
+bool parallel(const LongVec& a, const LongVec& b);
+bool are_parallel(const Vec<3>& a, const Vec<3>& b);
+
+// --- bodies in contact ---
+
+inline constexpr const char* kEnergyMeaning = "largest change of the energy over the run, relative";
+inline constexpr const char* kAttitudeMeaning =
+    "largest angle over the run by which the orientation is off";
+// The angle of the turn from one to the other, whatever the quaternion's sign and length.
+inline double angle_between(const LongQuat& exact, const BodyState& state) {
+  const glm::dquat& q = state.orientation.q;
+  const LongQuat off = glm::conjugate(exact) * LongQuat(q.w, q.x, q.y, q.z);
+  return static_cast<double>(
+      2 * std::atan2(std::sqrt(off.x * off.x + off.y * off.y + off.z * off.z), std::abs(off.w)));
+}
+inline constexpr const char* kMomentumMeaning =
+    "largest change of the momentum over the run, over the sum of m |v| at the start";
+
+// What does not move, and all others stand on or run into: a half-space, or the face of a box that
+// keeps to the axes which looks against gravity, or, without gravity, at the first moving body.
+struct Footing {
+  std::size_t body = 0;
+  Vec<3> normal{0.0};  // out of it, unit
+  double height = 0;   // of its face along `normal`
+};
+
+// All that moves, in order of the scenario. Refuses kinematic bodies, drag and brains: no contact
+// problem has them.
+std::vector<std::size_t> moving_bodies(const Scenario& scenario);
+// Refuses none or several static bodies, and shapes other than those above.
+Footing ground_of(const Scenario& scenario);
+// Refuses a body that does not touch the ground within a billionth of its size.
+void require_on_ground(const Scenario& scenario, const Footing& ground, std::size_t body);
+// Refuses a body that moves or turns at first.
+void require_at_rest(const Scenario& scenario, std::size_t body);
+// Gravity, seen from a ground that leans. Units a second².
+struct Slope {
+  double pull = 0;       // onto the ground
+  double push = 0;       // along it
+  Vec<3> downhill{0.0};  // unit
+};
+// Refuses gravity that is not slantwise into the ground.
+Slope slope_of(const Scenario& scenario, const Footing& ground);
+// Units a second². Refuses gravity that is not straight into the ground.
+double pull_onto(const Scenario& scenario, const Footing& ground);
+
+// Of two bodies that touch.
+double friction_between(const Scenario& scenario, std::size_t a, std::size_t b);
+double restitution_between(const Scenario& scenario, std::size_t a, std::size_t b);
+
+// From the centre to the farthest point along the unit vector `along`, as the body lies at first.
+double reach_along(const BodySpec& body, const Vec<3>& along);
+bool is_ball(const BodySpec& body);
+bool turns(const BodySpec& body);  // contacts may turn it
+// Inertia over m r²: 2/5 of a ball, 1/2 of a disc.
+double roundness(const Scenario& scenario);
+
+}  // namespace lantern::measure

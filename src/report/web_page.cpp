@@ -1,0 +1,241 @@
+// A document as a web page.
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/check.hpp"
+#include "base/markup.hpp"
+#include "report/document.hpp"
+#include "report/web_plot.hpp"
+
+namespace lantern::report {
+namespace {
+
+constexpr std::string_view kPageStyle = R"css(
+*{box-sizing:border-box}
+body{margin:0;background:var(--paper);color:var(--ink);font:16px/1.5 system-ui,sans-serif}
+.page{display:grid;grid-template-columns:19rem minmax(0,1fr);gap:2.5rem;max-width:110rem;margin:0 auto;padding:1.5rem 2rem}
+.side{position:sticky;top:0;align-self:start;max-height:100vh;overflow:auto;padding:1rem 0;font-size:.9rem}
+h1{margin:0;font-size:1.7rem}h2{margin:0 0 .4rem;font-size:1.3rem}h3{margin:1rem 0 .3rem;font-size:1rem}
+section{border-top:1px solid var(--rule);padding:1.6rem 0;scroll-margin-top:.5rem}
+p{margin:.3rem 0;max-width:80ch}.quiet,figcaption,caption{color:var(--quiet)}
+a{color:inherit}fieldset{border:0;margin:0 0 .8rem;padding:0}legend{font-weight:600;padding:0}
+label{display:flex;gap:.4rem;align-items:center;padding:.08rem 0;cursor:pointer}
+label .sample{flex:none}button{font:inherit;margin:0 .3rem .3rem 0}
+:focus-visible{outline:2px solid var(--b4);outline-offset:2px}
+.index{columns:3 14rem;padding:0;list-style:none;margin:.5rem 0 0}.index li{break-inside:avoid}
+.plots{display:grid;grid-template-columns:repeat(auto-fit,minmax(min(27rem,100%),1fr));gap:1rem 2rem;margin:1rem 0 .5rem}
+figure{margin:0}figcaption{font-size:.85rem}figcaption b{color:var(--ink);font-size:1rem}
+.plot{display:block;width:100%;height:auto;font-family:system-ui,sans-serif}
+.whisker{opacity:.45}.k1 .mark *{fill:var(--panel);stroke:var(--c);stroke-width:1.8}.k1 line{stroke-width:1}
+.sample{width:34px;height:14px}
+.wide{overflow-x:auto}table{border-collapse:collapse;font-size:.88rem;margin:.4rem 0}caption{text-align:left}
+th,td{padding:.15rem .7rem .15rem 0;text-align:left;vertical-align:top}td.n,th.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
+thead th{border-bottom:1px solid var(--ink);font-weight:600}tbody tr{border-bottom:1px solid var(--rule)}
+.bad{color:var(--warning);font-weight:600}summary{cursor:pointer;margin:.4rem 0}
+@media(max-width:60rem){.page{grid-template-columns:minmax(0,1fr);padding:1rem}.side{position:static;max-height:none}}
+@media print{.side,summary,button{display:none}.page{display:block;padding:0}section{break-inside:avoid-page}body{font-size:10pt}}
+)css";
+
+// Buttons that choose for all boxes at once; made here, since without a script they would be dead.
+constexpr std::string_view kPageScript = R"js(
+const place=document.getElementById('buttons');
+const boxes=[...document.querySelectorAll('input[name=method]')];
+for(const [words,wanted] of [['All',()=>true],['None',()=>false],['Lantern only',b=>!b.dataset.peer]]){
+const button=document.createElement('button');button.type='button';button.textContent=words;
+button.onclick=()=>boxes.forEach(b=>{b.checked=wanted(b)});place.append(button);}
+)js";
+
+// The colours that the style names, by what they are for.
+std::string named_colors() {
+  constexpr std::pair<std::string_view, Role> kNamed[] = {
+      {"paper", Role::paper}, {"panel", Role::panel},     {"ink", Role::ink},
+      {"rule", Role::rule},   {"quiet", Role::quiet_ink}, {"warning", Role::warning},
+      {"b4", body_role(4)}};
+  std::string text;
+  for (const auto& [name, role] : kNamed)
+    text += fmt::format("--{}:var(--r{});", name, static_cast<int>(role));
+  return text;
+}
+
+class WebPage {
+ public:
+  explicit WebPage(const Document& document) : document_(document) {}
+
+  std::string text() {
+    add_head();
+    for (std::size_t i = 0; i < document_.chapters.size(); ++i)
+      add(document_.chapters[i], fmt::format("p{}", i));
+    const std::string body = std::exchange(out_, "");
+    put("<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
+        "<meta name=\"viewport\" content=\"width=device-width\"><title>{}</title>"
+        "\n<style>:root{{color-scheme:light dark;{}{}}}@media(prefers-color-scheme:dark)"
+        "{{:root{{{}}}}}@media print{{:root{{{}}}}}{}",
+        escaped(document_.title), web_colors("light"), named_colors(), web_colors("dark"),
+        web_colors("print"), kPageStyle);
+    add_hiding_rules();
+    put("</style></head>\n<body>\n<div class=\"page\">\n");
+    add_choices();
+    put("<main>\n{}</main></div>\n<script>{}</script>\n</body></html>\n", body, kPageScript);
+    return std::move(out_);
+  }
+
+ private:
+  template <class... Args>
+  void put(fmt::format_string<Args...> format, Args&&... args) {
+    fmt::format_to(std::back_inserter(out_), format, std::forward<Args>(args)...);
+  }
+
+  bool is_shared() const { return document_.machines.size() > 1; }
+  static std::string machine_name(std::size_t machine) {
+    return fmt::format("Machine {}", machine_letter(machine));
+  }
+
+  std::size_t number_of(const std::string& name) const {
+    const auto at = std::ranges::find(document_.choices, name, &Choice::name);
+    LANTERN_CHECK((at != document_.choices.end()), ==, true);
+    return static_cast<std::size_t>(at - document_.choices.begin());
+  }
+  // "m3", or "m3 k1" if there are several machines: what the choices hide.
+  std::string class_of(const Who& who) const {
+    if (who.name.empty()) return "";
+    const std::string name = fmt::format("m{}", number_of(who.name));
+    return is_shared() ? fmt::format("{} k{}", name, who.machine) : name;
+  }
+
+  // As the choices have it, beside its mark.
+  std::string name_of(const std::string& name) const {
+    const Choice& choice = document_.choices[number_of(name)];
+    return web_sample(choice.ink) + escaped(choice.words);
+  }
+
+  // What is not chosen is hidden by the style sheet alone.
+  void add_hiding_rules() {
+    const auto hide = [this](char kind, std::size_t count) {
+      for (std::size_t i = 0; i < count; ++i)
+        put(":root:has(#{0}{1}:not(:checked)) .{0}{1}{{display:none}}\n", kind, i);
+    };
+    hide('m', document_.choices.size());
+    if (is_shared()) hide('k', document_.machines.size());
+  }
+
+  void add_choices() {
+    put("<form class=\"side\" aria-label=\"What is shown\">\n<div id=\"buttons\"></div>");
+    for (const bool peers : {false, true}) {
+      const auto& all = document_.choices;
+      if (std::ranges::none_of(all, [&](const Choice& c) { return c.ink.is_peer == peers; }))
+        continue;
+      put("<fieldset><legend>{}</legend>\n",
+          peers ? document_.legends.second : document_.legends.first);
+      for (std::size_t i = 0; i < all.size(); ++i)
+        if (all[i].ink.is_peer == peers)
+          put("<label><input type=\"checkbox\" name=\"method\" id=\"m{}\"{} checked>{}{}</label>\n",
+              i, peers ? " data-peer=\"1\"" : "", web_sample(all[i].ink), escaped(all[i].words));
+      put("</fieldset>\n");
+    }
+    if (is_shared()) {
+      put("<fieldset><legend>Machines</legend>\n");
+      for (std::size_t i = 0; i < document_.machines.size(); ++i)
+        put("<label><input type=\"checkbox\" id=\"k{}\" checked>{}: {}{}</label>\n", i,
+            machine_name(i), escaped(document_.machines[i].processor),
+            i > 0 ? " (hollow marks)" : "");
+      put("</fieldset>\n");
+    }
+    put("</form>\n");
+  }
+
+  void add_head() {
+    put("<h1>{}</h1>\n<p>{}</p>\n<h3>How it was run</h3>\n", escaped(document_.title),
+        escaped(document_.about));
+    if (!document_.command.empty()) put("<p><code>{}</code></p>\n", escaped(document_.command));
+    add_machines();
+    for (const std::string& note : document_.notes)
+      put("<p class=\"quiet\">{}</p>\n", escaped(note));
+    for (const Table& table : document_.head) add(table, false);
+    if (document_.chapters.size() < 2) return;
+    put("<nav aria-label=\"Chapters\"><ul class=\"index\">\n");
+    for (std::size_t i = 0; i < document_.chapters.size(); ++i)
+      put("<li><a href=\"#p{}\">{}</a></li>\n", i, escaped(document_.chapters[i].title));
+    put("</ul></nav>\n");
+  }
+
+  void add_machines() {
+    put("<div class=\"wide\"><table><thead><tr><th></th>");
+    for (const char* name : {"Lantern", "sources", "compiler", "flags", "processor", "effort"})
+      put("<th>{}</th>", name);
+    put("</tr></thead><tbody>\n");
+    for (std::size_t i = 0; i < document_.machines.size(); ++i) {
+      const Circumstances& c = document_.machines[i];
+      put("<tr{}><th>{}</th>", is_shared() ? fmt::format(" class=\"k{}\"", i) : "",
+          is_shared() ? machine_name(i) : "");
+      for (const std::string* cell :
+           {&c.version, &c.sources, &c.compiler, &c.flags, &c.processor, &c.effort})
+        put("<td>{}</td>", escaped(*cell));
+      put("</tr>\n");
+    }
+    put("</tbody></table></div>\n");
+  }
+
+  void add(const Chapter& chapter, const std::string& id) {
+    put("<section id=\"{}\"><h2>{}</h2>\n", id, escaped(chapter.title));
+    for (const std::string& words : chapter.words) put("<p>{}</p>\n", escaped(words));
+    for (const std::string& note : chapter.notes) put("<p class=\"quiet\">{}</p>\n", escaped(note));
+    if (!chapter.figures.empty()) {
+      put("<div class=\"plots\">\n");
+      for (const Figure& figure : chapter.figures) add(figure);
+      put("</div>\n");
+    }
+    for (const Table& table : chapter.tables) add(table, is_shared());
+    put("</section>\n");
+  }
+
+  void add(const Figure& figure) {
+    const Plot& plot = figure.plot;
+    std::vector<std::string> classes;
+    for (std::size_t i = 0; i < plot.series.size(); ++i)
+      classes.push_back(class_of(figure.of.empty() ? Who{plot.series[i].name} : figure.of[i]));
+    put("<figure><figcaption><b>{}</b>{}<br>{}</figcaption>\n{}</figure>\n", escaped(plot.title),
+        escaped(figure.note), escaped(plot.y_name), web_plot(plot, classes));
+  }
+
+  // With a first column of the machines, if there are several.
+  void add(const Table& table, bool with_machines) {
+    if (table.folded) put("<details><summary>{}</summary>", escaped(table.title));
+    put("<div class=\"wide\"><table>{}<thead><tr>",
+        table.folded || table.title.empty()
+            ? ""
+            : fmt::format("<caption>{}</caption>", escaped(table.title)));
+    if (with_machines) put("<th>machine</th>");
+    for (const Table::Column& column : table.columns)
+      put("<th class=\"{}{}\">{}</th>", column.is_number ? "n " : "", class_of(column.who),
+          escaped(column.name));
+    put("</tr></thead><tbody>\n");
+    for (const Table::Line& line : table.lines) add(line, table.columns, with_machines);
+    put("</tbody></table></div>{}\n", table.folded ? "</details>" : "");
+  }
+
+  void add(const Table::Line& line, const std::vector<Table::Column>& columns, bool with_machines) {
+    put("<tr class=\"{}\">", class_of(line.who));
+    if (with_machines) put("<td>{}</td>", machine_letter(line.who.machine));
+    for (std::size_t i = 0; i < line.cells.size(); ++i) {
+      const Cell& cell = line.cells[i];
+      const Table::Column& column = columns[i];
+      const bool is_name = i == 0 && !line.who.name.empty();
+      const std::string text = is_name ? name_of(line.who.name) : escaped(cell.text);
+      put("<td class=\"{}{}\">{}</td>", column.is_number ? "n " : "", class_of(column.who),
+          cell.bad ? fmt::format("<span class=\"bad\">{}</span>", text) : text);
+    }
+    put("</tr>\n");
+  }
+
+  const Document& document_;
+  std::string out_;
+};
+
+}  // namespace
+
+std::string to_html(const Document& document) { return WebPage(document).text(); }
+
+}  // namespace lantern::report

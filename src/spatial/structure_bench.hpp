@@ -1,0 +1,50 @@
+// How long structures take beside each other, those of a user's own among them: to build anew, and
+// to find all pairs. Of one's own tree its own code is timed, insert and visit, not what looks at
+// it afterwards.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/timing.hpp"
+#include "spatial/structure_kind.hpp"
+
+namespace lantern::spatial {
+
+struct StructureTime {
+  StructureKind kind = StructureKind::none;
+  std::string scene;  // "uniform_2d"
+  std::uint64_t bodies = 0;
+  Timing build;  // processor seconds
+  Timing pairs;
+  std::uint64_t nodes = 0;
+  std::uint64_t entries = 0;     // bodies in leaves, each once a leaf
+  std::uint64_t pair_tests = 0;  // boxes compared with boxes
+  std::uint64_t missed = 0;      // pairs that brute force finds
+  std::uint64_t invented = 0;    // pairs that it does not
+  std::string fault;             // why it was not timed; empty if it was
+};
+
+struct StructureBench {
+  std::vector<StructureKind> kinds;
+  std::vector<std::uint64_t> bodies;
+  std::uint64_t seed = 1;
+  int rounds = 9;
+  double longest = 5;  // processor seconds of one build; one that takes longer is not timed
+};
+
+// Evenly spread and clustered boxes; all structures with capacity 8 and depth limit 7, in turns.
+// `told` is called after each row.
+std::vector<StructureTime> bench_structures(const StructureBench& bench,
+                                            const std::function<void()>& told);
+std::uint64_t structure_bench_rows(const StructureBench& bench);
+
+std::string to_table(std::span<const StructureTime> rows);
+std::string to_csv(std::span<const StructureTime> rows);
+// lantern.structure.bench/1
+std::string to_json(std::span<const StructureTime> rows, std::uint64_t seed);
+
+}  // namespace lantern::spatial
