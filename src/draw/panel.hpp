@@ -31,6 +31,21 @@ struct PanelView {
 
 const PanelView& view_of(Panel panel);
 
+// What the views of panels are: a frame, and where it is drawn.
+class PanelPicture {
+ public:
+  PanelPicture(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
+               Labels& labels)
+      : frame_(frame), staging_(staging), panel_(panel), list_(list), labels_(labels) {}
+
+ protected:
+  const Frame& frame_;
+  const Staging& staging_;
+  Box<2> panel_;
+  DrawList& list_;
+  Labels& labels_;
+};
+
 // A panel of a program's own: its two entries.
 struct OwnPanel {
   scenario::PanelKind kind;

@@ -43,18 +43,17 @@ bool has_strip(const Frame& frame) {
          !std::ranges::all_of(frame.get<FrameTextures>().textures, &FrameTexture::packed);
 }
 
-class AtlasView {
+class AtlasView : PanelPicture {
  public:
-  AtlasView(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
-      : frame_(frame), panel_(panel), list_(list), labels_(labels) {
-    const Vec<2> size = atlas_size(frame);
-    const double strip = has_strip(frame) ? kStrip + kQueueGap : 0;
-    const Vec<2> room = shrunk(panel, 3).size() - Vec<2>(strip, 0);
+  explicit AtlasView(const PanelPicture& on) : PanelPicture(on) {
+    const Vec<2> size = atlas_size(frame_);
+    const double strip = has_strip(frame_) ? kStrip + kQueueGap : 0;
+    const Vec<2> room = shrunk(panel_, 3).size() - Vec<2>(strip, 0);
     scale_ = std::min(room.x / size.x, room.y / size.y);
     const Vec<2> used = size * scale_ + Vec<2>(strip, 0);
-    const Vec<2> corner = panel.lo + (panel.size() - used) * 0.5;
+    const Vec<2> corner = panel_.lo + (panel_.size() - used) * 0.5;
     image_ = {corner, corner + size * scale_};
-    strip_ = {{image_.hi.x + kQueueGap, panel.lo.y}, {panel.hi.x, panel.hi.y}};
+    strip_ = {{image_.hi.x + kQueueGap, panel_.lo.y}, {panel_.hi.x, panel_.hi.y}};
     strip_.hi.x = std::min(strip_.hi.x, strip_.lo.x + kStrip + 40);
   }
 
@@ -290,19 +289,15 @@ class AtlasView {
     labels_.try_add(name, {{{box.lo.x, box.hi.y + 23}, 0}}, style, panel_);
   }
 
-  const Frame& frame_;
-  Box<2> panel_;
-  DrawList& list_;
-  Labels& labels_;
   Box<2> image_, strip_;
   double scale_ = 1;               // page units a pixel
   double strip_scale_ = 1;         // the same, in the strip
   int parts_ = kMostPatternParts;  // of a pattern; fewer when there are many textures
 };
 
-void draw_atlas(const Frame& frame, const Staging&, const Box<2>& panel, DrawList& list,
+void draw_atlas(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
                 Labels& labels) {
-  AtlasView(frame, panel, list, labels).draw();
+  AtlasView({frame, staging, panel, list, labels}).draw();
   list.referents.insert({"textures", "refused", "atlas_area"});
 }
 

@@ -33,13 +33,11 @@ Shadows shadows_of(const scenario::FrameAxis& axis) {
   return {at(0), at(1), at(2), at(3)};
 }
 
-class AxesView {
+class AxesView : PanelPicture {
  public:
-  AxesView(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
-           Labels& labels)
-      : frame_(frame), panel_(panel), list_(list), labels_(labels), pen_(list, panel) {
+  explicit AxesView(const PanelPicture& on) : PanelPicture(on), pen_(list_, panel_) {
     double longest = 0;
-    for (const Frame* one : staging.frames()) {
+    for (const Frame* one : staging_.frames()) {
       if (!one->find<FrameSeparation>()) continue;
       rows_ = std::max(rows_, one->find<FrameSeparation>()->axes.size());
       for (const auto& axis : one->find<FrameSeparation>()->axes) {
@@ -47,10 +45,10 @@ class AxesView {
         longest = std::max(longest, std::max(s.a_hi, s.b_hi) - std::min(s.a_lo, s.b_lo));
       }
     }
-    const double room = panel.size().x - kAxisNumber - kAxisWords - 20;
+    const double room = panel_.size().x - kAxisNumber - kAxisWords - 20;
     if (longest > 0) scale_ = room / longest;
-    if (!list.maps.empty()) scale_ = std::min(scale_, list.maps.back().scale);
-    row_ = std::min(kMostAxisRow, (panel.size().y - kAxesHeading) /
+    if (!list_.maps.empty()) scale_ = std::min(scale_, list_.maps.back().scale);
+    row_ = std::min(kMostAxisRow, (panel_.size().y - kAxesHeading) /
                                       static_cast<double>(std::max<std::size_t>(1, rows_)));
   }
 
@@ -111,10 +109,6 @@ class AxesView {
         centred({panel_.hi.x - 8, y}, style, 1), style, panel_);
   }
 
-  const Frame& frame_;
-  Box<2> panel_;
-  DrawList& list_;
-  Labels& labels_;
   Pen pen_;
   std::size_t rows_ = 0;
   double scale_ = 0;
@@ -124,7 +118,7 @@ class AxesView {
 void draw_axes(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
                Labels& labels) {
   if (panel.size().x < 420) return;
-  AxesView(frame, staging, panel, list, labels).draw();
+  AxesView({frame, staging, panel, list, labels}).draw();
 }
 
 }  // namespace

@@ -38,22 +38,17 @@ const TextStyle kCollisionStrong{kCollisionText, Weight::semibold, Role::ink};
 
 double row_height(int remembered) { return kCallRow + remembered * kPip + kTouchRow + 8; }
 
-class CollisionsView {
+class CollisionsView : PanelPicture {
  public:
-  CollisionsView(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
-      : frame_(frame),
-        told_(*frame.find<FrameCollisions>()),
-        panel_(panel),
-        list_(list),
-        labels_(labels),
-        bodies_(by_id(frame.bodies)) {
+  explicit CollisionsView(const PanelPicture& on)
+      : PanelPicture(on), told_(*frame_.find<FrameCollisions>()), bodies_(by_id(frame_.bodies)) {
     const std::uint64_t passed = told_.now - told_.first;
     const std::uint64_t all = std::max<std::uint64_t>({told_.steps.value_or(passed), passed, 12});
-    const double room = panel.size().x - kCollisionPair;
+    const double room = panel_.size().x - kCollisionPair;
     column_ = std::clamp(room / static_cast<double>(all), kLeastColumn, kMostColumn);
     const auto columns = static_cast<std::uint64_t>(room / column_);
     first_ = passed > columns ? told_.now - columns : told_.first;
-    end_ = panel.lo.x + kCollisionPair + column_ * static_cast<double>(std::min(columns, all));
+    end_ = panel_.lo.x + kCollisionPair + column_ * static_cast<double>(std::min(columns, all));
   }
 
   void draw() {
@@ -167,23 +162,19 @@ class CollisionsView {
     labels_.add("one frame left", {{x + 36, y}, 0}, quiet, panel_);
   }
 
-  const Frame& frame_;
   const FrameCollisions& told_;
-  Box<2> panel_;
-  DrawList& list_;
-  Labels& labels_;
   BodiesById bodies_;
   double column_ = kMostColumn;
   double end_ = 0;           // of the rows, x
   std::uint64_t first_ = 0;  // world steps before the first column
 };
 
-void draw_collisions(const Frame& frame, const Staging&, const Box<2>& panel, DrawList& list,
-                     Labels& labels) {
+void draw_collisions(const Frame& frame, const Staging& staging, const Box<2>& panel,
+                     DrawList& list, Labels& labels) {
   const Box<2> place = shrunk(panel, 3);
   if (!frame.find<FrameCollisions>() || place.size().x < 300 || place.size().y < kCollisionHeading)
     return;
-  CollisionsView(frame, place, list, labels).draw();
+  CollisionsView({frame, staging, place, list, labels}).draw();
   list.referents.insert(
       {"collisions_alive", "begins", "ends", "contacts", "begins_in_all", "touches_in_all"});
 }

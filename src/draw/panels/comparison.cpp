@@ -36,19 +36,15 @@ const TextStyle kTableBest{26, Weight::semibold, Role::ink};
 const TextStyle kTableText{24, Weight::regular, Role::ink};
 const TextStyle kTableQuiet{24, Weight::regular, Role::quiet_ink};
 
-class ComparisonView {
+class ComparisonView : PanelPicture {
  public:
-  ComparisonView(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
-      : frame_(frame),
-        table_(frame.get<FrameComparison>()),
-        panel_(panel),
-        list_(list),
-        labels_(labels) {
+  explicit ComparisonView(const PanelPicture& on)
+      : PanelPicture(on), table_(frame_.get<FrameComparison>()) {
     const double left = kPictureWidth + 18 + kWorldWidth + kWhenWidth;
-    columns_ = panel.lo.x + left;
-    column_ = (panel.size().x - left) / static_cast<double>(table_.kinds.size());
-    row_ = std::min(kMostTableRow,
-                    (panel.size().y - kTableHeader) / static_cast<double>(table_.all_names.size()));
+    columns_ = panel_.lo.x + left;
+    column_ = (panel_.size().x - left) / static_cast<double>(table_.kinds.size());
+    row_ = std::min(kMostTableRow, (panel_.size().y - kTableHeader) /
+                                       static_cast<double>(table_.all_names.size()));
   }
 
   void draw() {
@@ -173,22 +169,18 @@ class ComparisonView {
     }
   }
 
-  const Frame& frame_;
   const FrameComparison& table_;
-  Box<2> panel_;
-  DrawList& list_;
-  Labels& labels_;
   double columns_ = 0;  // where they begin
   double column_ = 0;   // width
   double row_ = 0;      // height
 };
 
-void draw_comparison(const Frame& frame, const Staging&, const Box<2>& panel, DrawList& list,
-                     Labels& labels) {
+void draw_comparison(const Frame& frame, const Staging& staging, const Box<2>& panel,
+                     DrawList& list, Labels& labels) {
   const Box<2> place = shrunk(panel, 3);
   const FrameComparison& table = frame.get<FrameComparison>();
   if (table.kinds.empty() || table.all_names.empty() || place.size().x < 900) return;
-  ComparisonView(frame, place, list, labels).draw();
+  ComparisonView({frame, staging, place, list, labels}).draw();
   list.referents.insert({"least_work", "compared_bodies"});
   if (std::ranges::count(table.kinds, StructureKind::brute_force) > 0)
     list.referents.insert("compared_pairs");

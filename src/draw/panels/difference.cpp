@@ -37,21 +37,17 @@ Box<2> reach_of(const Staging& staging) {
   return reach;
 }
 
-class DifferenceView {
+class DifferenceView : PanelPicture {
  public:
-  DifferenceView(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
-                 Labels& labels)
-      : frame_(frame),
-        difference_(*frame.find<FrameDifference>()),
-        panel_(panel),
-        area_({panel.lo + Vec<2>(kRimNumbers, kHeading), panel.hi - Vec<2>(4, kRimNumbers)}),
-        list_(list),
-        labels_(labels),
-        pen_(list, area_) {
-    const Box<2> reach = reach_of(staging);
+  explicit DifferenceView(const PanelPicture& on)
+      : PanelPicture(on),
+        difference_(*frame_.find<FrameDifference>()),
+        area_({panel_.lo + Vec<2>(kRimNumbers, kHeading), panel_.hi - Vec<2>(4, kRimNumbers)}),
+        pen_(list_, area_) {
+    const Box<2> reach = reach_of(staging_);
     const Vec<2> room = shrunk(area_, kAround).size(), size = reach.size();
     scale_ = std::min(size.x > 0 ? room.x / size.x : 1e300, size.y > 0 ? room.y / size.y : 1e300);
-    if (!list.maps.empty()) scale_ = std::min(scale_, list.maps.back().scale);
+    if (!list_.maps.empty()) scale_ = std::min(scale_, list_.maps.back().scale);
     if (!(scale_ < 1e300)) scale_ = 1;
     origin_ = area_.center() - Vec<2>(reach.center().x, -reach.center().y) * scale_;
   }
@@ -199,11 +195,8 @@ class DifferenceView {
                     kOwn, panel_);
   }
 
-  const Frame& frame_;
   const scenario::FrameDifference& difference_;
   Box<2> panel_, area_;
-  DrawList& list_;
-  Labels& labels_;
   Pen pen_;
   double scale_ = 1;
   Vec<2> origin_{0.0};
@@ -215,7 +208,7 @@ void draw_difference(const Frame& frame, const Staging& staging, const Box<2>& p
   if (!frame.find<FrameDifference>() || frame.find<FrameDifference>()->corners.empty() ||
       size.x < 160 || size.y < 160)
     return;
-  DifferenceView(frame, staging, panel, list, labels).draw();
+  DifferenceView({frame, staging, panel, list, labels}).draw();
 }
 
 }  // namespace

@@ -54,18 +54,15 @@ std::unique_ptr<Projection> projection_of(const Frame& frame, const Box<2>& pane
   return std::make_unique<View2D>(flat(frame.bounds), panel, frame.view);
 }
 
-class IslandGraph {
+class IslandGraph : PanelPicture {
  public:
-  IslandGraph(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
-              Labels& labels)
-      : frame_(frame),
-        view_(projection_of(frame, panel)),
+  explicit IslandGraph(const PanelPicture& on)
+      : PanelPicture(on),
+        view_(projection_of(frame_, panel_)),
         place_(view_->picture()),
-        radius_(radius_for(staging)),
-        list_(list),
-        labels_(labels),
-        bodies_(by_id(frame.bodies)) {
-    for (const FrameBody& body : frame.bodies)
+        radius_(radius_for(staging_)),
+        bodies_(by_id(frame_.bodies)) {
+    for (const FrameBody& body : frame_.bodies)
       if (!is_half_space(body))
         if (const auto at = view_->seen(body.position)) places_[body.id] = *at;
   }
@@ -212,19 +209,16 @@ class IslandGraph {
     }
   }
 
-  const Frame& frame_;
   std::unique_ptr<Projection> view_;
   Box<2> place_;
   double radius_;
-  DrawList& list_;
-  Labels& labels_;
   BodiesById bodies_;
   std::map<BodyId, Vec<2>> places_;  // of nodes, on the page
 };
 
 void draw_islands(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
                   Labels& labels) {
-  IslandGraph(frame, staging, panel, list, labels).draw();
+  IslandGraph({frame, staging, panel, list, labels}).draw();
 }
 
 }  // namespace

@@ -71,14 +71,13 @@ struct LedgerPlan {
   bool corner = false;  // the key stands in the free corner, else below
 };
 
-class Ledger {
+class Ledger : PanelPicture {
  public:
-  Ledger(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
-      : frame_(frame), panel_(panel), list_(list), labels_(labels), pairs_(frame) {
-    for (const FrameBody& body : frame.bodies) bodies_.push_back(&body);
+  explicit Ledger(const PanelPicture& on) : PanelPicture(on), pairs_(frame_) {
+    for (const FrameBody& body : frame_.bodies) bodies_.push_back(&body);
     std::ranges::sort(bodies_, {},
                       [](const FrameBody* body) { return std::pair(body->place, body->id); });
-    rows_ = std::max<std::size_t>(frame.cast, bodies_.size());
+    rows_ = std::max<std::size_t>(frame_.cast, bodies_.size());
     states_ = states_of(pairs_);
     for (const PairState state : states_)
       key_width_ = std::max(
@@ -216,10 +215,6 @@ class Ledger {
     return place;
   }
 
-  const Frame& frame_;
-  Box<2> panel_;
-  DrawList& list_;
-  Labels& labels_;
   PairStates pairs_;
   std::vector<const FrameBody*> bodies_;  // in the scenario's order
   std::size_t rows_ = 0;                  // of bodies that are there and of those that are not
@@ -227,11 +222,11 @@ class Ledger {
   double key_width_ = 0;
 };
 
-void draw_ledger(const Frame& frame, const Staging&, const Box<2>& panel, DrawList& list,
+void draw_ledger(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
                  Labels& labels) {
   const Box<2> place = shrunk(panel, 3);
   if (place.size().x < 200 || place.size().y < 120) return;
-  Ledger(frame, place, list, labels).draw();
+  Ledger({frame, staging, place, list, labels}).draw();
 }
 
 }  // namespace

@@ -22,20 +22,15 @@ constexpr double kMostMatrixCell = 44, kLeastMatrixCell = 2;
 constexpr double kLeastNumbered = 27;  // a square of this size has room for a number beside it
 const TextStyle kMatrixStyle{kMatrixText, Weight::regular, Role::quiet_ink};
 
-class Matrix {
+class Matrix : PanelPicture {
  public:
-  Matrix(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
-      : frame_(frame),
-        matrix_(frame.get<FrameMatrix>()),
-        panel_(panel),
-        list_(list),
-        labels_(labels) {
+  explicit Matrix(const PanelPicture& on) : PanelPicture(on), matrix_(frame_.get<FrameMatrix>()) {
     const double n = std::max(1.0, static_cast<double>(matrix_.rows.size()));
     const Vec<2> room =
-        panel.size() - Vec<2>(kMatrixEdge, kMatrixHeading + kMatrixEdge + kMatrixKey);
+        panel_.size() - Vec<2>(kMatrixEdge, kMatrixHeading + kMatrixEdge + kMatrixKey);
     cell_ = std::floor(std::min({room.x / n, room.y / n, kMostMatrixCell}));
     const double slack = std::max(0.0, room.x - n * cell_) / 2;
-    corner_ = panel.lo + Vec<2>(kMatrixEdge + slack, kMatrixHeading + kMatrixEdge);
+    corner_ = panel_.lo + Vec<2>(kMatrixEdge + slack, kMatrixHeading + kMatrixEdge);
   }
 
   void draw() {
@@ -117,20 +112,16 @@ class Matrix {
     if (matrix_.lit != kNone) list_.referents.insert({"sectors_seen", "sector"});
   }
 
-  const Frame& frame_;
   const FrameMatrix& matrix_;
-  Box<2> panel_;
-  DrawList& list_;
-  Labels& labels_;
   double cell_ = 0;
   Vec<2> corner_{0.0};  // of the first square
 };
 
-void draw_matrix(const Frame& frame, const Staging&, const Box<2>& panel, DrawList& list,
+void draw_matrix(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
                  Labels& labels) {
   const Box<2> place = shrunk(panel, 3);
   if (place.size().x < 160 || place.size().y < 160) return;
-  Matrix(frame, place, list, labels).draw();
+  Matrix({frame, staging, place, list, labels}).draw();
 }
 
 }  // namespace

@@ -97,15 +97,14 @@ Strip best_strip(std::uint32_t slots, const Vec<2>& room, const NameWidths& wide
   return s;
 }
 
-class MemoryView {
+class MemoryView : PanelPicture {
  public:
-  MemoryView(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
-      : frame_(frame), panel_(panel), list_(list), labels_(labels), bodies_(by_id(frame.bodies)) {
-    const Box<2> area{panel.lo + Vec<2>(0, kMemoryHeading), panel.hi};
-    strip_ = best_strip(frame.get<FrameStructure>().array_size, area.size(), name_widths(frame));
+  explicit MemoryView(const PanelPicture& on) : PanelPicture(on), bodies_(by_id(frame_.bodies)) {
+    const Box<2> area{panel_.lo + Vec<2>(0, kMemoryHeading), panel_.hi};
+    strip_ = best_strip(frame_.get<FrameStructure>().array_size, area.size(), name_widths(frame_));
     const double rows = std::max(1.0, std::floor((area.size().y + 4) / strip_.pitch));
     shown_ = static_cast<std::uint32_t>(
-        std::min<double>(frame.get<FrameStructure>().array_size, rows * double(strip_.columns)));
+        std::min<double>(frame_.get<FrameStructure>().array_size, rows * double(strip_.columns)));
     origin_ = area.lo + Vec<2>(strip_.gutter, 0);
   }
 
@@ -254,23 +253,19 @@ class MemoryView {
                 {{panel_.lo.x, panel_.lo.y + 0.8 * style.size}, 0}, style, panel_);
   }
 
-  const Frame& frame_;
-  Box<2> panel_;
-  DrawList& list_;
-  Labels& labels_;
   Strip strip_;
   Vec<2> origin_{0.0};
   std::uint32_t shown_ = 0;  // slots
   BodiesById bodies_;
 };
 
-void draw_memory(const Frame& frame, const Staging&, const Box<2>& panel, DrawList& list,
+void draw_memory(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
                  Labels& labels) {
   const Box<2> place = shrunk(panel, 3);
   if (place.size().x < 60 || place.size().y < kMemoryHeading + 12) return;
   list.referents.insert({"slots", "entries", "allocations"});
   if (is_in_pieces(frame)) return draw_list_pieces(frame, place, list, labels);
-  MemoryView(frame, place, list, labels).draw();
+  MemoryView({frame, staging, place, list, labels}).draw();
 }
 
 double memory_height(const Frame& frame, double width) {

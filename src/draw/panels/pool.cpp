@@ -49,14 +49,13 @@ PoolGrid pool_grid(std::uint32_t slots, double width, int most_rows) {
   return grid;
 }
 
-class PoolView {
+class PoolView : PanelPicture {
  public:
-  PoolView(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
-      : frame_(frame), panel_(panel), list_(list), labels_(labels) {
-    const double room = panel.size().y - kPoolHeading;
+  explicit PoolView(const PanelPicture& on) : PanelPicture(on) {
+    const double room = panel_.size().y - kPoolHeading;
     const int rows = std::clamp(static_cast<int>((room + 8) / kPoolRow), 1, kMostPoolRows);
-    grid_ = pool_grid(frame.get<FrameStructure>().pool_size, panel.size().x, rows);
-    shown_ = std::min({frame.get<FrameStructure>().pool_size, kMostPoolSlots,
+    grid_ = pool_grid(frame_.get<FrameStructure>().pool_size, panel_.size().x, rows);
+    shown_ = std::min({frame_.get<FrameStructure>().pool_size, kMostPoolSlots,
                        grid_.columns * static_cast<std::uint32_t>(rows)});
   }
 
@@ -133,21 +132,17 @@ class PoolView {
       write(fmt::format("the first {} are drawn", number(shown_)), kPoolStyle);
   }
 
-  const Frame& frame_;
-  Box<2> panel_;
-  DrawList& list_;
-  Labels& labels_;
   PoolGrid grid_;
   std::uint32_t shown_ = 0;  // slots
 };
 
-void draw_pool(const Frame& frame, const Staging&, const Box<2>& panel, DrawList& list,
+void draw_pool(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
                Labels& labels) {
   const Box<2> place = shrunk(panel, 3);
   if (place.size().x < 60 || place.size().y < kPoolHeading + kPoolSlot) return;
   list.referents.insert({"nodes_reused", "allocations"});
   if (is_in_pieces(frame)) return draw_node_pieces(frame, place, list, labels);
-  PoolView(frame, place, list, labels).draw();
+  PoolView({frame, staging, place, list, labels}).draw();
 }
 
 double pool_height(const Frame& frame, double width) {

@@ -36,25 +36,21 @@ std::string name_of(const FrameWay& way) {
 
 double ways_height(const FrameScreen& screen) { return kWaysGap + screen.planned * kWayRow; }
 
-class ScreenView {
+class ScreenView : PanelPicture {
  public:
-  ScreenView(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
-      : frame_(frame),
-        screen_(frame.get<FrameScreen>()),
-        panel_(panel),
-        list_(list),
-        labels_(labels) {
+  explicit ScreenView(const PanelPicture& on)
+      : PanelPicture(on), screen_(frame_.get<FrameScreen>()) {
     const Vec<2> size(std::max(screen_.width, 1), std::max(screen_.height, 1));
-    const Vec<2> room = shrunk(panel, 3).size();
+    const Vec<2> room = shrunk(panel_, 3).size();
     const double below = std::min(ways_height(screen_), 0.55 * room.y);
     scale_ = std::min(room.x / size.x, (room.y - below) / size.y);
     const double height = size.y * scale_ + below;
-    const Vec<2> corner{panel.center().x - size.x * scale_ / 2, panel.center().y - height / 2};
+    const Vec<2> corner{panel_.center().x - size.x * scale_ / 2, panel_.center().y - height / 2};
     image_ = {corner, corner + size * scale_};
     // As wide as the screen, but for one that is very tall.
     const double wide = std::max(image_.size().x, 0.8 * room.x) / 2;
-    ways_ = {{panel.center().x - wide, image_.hi.y + std::min(kWaysGap, below)},
-             {panel.center().x + wide, image_.hi.y + below}};
+    ways_ = {{panel_.center().x - wide, image_.hi.y + std::min(kWaysGap, below)},
+             {panel_.center().x + wide, image_.hi.y + below}};
   }
 
   void draw() {
@@ -152,19 +148,15 @@ class ScreenView {
     }
   }
 
-  const Frame& frame_;
   const FrameScreen& screen_;
-  Box<2> panel_;
-  DrawList& list_;
-  Labels& labels_;
   Box<2> image_, ways_;
   double scale_ = 1;  // page units a pixel
 };
 
-void draw_screen(const Frame& frame, const Staging&, const Box<2>& panel, DrawList& list,
+void draw_screen(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
                  Labels& labels) {
   if (frame.get<FrameScreen>().elements.empty()) return;
-  ScreenView(frame, panel, list, labels).draw();
+  ScreenView({frame, staging, panel, list, labels}).draw();
   list.referents.insert({"bindings", "draws"});
 }
 
