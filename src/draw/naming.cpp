@@ -12,6 +12,7 @@ namespace lantern::draw {
 namespace {
 
 constexpr std::ptrdiff_t kFewBodies = 8;  // with names
+constexpr double kNameSpare = 1;          // that a name's side has to the room's rim and to bodies
 constexpr std::uint32_t kFewLeaves = 9;
 constexpr std::size_t kMostLookedAt = 120;  // frames of a group, here and there
 
@@ -36,7 +37,7 @@ void count_free(const Frame& frame, const Box<2>& panel, Free& free) {
   for (const Stand& stand : stands) {
     const FrameBody& body = *stand.bodies.front();
     if (stand.bodies.size() > 1 || !shows_name(frame, body)) continue;
-    const auto anchors = anchors_around(stand.box, kNameGap, {});
+    const auto anchors = anchors_around(stand.box, kNameGap + kNameSpare, {});
     std::array<int, 8>& counts = free[body.name];
     for (std::size_t k = 0; k < anchors.size(); ++k) {
       const Box<2> extent = Labels::extent(body.name, anchors[k], {});

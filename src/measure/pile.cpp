@@ -19,7 +19,7 @@ constexpr double kMostTilt = 0.15;
 constexpr double kJitter = 0.02;
 constexpr double kHalfWall = 5;  // thick: nothing gets through
 constexpr double kFriction = 0.5;
-constexpr double kGravity = 10;
+constexpr double kPileGravity = 10;
 constexpr double kNearly = 1e-3;  // bodies at most so far apart touch: solvers leave a gap or slop
 constexpr std::size_t kMostBodies = 100'000;
 
@@ -137,7 +137,7 @@ Scenario pile_scene(const Pile& pile, double step, StructureKind structure) {
   spec.name = pile.name();
   spec.world.dimension = pile.dimension;
   spec.world.time_step = step;
-  spec.world.gravity = {0, -kGravity, 0};
+  spec.world.gravity = {0, -kPileGravity, 0};
   spec.world.contacts = ContactMethod::soft;
   spec.structure.kind = structure;
   spec.structure.split_static = true;

@@ -77,6 +77,33 @@ TEST(Rooms, IncludeOnlyWhatTheTableAllows) {
   EXPECT_GT(includes, 100u) << "the search for includes found next to none: is it broken?";
 }
 
+// A source's own constant would hide it from the sources that are compiled after it in one unit, so
+// that a unity build would draw with another number than any other.
+TEST(Rooms, ConstantsOfTheirHeadersAreHiddenByNoSource) {
+  const std::regex shared("^inline const\\S* .*\\b(k[A-Z]\\w*)( =|\\{)");
+  const std::regex own("\\b(k[A-Z]\\w*)( = |\\{|\\[)");
+  std::map<std::string, std::set<std::string>> known;  // by room
+  const auto each_line = [](const fs::path& path, const auto& look) {
+    std::ifstream file(path);
+    for (std::string line; std::getline(file, line);) look(line);
+  };
+  for (const fs::path& path : sources())
+    if (path.extension() == ".hpp")
+      each_line(path, [&](const std::string& line) {
+        std::smatch match;
+        if (std::regex_search(line, match, shared)) known[room_of(path)].insert(match[1]);
+      });
+  EXPECT_TRUE(known["draw"].contains("kNameGap")) << "the search finds no constants: is it broken?";
+  for (const fs::path& path : sources())
+    if (path.extension() == ".cpp")
+      each_line(path, [&](const std::string& line) {
+        if (!line.starts_with("const")) return;  // of the namespace
+        for (std::sregex_iterator at(line.begin(), line.end(), own), end; at != end; ++at)
+          EXPECT_FALSE(known[room_of(path)].contains((*at)[1]))
+              << path << " has a " << (*at)[1] << " of its own beside its room's";
+      });
+}
+
 TEST(Rooms, HaveANamespaceEach) {
   for (const fs::path& path : sources()) {
     const std::string room = room_of(path);

@@ -28,7 +28,7 @@ constexpr double kLedgerLine = 34;     // from a line of the key to the next
 constexpr double kLedgerHeading = 40;  // height
 constexpr double kKeyMark = 24;        // side of a mark in the key
 constexpr double kKeyGap = 34;         // between two columns of the key
-constexpr double kNameGap = 8;         // between a body and its name
+constexpr double kLedgerNameGap = 8;   // between a body and its name
 constexpr double kLeastNamed = 27;     // a row of this height has room for a name
 constexpr double kMostLedgerCell = 84;
 constexpr double kLeastLedgerCell = 5;
@@ -120,7 +120,7 @@ class Ledger : PanelPicture {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const auto row = static_cast<double>(row_of(i));
       double right = (row + 1) * plan.cell;
-      if (plan.named) right += kNameGap + text_width(bodies_[i]->name, kLedgerStyle);
+      if (plan.named) right += kLedgerNameGap + text_width(bodies_[i]->name, kLedgerStyle);
       const bool beside_key = plan.corner && row * plan.cell < key_bottom;
       if (right + 2 > room.x - (beside_key ? key_width_ + kKeyGap : 0)) return false;
     }
@@ -172,7 +172,7 @@ class Ledger : PanelPicture {
       const Box<2> box = cell_at(row_of(i), row_of(i), plan.cell);
       draw_character(body, icon_box(body, shrunk(box, 0.04 * plan.cell)), false, list_);
       if (!plan.named) continue;
-      labels_.add(body.name, centred({box.hi.x + kNameGap, box.center().y}, kLedgerStyle, 0),
+      labels_.add(body.name, centred({box.hi.x + kLedgerNameGap, box.center().y}, kLedgerStyle, 0),
                   kLedgerStyle, panel_);
     }
   }
