@@ -196,7 +196,7 @@ class DifferenceView : PanelPicture {
   }
 
   const scenario::FrameDifference& difference_;
-  Box<2> panel_, area_;
+  Box<2> area_;
   Pen pen_;
   double scale_ = 1;
   Vec<2> origin_{0.0};
