@@ -53,7 +53,8 @@ void keep_asked_for(std::vector<T>& all, const std::vector<std::string>& names,
     std::vector<std::string> there;
     for (const T& one : all) there.push_back(name_of(one));
     throw Refused(with_suggestion(fmt::format("there is no contestant '{}'", name), name,
-                                  std::vector<std::string_view>(there.begin(), there.end())));
+                                  std::vector<std::string_view>(there.begin(), there.end()),
+                                  there.size()));
   }
   std::erase_if(all, [&](const T& one) { return !is_asked_for(names, name_of(one)); });
 }

@@ -325,7 +325,6 @@ TEST_F(HostilePart, IsRefusedWhereItContradictsItself) {
       {records, "\"theme\": \"light\"", "\"theme\": \"dark\"",
        "theme is \"light\", the record's settings say \"dark\""},
       {records, "\"size\": \"80x45\"", "\"size\": \"160x90\"", "the record's settings say"},
-      {records, "\"facts\": \"2\"", "\"facts\": \"1\"", "the record's settings say"},
       {records, "\"transparent\": \"no\"", "\"transparent\": \"yes\"", "the record's settings say"},
       {records, "\"tween\": \"1\"", "\"tween\": \"3\"", "the record's settings say"},
       {records, "\"pace\": \"\"", "\"pace\": \"event\"", "the record's settings say"},

@@ -149,22 +149,22 @@ TEST(Rooms, PagesNameFilesThatAreThere) {
 // new one is known everywhere. Named are kinds only where one of them is meant, as often as this.
 TEST(Rooms, NameNoStructureButWhereItIsMeant) {
   const std::map<std::string, int> allowed = {
-      {"draw/comparison_view.cpp", 1},         // others are compared with brute force
-      {"draw/legend.cpp", 1},                  // its example
-      {"draw/world2d_parts.cpp", 1},           // quarters that a quadtree has not made
-      {"app/bench_structure_command.cpp", 2},  // others are timed beside brute force
-      {"scenario/verb_level.cpp", 1},          // a compiled level is a BSP
-      {"scenario/level_stage.cpp", 1},         // as well
-      {"scenario/watch_contacts.cpp", 1},      // pairs of worlds without a structure
-      {"scenario/structure_picture.cpp", 2},   // what brute force says of itself
-      {"scenario/tally.cpp", 1},               // no structure is brute force
-      {"scenario/table_structure.cpp", 7},     // who has which settings: to come from the traits
-      {"scenario/parse.cpp", 2},               // as well
-      {"scenario/counted.cpp", 5},             // as well
-      {"measure/broad_phase_cost.cpp", 1},     // brute force is measured once
-      {"measure/broad_phase_cost.hpp", 1},     // what a row is of, if nothing is said
-      {"measure/step_bench.hpp", 1},           // as well
-      {"measure/stress_trees.cpp", 3},         // cases about one of them
+      {"draw/panels/comparison.cpp", 1},        // others are compared with brute force
+      {"draw/legend.cpp", 1},                   // its example
+      {"draw/world/world2d_parts.cpp", 1},      // quarters that a quadtree has not made
+      {"app/commands/structure_bench.cpp", 2},  // others are timed beside brute force
+      {"scenario/verb_level.cpp", 1},           // a compiled level is a BSP
+      {"scenario/level_stage.cpp", 1},          // as well
+      {"scenario/watch_contacts.cpp", 1},       // pairs of worlds without a structure
+      {"scenario/structure_picture.cpp", 2},    // what brute force says of itself
+      {"scenario/tally.cpp", 1},                // no structure is brute force
+      {"scenario/table_structure.cpp", 7},      // who has which settings: to come from the traits
+      {"scenario/parse.cpp", 2},                // as well
+      {"scenario/counted.cpp", 5},              // as well
+      {"measure/broad_phase_cost.cpp", 1},      // brute force is measured once
+      {"measure/broad_phase_cost.hpp", 1},      // what a row is of, if nothing is said
+      {"measure/step_bench.hpp", 1},            // as well
+      {"measure/stress_trees.cpp", 3},          // cases about one of them
   };
   const std::regex kind("StructureKind::(?!none\\b|automatic\\b|own\\b)[a-z]");
   std::size_t named = 0;

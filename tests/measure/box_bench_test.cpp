@@ -1,6 +1,4 @@
 // Worlds of boxes, those who find their pairs, and the bench that runs them.
-#include "measure/boxes/bench.hpp"
-
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -9,6 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "measure/boxes/bench.hpp"
 #include "measure/broad_phase_cost.hpp"
 
 namespace lantern::measure {
@@ -155,7 +154,7 @@ TEST(BoxBench, RefusesBeforeAnyWork) {
   BoxBenchConfig config = small_bench("uniform_2d");
   config.peers = false;
   config.only = {"quadtre"};
-  EXPECT_NE(refusal(config).find("there is no contestant 'quadtre'; take some of"),
+  EXPECT_NE(refusal(config).find("there is no contestant 'quadtre'; did you mean 'quadtree'?"),
             std::string::npos);
   config.only = {"quadtree"};
   config.workloads = box_workloads_named("clustered_2d");
