@@ -24,7 +24,7 @@ Frame blank_world() {
   return frame;
 }
 
-Vec<3> middle_of(const Frame& frame) { return frame.bounds.center(); }
+Vec<3> middle_of_world(const Frame& frame) { return frame.bounds.center(); }
 
 FrameBody& add_ball(Frame& frame, const Vec<2>& at, double radius) {
   FrameBody body;
@@ -47,7 +47,7 @@ FrameNode& add_cell(Frame& frame, const Box<3>& box, std::uint32_t parent) {
 }
 
 void add_link(Frame& frame, FrameLink::Kind kind) {
-  const Vec<3> c = middle_of(frame);
+  const Vec<3> c = middle_of_world(frame);
   const double reach = kind == FrameLink::Kind::pin ? 0 : 20;
   frame.add<FrameLinks>().links.push_back(
       {kind, c - Vec<3>(reach, 0, 0), c + Vec<3>(reach, 0, 0), 0});
@@ -72,7 +72,7 @@ void add_unmade(Frame& frame) {
 }
 
 void add_bodies(Frame& frame, MarkKind kind) {
-  const Vec<3> c = middle_of(frame);
+  const Vec<3> c = middle_of_world(frame);
   switch (kind) {
     case MarkKind::static_body: {
       FrameBody& body = add_ball(frame, {c.x, c.y}, 12);
@@ -93,7 +93,7 @@ void add_bodies(Frame& frame, MarkKind kind) {
 }
 
 void add_question(Frame& frame, MarkKind kind) {
-  const Vec<3> c = middle_of(frame);
+  const Vec<3> c = middle_of_world(frame);
   const Vec<3> along{22, 0, 0};
   if (kind == MarkKind::ray) frame.add<FrameFinding>().rays.push_back({c - along, c + along, {}});
   if (kind == MarkKind::region)
