@@ -1,5 +1,5 @@
-// The rooms' namespaces: each sees the names of those that it may include (src/ARCHITECTURE.md), and
-// has its own first. What is in `base` is in `lantern` itself.
+// The rooms' namespaces: each sees the names of those that it may include (src/ARCHITECTURE.md),
+// and has its own first. What is in `base` is in `lantern` itself.
 #pragma once
 
 namespace lantern {
@@ -17,9 +17,12 @@ using namespace geometry;
 namespace physics {
 using namespace spatial;
 }
-namespace scenario {
+namespace language {
 using namespace physics;
 using namespace atlas;
+}  // namespace language
+namespace scenario {
+using namespace language;
 }
 namespace draw {
 using namespace scenario;
@@ -39,13 +42,13 @@ using namespace measure;
 namespace report {
 using namespace measure;
 using namespace render;
-}
+}  // namespace report
 namespace app {
 using namespace publish;
 }
 namespace lab {
 using namespace app;
 using namespace report;
-}
+}  // namespace lab
 
 }  // namespace lantern

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "app/commands/command.hpp"
-#include "scenario/scenario.hpp"
+#include "language/scenario.hpp"
 
 namespace lantern::app {
 

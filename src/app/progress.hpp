@@ -12,7 +12,7 @@
 
 #include "base/clock.hpp"
 #include "base/work.hpp"
-#include "scenario/scenario.hpp"
+#include "language/scenario.hpp"
 
 namespace lantern::app {
 

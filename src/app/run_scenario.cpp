@@ -21,7 +21,7 @@
 #include "base/utf8.hpp"
 #include "draw/font.hpp"
 #include "draw/page.hpp"
-#include "scenario/source_text.hpp"
+#include "language/text/problems.hpp"
 #include "scenario/warnings.hpp"
 
 namespace lantern::app {

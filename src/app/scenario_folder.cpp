@@ -15,8 +15,8 @@
 #include "app/terminal.hpp"
 #include "base/error.hpp"
 #include "base/suggest.hpp"
+#include "language/scenario.hpp"
 #include "rooms.hpp"
-#include "scenario/scenario.hpp"
 
 namespace lantern::app {
 

@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 
 set(lantern_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Lantern)
 # The rooms whose headers others may include.
-set(lantern_public_rooms base geometry lecture spatial atlas physics scenario draw render)
+set(lantern_public_rooms base geometry lecture spatial atlas physics language scenario draw render)
 
 # lantern_installed_library(NAME): lantern_NAME goes along, whoever links it finds it.
 function(lantern_installed_library name)

@@ -32,8 +32,9 @@ const PanelView& view_of(Panel panel) {
 }
 
 void add_panel(const OwnPanel& panel) {
-  scenario::add_panel(panel.kind);
+  scenario::add_panel(panel.kind, panel.run);
   views().push_back(panel.view);
+  views().back().name = panel.kind.name;
 }
 
 }  // namespace lantern::draw

@@ -1,5 +1,6 @@
 // How panels are drawn, and what room they want. What else is known of them is in
-// scenario/panel.hpp. Each panel is a file that gives one entry of the list in panel.cpp.
+// language/panel.hpp and scenario/panel.hpp. Each panel is a file that gives one entry of the list
+// in panel.cpp.
 #pragma once
 
 #include <string_view>
@@ -7,11 +8,12 @@
 #include "draw/labels.hpp"
 #include "draw/staging.hpp"
 #include "scenario/frame.hpp"
+#include "scenario/panel.hpp"
 
 namespace lantern::draw {
 
 struct PanelView {
-  std::string_view name = {};  // as in `panels`
+  std::string_view name = {};  // as in `panels`; of a program's own, that of its kind
   // Fills the box and nothing outside of it.
   void (*draw)(const Frame& frame, const Staging& staging, const Box<2>& box, DrawList& list,
                Labels& labels) = nullptr;
@@ -46,9 +48,10 @@ class PanelPicture {
   Labels& labels_;
 };
 
-// A panel of a program's own: its two entries.
+// A panel of a program's own: its three entries, named by the first.
 struct OwnPanel {
-  scenario::PanelKind kind;
+  language::PanelKind kind;
+  scenario::PanelRun run;
   PanelView view;
 };
 void add_panel(const OwnPanel& panel);

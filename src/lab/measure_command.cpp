@@ -19,13 +19,13 @@
 #include "lab/commands.hpp"
 #include "lab/experiment_run.hpp"
 #include "lab/measure_unsuited.hpp"
+#include "language/method.hpp"
 #include "measure/plan.hpp"
 #include "measure/problems.hpp"
 #include "report/benches.hpp"
 #include "report/measure_document.hpp"
 #include "report/measure_files.hpp"
 #include "report/pages.hpp"
-#include "scenario/method.hpp"
 
 namespace lantern::lab {
 namespace {

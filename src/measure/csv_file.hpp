@@ -12,7 +12,7 @@
 
 #include "base/stop.hpp"
 #include "base/suggest.hpp"
-#include "scenario/source_text.hpp"
+#include "language/text/problems.hpp"
 
 namespace lantern::measure {
 

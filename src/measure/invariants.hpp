@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "language/scenario.hpp"
 #include "measure/row.hpp"
 #include "scenario/body_state.hpp"
-#include "scenario/scenario.hpp"
 
 namespace lantern::measure {
 

@@ -1,8 +1,8 @@
 // Lantern's own engine, the one that makes the frames, by one of its methods.
 #pragma once
 
+#include "language/method.hpp"
 #include "measure/simulation.hpp"
-#include "scenario/method.hpp"
 
 namespace lantern::measure {
 

@@ -10,7 +10,6 @@
 
 #include "measure/invariants.hpp"
 #include "scenario/body_state.hpp"
-#include "scenario/scenario.hpp"
 
 namespace lantern::measure {
 

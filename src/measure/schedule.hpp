@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "scenario/scenario.hpp"
+#include "language/scenario.hpp"
 
 namespace lantern::measure {
 

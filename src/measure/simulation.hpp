@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "language/scenario.hpp"
 #include "physics/world_config.hpp"
 #include "scenario/body_state.hpp"
-#include "scenario/scenario.hpp"
 
 namespace lantern::measure {
 

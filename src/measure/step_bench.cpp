@@ -26,7 +26,7 @@ constexpr std::size_t kTurn = 15;         // steps that a solver makes at a time
 constexpr std::size_t kTurnsASecond = 4;  // of simulated time
 constexpr std::uint64_t kWarmSteps = 5;
 
-// From quick to exact, names of scenario/method.hpp.
+// From quick to exact, names of language/method.hpp.
 constexpr std::string_view kUsualEfforts[] = {"soft:0.01", "soft:0.001", "soft:0.0001", "soft:8",
                                               "impulse:10"};
 

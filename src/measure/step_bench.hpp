@@ -52,7 +52,7 @@ using StepBenchResult = BenchResult<StepBenchConfig, StepRow>;
 std::vector<Pile> usual_piles();
 std::vector<Pile> all_piles();
 
-// Our efforts that are measured if nobody asks for others; any name of scenario/method.hpp that is
+// Our efforts that are measured if nobody asks for others; any name of language/method.hpp that is
 // one of contacts can be asked for.
 std::span<const std::string_view> usual_efforts();
 

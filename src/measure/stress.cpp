@@ -9,8 +9,8 @@
 
 #include "base/stop.hpp"
 #include "embedded/stress_scenarios.hpp"
+#include "language/scenario.hpp"
 #include "scenario/director.hpp"
-#include "scenario/scenario.hpp"
 
 namespace lantern::measure {
 

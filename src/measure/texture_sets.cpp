@@ -11,6 +11,7 @@
 #include "base/file.hpp"
 #include "base/random.hpp"
 #include "base/suggest.hpp"
+#include "language/text/problems.hpp"
 #include "measure/atlas_bench.hpp"
 #include "measure/csv_file.hpp"
 

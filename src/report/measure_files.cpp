@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "language/scenario.hpp"
 #include "measure/records.hpp"
-#include "scenario/scenario_name.hpp"
 
 // Where the rows are, since they are found by the rows' type.
 namespace lantern::measure {

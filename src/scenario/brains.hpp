@@ -11,8 +11,8 @@
 
 #include "base/hash.hpp"
 #include "geometry/random_vec.hpp"
+#include "language/scenario.hpp"
 #include "physics/world.hpp"
-#include "scenario/scenario.hpp"
 
 namespace lantern::scenario {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "language/scenario.hpp"
 #include "scenario/frame_comparison.hpp"
-#include "scenario/scenario.hpp"
 
 namespace lantern::scenario {
 

@@ -77,11 +77,11 @@ namespace {
 
 // A verb that has no frames of its own is one change, shown when it is done.
 template <class V>
-void act(const V& verb, ScriptRun& run) {
-  if constexpr (requires { verb.act(run); }) {
-    verb.act(run);
+void carry(const V& verb, ScriptRun& run) {
+  if constexpr (requires { act(verb, run); }) {
+    act(verb, run);
   } else {
-    verb.change(run.engine());
+    if constexpr (V::kTraits.changes_bodies) change(verb, run.engine());
     if constexpr (requires { verb.body; }) run.focus(verb.body);
     run.frames.settle(V::kTraits.name);
   }
@@ -98,7 +98,7 @@ void ScriptRun::play(const Step& step, std::uint32_t index) {
       stage.level && (verb.changes_bodies || verb.passes_time))
     stage.level->put_away_answers();
   try {
-    std::visit([&](const auto& verb) { act(verb, *this); }, step.verb);
+    std::visit([&](const auto& verb) { carry(verb, *this); }, step.verb);
   } catch (const Refused& refused) {
     throw ScenarioError(diagnose(scenario, step.where, refused.what()));
   } catch (const StructureFault& broken) {

@@ -119,4 +119,8 @@ class Engine {
 
 std::unique_ptr<Engine> make_engine(const Scenario& scenario, Work& work);
 
+// What a verb does to an engine's bodies, without frames: one that only shows, asks or partitions
+// does nothing, one that passes time takes its steps. Throws Refused as the engine does.
+void carry_out(const Verb& verb, Engine& engine, double time_step);
+
 }  // namespace lantern::scenario

@@ -13,12 +13,13 @@
 
 #include "geometry/flat.hpp"
 #include "geometry/polygon.hpp"
+#include "language/code_text.hpp"
+#include "language/scenario.hpp"
 #include "physics/gjk.hpp"
 #include "physics/world_config.hpp"
 #include "scenario/body_state.hpp"
 #include "scenario/frame_comparison.hpp"
 #include "scenario/parts.hpp"
-#include "scenario/scenario.hpp"
 #include "spatial/structure.hpp"
 
 namespace lantern::scenario {
@@ -254,9 +255,6 @@ struct FrameLooks {
 
   static decltype(auto) fields(const auto& r, auto&& v) { return v("looks", r.looks); }
 };
-
-// So many are told of one step.
-inline constexpr std::size_t kMostLooks = 24;
 
 // A spring, a distance joint or a pin, between two points.
 struct FrameLink {
@@ -579,29 +577,8 @@ struct FrameTrace {
   }
 };
 
-// A function of the lecture's own source (lecture/source.hpp), and which of its lines the frame is
-// about.
-struct FrameCode {
-  static constexpr std::string_view kName = "code";
-  static constexpr bool kIsObject = true;
-  struct Line {
-    std::uint32_t number = 0;  // in its file, from 1
-    std::uint32_t indent = 0;  // levels, from the function's head on
-    std::string text;
-    bool lit = false;
-  };
-  std::string file;      // "quad_tree.hpp"
-  std::string function;  // "QuadTreeNode::Insert"
-  std::vector<Line> lines;
-
-  std::vector<std::uint32_t> lit() const;  // their numbers
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("file", r.file)("function", r.function)
-        .told("lit", [&r] { return r.lit(); })
-        .drawn(r.lines);
-  }
-};
+// A function of the lecture's own source, and which of its lines the frame is about.
+using FrameCode = CodeText;
 
 // What the world remembered, step after step, of one pair that touches or has just touched.
 struct FrameCollision {
@@ -826,5 +803,9 @@ std::string to_json(const Frame& frame);
 // was expected and what was found.
 std::vector<std::optional<std::string>> unmet(const std::vector<Expectation>& expectations,
                                               const Frame& frame);
+
+// What step `step` (from 0) expects when it is done, then what always, in the order of the file and
+// in a few signs each: "pairs = 0". What only one side expects begins with its name: "lazy: …".
+std::vector<std::string> proofs_of(const Scenario& scenario, std::size_t step);
 
 }  // namespace lantern::scenario

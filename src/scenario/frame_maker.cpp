@@ -9,11 +9,12 @@
 #include "base/error.hpp"
 #include "base/stop.hpp"
 #include "geometry/flat.hpp"
-#include "scenario/caption.hpp"
-#include "scenario/code_text.hpp"
+#include "language/code_text.hpp"
+#include "language/counts.hpp"
+#include "language/script/caption.hpp"
 #include "scenario/comparison.hpp"
 #include "scenario/frame.hpp"
-#include "scenario/language.hpp"
+#include "scenario/panel.hpp"
 #include "scenario/rulers.hpp"
 
 namespace lantern::scenario {
@@ -169,7 +170,7 @@ Frame FrameMaker::drawn(const Touched& now, std::string_view event, bool midst) 
   frame.put(code_);
   if (stage_.engine && shows(scenario_.panels, "collisions")) add_collisions(frame);
   for (const Panel panel : frame.panels)
-    if (const auto gather = kind_of(panel).gather) gather(stage_, frame);
+    if (const auto gather = run_of(panel).gather) gather(stage_, frame);
   return frame;
 }
 

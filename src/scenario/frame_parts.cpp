@@ -63,11 +63,4 @@ void FrameTextures::add_state(Hash& hash) const {
       hash.add(static_cast<std::uint64_t>(x));
 }
 
-std::vector<std::uint32_t> FrameCode::lit() const {
-  std::vector<std::uint32_t> numbers;
-  for (const Line& line : lines)
-    if (line.lit) numbers.push_back(line.number);
-  return numbers;
-}
-
 }  // namespace lantern::scenario

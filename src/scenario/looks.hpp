@@ -3,8 +3,8 @@
 
 #include <optional>
 
+#include "language/scenario.hpp"
 #include "scenario/frame.hpp"
-#include "scenario/scenario.hpp"
 
 namespace lantern::scenario {
 

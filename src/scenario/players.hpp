@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "language/scenario.hpp"
 #include "physics/world.hpp"
-#include "scenario/scenario.hpp"
 #include "scenario/structure_picture.hpp"
 
 namespace lantern::scenario {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <set>
 
-#include "scenario/language.hpp"
+#include "language/counts.hpp"
 
 namespace lantern::scenario {
 namespace {

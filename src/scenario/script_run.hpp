@@ -42,4 +42,40 @@ struct ScriptRun {
   void play(const Step& step, std::uint32_t index);
 };
 
+// What a verb changes, for whoever wants no frames as well.
+void change(const Insert& insert, Engine& engine);
+void change(const Emit& emit, Engine& engine);
+void change(const Remove& remove, Engine& engine);
+void change(const Move& move, Engine& engine);
+void change(const Sleep& sleep, Engine& engine);
+void change(const Wake& wake, Engine& engine);
+void change(const ApplyForce& force, Engine& engine);
+void change(const ApplyImpulse& impulse, Engine& engine);
+void change(const SolveBy& method, Engine& engine);
+
+// What a verb does, with its frames. One that is not here is one change, shown when it is done.
+void act(const Insert& insert, ScriptRun& run);
+void act(const Emit& emit, ScriptRun& run);
+void act(const Remove& remove, ScriptRun& run);
+void act(const Move& move, ScriptRun& run);
+void act(const Run& verb, ScriptRun& run);
+void act(const Wait& wait, ScriptRun& run);
+void act(const Phases& phases, ScriptRun& run);
+void act(const Rebuild& rebuild, ScriptRun& run);
+void act(const language::Sweep& sweep, ScriptRun& run);
+void act(const Compare& compare, ScriptRun& run);
+void act(const CastRay& ray, ScriptRun& run);
+void act(const Cull& cull, ScriptRun& run);
+void act(const Query& query, ScriptRun& run);
+void act(const TestShapes& test, ScriptRun& run);
+void act(const Separate& of, ScriptRun& run);
+void act(const SearchDistance& of, ScriptRun& run);
+void act(const CompileLevel& compile, ScriptRun& run);
+void act(const Locate& locate, ScriptRun& run);
+void act(const OrderFrom& order, ScriptRun& run);
+void act(const See& see, ScriptRun& run);
+void act(const Pack& pack, ScriptRun& run);
+void act(const AskRoom& ask, ScriptRun& run);
+void act(const DrawScreen& draw, ScriptRun& run);
+
 }  // namespace lantern::scenario

@@ -14,7 +14,7 @@
 
 #include "base/check.hpp"
 #include "base/memory.hpp"
-#include "scenario/caption.hpp"
+#include "language/script/caption.hpp"
 #include "scenario/script_run.hpp"
 
 namespace lantern::scenario {

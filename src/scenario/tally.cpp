@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "physics/methods.hpp"
+#include "scenario/panel.hpp"
 
 namespace lantern::scenario {
 namespace {
@@ -66,7 +67,7 @@ void Tally::see(const Frame& frame) {
   raise(walls_, seen.walls);
   raise(sectors_, seen.sectors);
   for (std::size_t i = 0; i < panel_kinds().size(); ++i)
-    for (const PanelKind::Content& content : panel_kinds()[i].shows)
+    for (const PanelRun::Content& content : run_of(Panel(i)).shows)
       with_[{i, content.what}] +=
           content.is_on(frame) || std::ranges::any_of(frame.sides, content.is_on);
   count_builds(frame);
@@ -187,12 +188,12 @@ void Tally::list_others(const DirectorReport& report, Stages& all) const {
 
 void Tally::list_pictures(Stages& all) const {
   for (std::size_t i = 0; i < panel_kinds().size(); ++i) {
-    const PanelKind& kind = panel_kinds()[i];
-    const bool drawn = shows(scenario_.panels, kind.name);
+    const PanelRun& panel = run_of(Panel(i));
+    const bool drawn = shows(scenario_.panels, panel.name);
     StageTally& tally = all.emplace_back();
-    tally.stage = kind.stage;
+    tally.stage = panel.stage;
     tally.note = drawn ? "" : "none of the scenario's panels";
-    for (const PanelKind::Content& content : kind.shows) {
+    for (const PanelRun::Content& content : panel.shows) {
       const auto with = with_.find({i, content.what});
       tally.amounts.push_back(amount(drawn && with != with_.end() ? with->second : 0,
                                      fmt::format("frame with {}", content.what),

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "draw/sample_frames.hpp"
-#include "scenario/code_text.hpp"
+#include "language/code_text.hpp"
 
 namespace lantern::draw::samples {
 namespace {

@@ -55,12 +55,12 @@ inline void draw_speeds(const lantern::scenario::Frame& frame, const lantern::dr
 }
 
 inline lantern::draw::OwnPanel speeds_panel() {
-  return {{.name = "speeds",
-           .stage = "speeds panel",
+  return {{.name = "speeds"},
+          {.stage = "speeds panel",
            .shows = {{"speeds",
                       [](const lantern::scenario::Frame& frame) {
                         return !frame.get<Speeds>().speeds.empty();
                       }}},
            .gather = gather_speeds},
-          {.name = "speeds", .draw = draw_speeds}};
+          {.draw = draw_speeds}};
 }

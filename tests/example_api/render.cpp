@@ -5,11 +5,11 @@
 
 #include <lantern/base/error.hpp>
 #include <lantern/draw/page.hpp>
+#include <lantern/language/scenario.hpp>
 #include <lantern/render/png.hpp>
 #include <lantern/render/renderer.hpp>
 #include <lantern/render/svg.hpp>
 #include <lantern/scenario/director.hpp>
-#include <lantern/scenario/scenario.hpp>
 
 using namespace lantern::render;
 namespace scenario = lantern::scenario;

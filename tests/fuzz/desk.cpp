@@ -9,7 +9,7 @@
 #include <sys/mman.h>
 
 #include "base/hash.hpp"
-#include "scenario/language.hpp"
+#include "language/language.hpp"
 
 namespace lantern::fuzz {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "fuzz/sees_all.hpp"
-#include "scenario/language.hpp"
+#include "language/language.hpp"
 
 namespace lantern::fuzz {
 

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "fuzz/sees_all.hpp"
+#include "language/scenario.hpp"
 #include "scenario/frame.hpp"
-#include "scenario/scenario.hpp"
 
 namespace lantern::fuzz {
 

@@ -10,12 +10,12 @@
 #include "base/hash.hpp"
 #include "draw/page.hpp"
 #include "fuzz/energy.hpp"
+#include "language/text/problems.hpp"
+#include "language/text/toml_tree.hpp"
 #include "measure/plan.hpp"
 #include "render/svg.hpp"
 #include "scenario/director.hpp"
-#include "scenario/source_text.hpp"
 #include "scenario/tally.hpp"
-#include "scenario/toml_tree.hpp"
 #include "scenario/warnings.hpp"
 
 namespace lantern::fuzz {

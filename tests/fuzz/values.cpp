@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "language/counts.hpp"
+
 namespace lantern::fuzz {
 namespace {
 

@@ -5,8 +5,8 @@
 #include <gtest/gtest.h>
 
 #include "base/file.hpp"
+#include "language/method.hpp"
 #include "scenario/engine.hpp"
-#include "scenario/method.hpp"
 
 namespace lantern::measure {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "scenario/scenario.hpp"
+#include "language/scenario.hpp"
 
 namespace lantern::measure {
 

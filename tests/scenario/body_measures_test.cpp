@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "language/method.hpp"
 #include "scenario/directing.hpp"
-#include "scenario/method.hpp"
 #include "scenario/parsing.hpp"
 
 namespace lantern::scenario {

@@ -1,4 +1,4 @@
-#include "scenario/caption.hpp"
+#include "language/script/caption.hpp"
 
 #include <string>
 

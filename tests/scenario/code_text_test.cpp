@@ -1,5 +1,5 @@
 // The lecture's source as frames show it: what is shown stands so in the files that were compiled.
-#include "scenario/code_text.hpp"
+#include "language/code_text.hpp"
 
 #include <algorithm>
 #include <cstdint>

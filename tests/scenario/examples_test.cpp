@@ -3,10 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include "language/language.hpp"
+#include "language/reference.hpp"
 #include "scenario/director.hpp"
-#include "scenario/language.hpp"
 #include "scenario/parsing.hpp"
-#include "scenario/reference.hpp"
 
 namespace lantern::scenario {
 namespace {

@@ -9,7 +9,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "scenario/language.hpp"
+#include "language/counts.hpp"
+#include "language/language.hpp"
 #include "scenario/parsing.hpp"
 
 namespace lantern::scenario {
@@ -967,8 +968,8 @@ std::vector<KeyCase> key_cases() {
   }
   for (const CountDoc& count : known_counts())
     if (count.for_world() && count.name != "asleep" && count.name != "awake" &&
-        count.need != CountNeed::kd_tree && count.need != CountNeed::sweep &&
-        count.need != CountNeed::boxes)  // the first two are above, others need another structure
+        count.rule.when != "with a kD-tree" && count.rule.when != "with `sort_and_sweep`" &&
+        count.rule.when != "with an `aabb_tree`")  // the first two are above
       cases.push_back(
           {"expect", std::string(count.name), {"0", "1", "9007199254740992"}, no_number});
   return cases;

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "scenario/language.hpp"
+#include "language/language.hpp"
 #include "scenario/parsing.hpp"
 
 namespace lantern::scenario {
@@ -95,6 +95,23 @@ TEST(Mistakes, OfAWrongPlaceTellTheRightOne) {
                   {"'bodies' belongs to do = \"insert\""});
   expect_mistakes("title = \"x\"\n[world]\nsize = [1, 1]\n@capacity = 2\n[[step]]\ndo = \"show\"\n",
                   {"'capacity' belongs to [structure]"});
+}
+
+TEST(Mistakes, AnUnknownVerbIsToldAlone) {
+  expect_mistakes(kScene + steps({"do = @\"insret\"\nbodies = [\"red\"]",
+                                  "do = \"move\"\nbody = \"red\"\nto = [2, 2]",
+                                  "do = \"ray\"\nfrom = [0, 0]\nto = [9, 9]",
+                                  "do = \"remove\"\nbodies = [\"red\"]\n"
+                                  "expect = { hits = 1, bodies = 0 }"}),
+                  {"did you mean 'insert'?"});
+}
+
+TEST(Mistakes, AnUnknownNameIsToldOnce) {
+  expect_mistakes(kScene + steps({"do = \"insert\"\nbodies = [@\"rde\", \"pink\"]",
+                                  "do = \"move\"\nbody = \"red\"\nto = [2, 2]",
+                                  "do = \"show\"\nexpect = { position = { rde = [2, 2] } }",
+                                  "do = \"remove\"\nbodies = [\"rde\"]"}),
+                  {"there is no body 'rde', here and 2 times more"});
 }
 
 TEST(Mistakes, BeyondFiftyAreCounted) {

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scenario/reference.hpp"
+#include "language/reference.hpp"
 
 namespace lantern::scenario {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scenario/scenario.hpp"
+#include "language/scenario.hpp"
 
 namespace lantern::scenario {
 

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/angle.hpp"
-#include "scenario/language.hpp"
+#include "language/language.hpp"
 #include "scenario/parsing.hpp"
 
 namespace lantern::scenario {

@@ -1,5 +1,5 @@
 // Where a pattern's bodies stand, how they enter, and which way a body is turned.
-#include "scenario/placement.hpp"
+#include "language/tables/placement.hpp"
 
 #include <cmath>
 #include <string>

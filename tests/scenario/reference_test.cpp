@@ -1,5 +1,5 @@
 // The published page and schema say what the parser does.
-#include "scenario/reference.hpp"
+#include "language/reference.hpp"
 
 #include <algorithm>
 #include <regex>
@@ -10,9 +10,10 @@
 #include <nlohmann/json.hpp>
 
 #include "base/random.hpp"
-#include "scenario/language.hpp"
+#include "language/counts.hpp"
+#include "language/language.hpp"
+#include "language/text/toml_tree.hpp"
 #include "scenario/parsing.hpp"
-#include "scenario/toml_tree.hpp"
 
 namespace lantern::scenario {
 namespace {

@@ -10,12 +10,12 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "language/reference.hpp"
+#include "language/verbs.hpp"
 #include "physics/world_config.hpp"
 #include "scenario/directing.hpp"
 #include "scenario/engine.hpp"
 #include "scenario/parsing.hpp"
-#include "scenario/reference.hpp"
-#include "scenario/verbs.hpp"
 
 namespace lantern::scenario {
 namespace {

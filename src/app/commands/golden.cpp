@@ -22,8 +22,8 @@
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
 #include "embedded/version.hpp"
+#include "language/scenario.hpp"
 #include "publish/golden_report.hpp"
-#include "scenario/scenario_name.hpp"
 
 namespace lantern::app {
 namespace {

@@ -23,12 +23,12 @@
 #include "app/output/sinks.hpp"
 #include "base/file.hpp"
 #include "embedded/version.hpp"
+#include "language/scenario.hpp"
 #include "publish/golden_report.hpp"
 #include "render/compare.hpp"
 #include "render/png.hpp"
 #include "render/renderer.hpp"
 #include "render/seal.hpp"
-#include "scenario/scenario_name.hpp"
 
 namespace lantern::app {
 

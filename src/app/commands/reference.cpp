@@ -1,5 +1,5 @@
 // The reference page, its pictures, and the schemas.
-#include "scenario/reference.hpp"
+#include "language/reference.hpp"
 
 #include <filesystem>
 #include <optional>

@@ -15,8 +15,6 @@
 #include "render/png.hpp"
 #include "render/seal.hpp"
 #include "scenario/frame.hpp"
-#include "scenario/scenario.hpp"
-#include "scenario/scenario_name.hpp"
 
 namespace lantern::app {
 

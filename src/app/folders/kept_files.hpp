@@ -16,7 +16,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/file.hpp"
-#include "scenario/scenario_name.hpp"
+#include "language/scenario.hpp"
 
 namespace lantern::app {
 

@@ -13,7 +13,7 @@
 #include "app/folders/frame_folder.hpp"
 #include "app/output/render_job.hpp"
 #include "base/file.hpp"
-#include "scenario/scenario_name.hpp"
+#include "language/scenario.hpp"
 
 namespace lantern::app {
 
@@ -89,7 +89,8 @@ inline constexpr const char* kShardFile = "shard.json";
 ShardRecord new_record(const Shard& shard);
 
 std::string to_json(const ShardRecord& record);
-// Throws RefusedFile (app/folders/kept_files.hpp) for a text that is damaged, or not as to_json wrote it.
+// Throws RefusedFile (app/folders/kept_files.hpp) for a text that is damaged, or not as to_json
+// wrote it.
 ShardRecord read_record(std::string_view json);
 
 // What of the settings a manifest tells, by the same names.

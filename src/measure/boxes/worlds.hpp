@@ -13,8 +13,8 @@
 #include <variant>
 #include <vector>
 
+#include "language/scenario.hpp"
 #include "measure/box_peer.hpp"
-#include "scenario/scenario.hpp"
 #include "spatial/box_worlds.hpp"
 
 namespace lantern::measure {

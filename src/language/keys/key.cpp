@@ -1,0 +1,340 @@
+#include "language/keys/key.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/check.hpp"
+#include "geometry/angle.hpp"
+#include "language/language.hpp"
+#include "language/scenario.hpp"
+
+namespace lantern::language {
+
+std::string Filled<double>::literal(double value) {
+  std::string text = fmt::format("{:.12g}", value);
+  if (const std::size_t zero = text.find("e-0"); zero != text.npos) text.erase(zero + 2, 1);
+  return text;
+}
+
+namespace keys {
+namespace {
+
+void add(const Note& note, KeyDoc& doc) {
+  doc.required |= note.required;
+  doc.above_least |= note.above_least;
+  doc.least = std::max(doc.least, note.least);
+  doc.most = std::min(doc.most, note.most);
+  if (!note.fallback.empty()) doc.fallback = note.fallback;
+  if (!note.otherwise.empty()) doc.otherwise = note.otherwise;
+  if (!note.unit.empty()) doc.unit = note.unit;
+  if (note.unit.starts_with("°")) doc.scale = kDegree;
+  if (!note.of.empty()) doc.of = note.of;
+  if (!note.form.empty()) doc.form = note.form;
+  if (!note.advice.empty()) doc.advice = note.advice;
+  if (note.pattern) doc.pattern = *note.pattern;
+  if (note.choices.empty()) return;
+  doc.choices.assign(note.choices.begin(), note.choices.end());
+  if (doc.type == KeyType::texts) doc.type = KeyType::choices_list;
+  if (doc.type == KeyType::truth) doc.type = KeyType::choice;
+}
+
+}  // namespace
+
+Note must() { return {.required = true}; }
+Note range(double least, double most) { return {.least = least, .most = most}; }
+Note above(double least, double most) {
+  return {.above_least = true, .least = least, .most = most};
+}
+Note at_most(double most) { return {.most = most}; }
+Note in(std::string_view unit) { return {.unit = unit}; }
+Note like(const NamePattern& pattern) { return {.pattern = &pattern}; }
+Note holds(std::string_view table) { return {.of = table}; }
+Note written(std::string_view form) { return {.form = form}; }
+Note by_default(std::string_view literal) { return {.fallback = literal}; }
+Note or_else(std::string_view words) { return {.otherwise = words}; }
+Note one_of(std::span<const std::string_view> choices) { return {.choices = choices}; }
+
+Note advising(std::string_view advice) { return {.advice = advice}; }
+
+KeyDoc made(KeyType type, std::string_view name, std::string_view meaning,
+            std::initializer_list<Note> notes) {
+  KeyDoc doc{.key = name, .type = type, .doc = meaning};
+  for (const Note& note : notes) add(note, doc);
+  return doc;
+}
+
+KeyDoc made(const MemberKind& kind, const std::type_info& owner, std::size_t offset,
+            const void* initial, std::string_view name, std::string_view meaning,
+            std::initializer_list<Note> notes) {
+  KeyDoc doc{.key = name, .type = kind.type, .doc = meaning};
+  if (kind.choices) doc.choices = kind.choices();
+  for (const Note& note : notes) add(note, doc);
+  doc.owner = &owner;
+  doc.offset = offset;
+  doc.fill = kind.fill;
+  if (doc.required || !doc.otherwise.empty()) return doc;
+  doc.fallback = kind.type == KeyType::truth && doc.type == KeyType::choice
+                     ? fmt::format("\"{}\"", doc.choices[*static_cast<const bool*>(initial)])
+                     : kind.literal(initial, doc.scale);
+  if (doc.fallback == "\"\"" && doc.least > 0) doc.fallback.clear();  // no text may be empty here
+  return doc;
+}
+
+}  // namespace keys
+
+namespace {
+
+TableDoc file_table() {
+  using namespace keys;
+  using S = ScenarioSpec;
+  TableDoc table = {
+      "", "The file's own keys",
+      "A scenario of Lantern. These keys stand at the top, before the first [table]."};
+  table.keys = {
+      key(&S::title, "title", "The thin line above every frame.", must(), range(1, 80)),
+      key(&S::source, "source", "The section of the lecture that the scenario shows.",
+          range(0, 80)),
+      key(&S::idea, "idea", "The one idea of the sequence, in a line.", range(0, kMostCaption)),
+      key(&S::lecture, "lecture", "Its place in the order in which one would teach.",
+          range(1, kMostInOrder), or_else("behind those that have one")),
+      key(&S::needs, "needs", "Names of scenarios that should be seen before.", or_else("none")),
+      key(&S::name, "name", "Names the output folder and its files.", like(kFilePattern),
+          or_else("the file's name, made safe")),
+      key(&S::seed, "seed",
+          "Where random patterns begin; the same seed gives the same frames everywhere.",
+          range(0, kMostWhole)),
+      key(&S::pace, "pace", "One frame a step, or one for each thing that the algorithm does."),
+      key(&S::panels, "panels",
+          "What is drawn, from left to right: the `world`, the `tree` (of `sort_and_sweep` its "
+          "intervals, of a `grid` the table of its cells), the `atlas`, the `chart`; the `ledger`, "
+          "a triangle with a cell for each pair of bodies and how far it came; the `difference`, "
+          "the Minkowski difference of the two bodies that a `gjk` is about, or of the first two "
+          "that are there; the `axes` of a `separate`, side by side; the `comparison`, a table of "
+          "what each kind of structure does for each world that a step compares; and as strips "
+          "below, the `memory` of the array that all leaves share, the `pool` of nodes, the "
+          "`bytes` of a node with and without its box, the `sparkline`, the first count of the "
+          "headline, or the pairs, over the time so far, and the `collisions` that a world with "
+          "`contacts = \"lecture\"` remembers; the `code` of the lecture, one function of it. Of a "
+          "`lecture_quadtree` the `memory` and the `pool` show what it allocates piece by piece. "
+          "The `islands` are a graph: a dot for each body, where it is in the world, and a line "
+          "for each contact, spring and joint; what hangs together lies on one ground. The "
+          "`matrix` of a level's sectors has a square for each two: who sees whom. The `screen` "
+          "shows what is drawn from textures, and below it a mark for each binding.",
+          or_else("what the scenario uses")),
+      key(KeyType::table, "display", "What frames show.", holds("display")),
+      key(KeyType::texts, "headline",
+          "Up to three counts and measures that stand at the foot of every frame, the first one "
+          "large. Of sides they stand under each; one of a single side, as `eager.nodes`, is large "
+          "at the ending's foot, too.",
+          or_else("what the caption quotes, then what the scenario is about")),
+      key(KeyType::table, "world", "Where bodies are.", holds("world")),
+      key(KeyType::table, "structure", "How the world is partitioned.", holds("structure")),
+      key(KeyType::tables, "prototype", "Keys that several bodies share.", at_most(kMostPrototypes),
+          holds("prototype")),
+      key(KeyType::tables, "body", "One body each.", at_most(kMostBodies), holds("body")),
+      key(KeyType::tables, "pattern", "Many bodies each.", at_most(kMostBodies), holds("pattern")),
+      key(KeyType::table, "map", "Bodies as letters of a drawing.", holds("map")),
+      key(KeyType::tables, "spring", "One spring each.", at_most(kMostLinks), holds("spring")),
+      key(KeyType::tables, "joint", "One joint each.", at_most(kMostLinks), holds("joint")),
+      key(KeyType::table, "level", "Walls, to be compiled into a BSP.", holds("level")),
+      key(KeyType::table, "chart", "Counts of steps as lines or bars.", holds("chart")),
+      key(KeyType::table, "problem", "The known answer that it is measured against.",
+          holds("problem")),
+      key(KeyType::table, "atlas", "The image that textures are packed into.", holds("atlas")),
+      key(KeyType::tables, "texture", "One texture each.", at_most(kMostTextures),
+          holds("texture")),
+      key(KeyType::tables, "texture_pattern", "Many textures each.", at_most(kMostTextures),
+          holds("texture_pattern")),
+      key(KeyType::tables, "element", "What the atlas's screen shows, from the back to the front.",
+          at_most(kMostElements), holds("element")),
+      key(KeyType::tables, "side", "The same under other settings, side by side.",
+          at_most(kMostSides), holds("side")),
+      key(KeyType::tables, "step", "The script.", must(), at_most(kMostSteps), holds("step")),
+  };
+  return table;
+}
+
+TableDoc step_table() {
+  using namespace keys;
+  TableDoc table = {
+      "step", "[[step]]",
+      "One step of the script. Each has a verb in `do`, the verb's own keys, and any of these."};
+  table.keys = {
+      key(KeyType::text, "do", "The verb, one of those below.", must()),
+      key(&Step::name, "name", "To ask for this step's frames with `--at`.", like(kEventPattern),
+          or_else("the verb")),
+      key(&Step::part, "part", "Stands behind the title from here on.", range(1, 60),
+          or_else("as before")),
+      key(&Step::caption, "caption", "Explains the frame. It may quote counts.",
+          range(0, kMostCaption)),
+      key(&Step::speaker_notes, "notes",
+          "For whoever speaks: shown in the speaker's view of a lesson page, on no frame.",
+          range(0, kMostNotesText)),
+      key(&Step::question, "question",
+          "For the students, once they have seen the sequence. What the step expects proves the "
+          "answer.",
+          range(1, kMostCaption), or_else("asks none")),
+      key(&Step::answer, "answer",
+          "To the `question`: what the step's last frame shows. It may quote counts.",
+          range(1, kMostCaption), or_else("answers none")),
+      key(&Step::plot, "plot", "Adds a point to the [chart], or a bar with this label.",
+          range(1, 40), or_else("adds none")),
+      key(KeyType::texts, "headline", "The scenario's `headline` from here on.",
+          or_else("as before")),
+      key(KeyType::tables, "ruler", "Lengths that are measured on the step's frames.",
+          at_most(kMostRulers), holds("step.ruler")),
+      key(KeyType::table, "code",
+          "The function of the lecture's source that is shown from here on.", holds("code")),
+      key(&Step::ending, "ending",
+          "Of the last step: its last frame is what is to be kept in mind, with the headline's "
+          "numbers large."),
+      key(KeyType::table, "expect", "What must hold when the step is done.", holds("expect")),
+      key(KeyType::table, "always", "What must hold on every frame of the step.", holds("expect")),
+      key(KeyType::table, "display", "What this step's frames show.", holds("display")),
+      key(KeyType::table, "view", "The part of a 2D world that is shown from here on.",
+          holds("view")),
+      key(KeyType::table, "camera", "From where a 3D world is seen from here on.", holds("camera")),
+      key(&Step::orbit, "orbit",
+          "How far the camera goes round its target while time passes in this step, "
+          "counter-clockwise from above; in a step without time it is there at once.",
+          range(-kMostTurn, kMostTurn), in("°"), or_else("it stands still")),
+      note_key(),
+  };
+  return table;
+}
+
+bool in_group(char c, std::string_view group) {
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    const bool is_range = i + 2 < group.size() && group[i + 1] == '-';
+    if (is_range ? group[i] <= c && c <= group[i + 2] : c == group[i]) return true;
+    if (is_range) i += 2;
+  }
+  return false;
+}
+
+}  // namespace
+
+std::string NamePattern::expression() const {
+  return fmt::format("^[{}][{}]{{0,{}}}$", first, rest, most - 1);
+}
+
+bool matches(std::string_view text, const NamePattern& pattern) {
+  return !text.empty() && text.size() <= pattern.most && in_group(text[0], pattern.first) &&
+         std::ranges::all_of(text.substr(1), [&](char c) { return in_group(c, pattern.rest); });
+}
+
+std::string legal_name(std::string_view text, const NamePattern& pattern) {
+  std::string name = "a";  // of all patterns' first letters
+  for (const char c : text) {
+    const char small = 'A' <= c && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    if (matches(name + c, pattern))
+      name += c;
+    else if (matches(name + small, pattern))
+      name += small;
+    else if (name.back() != '_' && matches(name + '_', pattern))
+      name += '_';
+  }
+  while (name.ends_with('_')) name.pop_back();
+  const std::string without = name.substr(1);
+  return matches(without, pattern) ? without : name;
+}
+
+KeyDoc body_key() {
+  using namespace keys;
+  return key(KeyType::text, "body", "Its name.", must(), range(1, 64));
+}
+
+KeyDoc bodies_key() {
+  using namespace keys;
+  return key(KeyType::texts, "bodies",
+             "Names of bodies, of patterns for all of theirs, or ranges as `dot2..dot9`.", must());
+}
+
+KeyDoc pace_key() {
+  using namespace keys;
+  return key(&Step::pace, "pace", "Of this step alone.", or_else("the scenario's"));
+}
+
+KeyDoc events_key(std::initializer_list<std::string_view> names) {
+  using namespace keys;
+  return key(&Step::events, "events", "When the pace is `event`, only these give frames.",
+             one_of(names), or_else("all"));
+}
+
+const KeyDoc* TableDoc::find(std::string_view key) const {
+  const auto found = std::ranges::find(keys, key, &KeyDoc::key);
+  return found == keys.end() ? nullptr : &*found;
+}
+
+std::span<const TableDoc> language_tables() {
+  static const std::vector<TableDoc> tables = {
+      file_table(),      world_table(),   structure_table(), planes_table(),
+      prototype_table(), body_table(),    pattern_table(),   map_table(),
+      spring_table(),    joint_table(),   level_table(),     chart_table(),
+      problem_table(),   atlas_table(),   texture_table(),   texture_pattern_table(),
+      element_table(),   side_table(),    step_table(),      ruler_table(),
+      expect_table(),    display_table(), view_table(),      camera_table(),
+      note_table(),      code_table()};
+  return tables;
+}
+
+const TableDoc& language_table(std::string_view name) {
+  const auto tables = language_tables();
+  const auto found = std::ranges::find(tables, name, &TableDoc::name);
+  LANTERN_CHECK(found == tables.end(), ==, false);
+  return *found;
+}
+
+// In the order of KeyType.
+const TypeWords& words_of(KeyType type) {
+  static constexpr TypeWords kWords[] = {
+      {"text", "\"…\""},
+      {"whole number", ""},
+      {"number", "1.5"},
+      {"true or false", "true"},
+      {"one of", ""},
+      {"point", "[1.5, 2]"},
+      {"two numbers", "[0.5, 1]"},
+      {"[width, height]", "[64, 32]"},
+      {"list of texts", "[\"…\"]"},
+      {"list of texts, or none", "[\"…\"]"},
+      {"list of polygons", "[[[0, 0], [8, 0], [8, 6]]]"},
+      {"whole number, or list of texts", "2, or a list of names"},
+      {"list of", "[\"…\"]"},
+      {"text of several lines", "\"\"\"…\"\"\""},
+      {"number, or", ""},
+      {"table", ""},
+      {"tables", ""},
+      {"keys of", ""},
+      {"list of pairs", "[[\"red\", \"pink\"]]"},
+      {"table: name → whole number", "{ pink = 2 }"},
+      {"table: name → number", "{ pink = 2 }"},
+      {"table: name → point", "{ ball = [12, 14] }"},
+      {"table: letter → name", "{ \"#\" = \"wall\" }"},
+  };
+  return kWords[static_cast<std::size_t>(type)];
+}
+
+std::string form_of(const KeyDoc& key, int dimension) {
+  std::string value(words_of(key.type).example);
+  if (key.type == KeyType::tables) return fmt::format("a [[{}]]", key.of);
+  if (key.type == KeyType::whole) value = fmt::format("{}", std::max(key.least, 1.0));
+  if (key.type == KeyType::choice) value = fmt::format("\"{}\"", key.choices.back());
+  if (key.type == KeyType::point && dimension == 3) value = "[1.5, 2, 0.5]";
+  if (key.type == KeyType::turn) value = "45";
+  if (key.type == KeyType::name_points && dimension == 3) value = "{ ball = [12, 14, 0] }";
+  return fmt::format("{} = {}", key.key, value);
+}
+
+std::string range_text(const KeyDoc& doc) {
+  const bool from = std::isfinite(doc.least), to = std::isfinite(doc.most);
+  if (from && to && doc.above_least)
+    return fmt::format("above {}, at most {}", doc.least, doc.most);
+  if (from && to) return fmt::format("{} to {}", doc.least, doc.most);
+  if (from) return fmt::format("{} {}", doc.above_least ? "above" : "at least", doc.least);
+  return to ? fmt::format("at most {}", doc.most) : "";
+}
+
+}  // namespace lantern::language

@@ -1,0 +1,261 @@
+// A scenario file from its bytes to plain values.
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "base/file.hpp"
+#include "base/hash.hpp"
+#include "language/sides.hpp"
+#include "language/tables/draft.hpp"
+#include "spatial/structure_kind.hpp"
+
+namespace lantern::language {
+namespace {
+
+constexpr Place kTop{1, 1};
+
+[[noreturn]] void refuse_size(const std::string& path, std::uintmax_t bytes) {
+  Diagnostic too_large;
+  too_large.where.file = path;
+  too_large.message = fmt::format("the file has {} bytes, the limit is {}", bytes, kMostFileBytes);
+  too_large.suggestion = "use [[pattern]] for many bodies";
+  throw ScenarioError(too_large);
+}
+
+void read_name(const TableReader& file, const std::string& path, Draft& draft) {
+  if (file.has("name")) return;
+  const std::string stem =
+      path == kStandardInput ? "stdin" : std::filesystem::path(path).stem().string();
+  draft.scenario.name = stem;
+  const NamePattern& pattern = *language_table("").find("name")->pattern;
+  if (matches(stem, pattern)) return;
+  const bool has_some = std::ranges::any_of(stem, [](unsigned char c) { return std::isalnum(c); });
+  if (!has_some)
+    draft.problems.add(kTop,
+                       fmt::format("the file's name {} cannot name a scenario", in_quotes(stem)),
+                       "add name = \"…\", or rename the file");
+  draft.scenario.name = legal_name(stem, pattern);
+  draft.scenario.file_stem = stem;
+}
+
+// Can there be those that the file wishes for?
+void check_panels(const TableReader& file, Draft& draft) {
+  std::size_t i = 0;
+  for (const Named& written : file.names("panels"))
+    if (const PanelKind& kind = kind_of(draft.scenario.panels[i++]); !kind.possible(draft))
+      draft.problems.add(written.where,
+                         fmt::format("this scenario cannot have the panel '{}'", written.name),
+                         std::string(kind.needs));
+}
+
+bool is_blank(std::string_view text) {
+  return text.find_first_not_of(" \t\r\n") == std::string_view::npos;
+}
+
+// A table or list of tables of a name that there is none of: what is in it is lost, and most other
+// mistakes that would be found only follow from that.
+bool has_strange_table(const TomlTable& table) {
+  return std::ranges::any_of(table, [](const TomlEntry& entry) {
+    if (language_table("").find(entry.key) != nullptr) return false;
+    const auto* list = std::get_if<TomlArray>(&entry.value.data);
+    return std::holds_alternative<TomlTable>(entry.value.data) ||
+           (list && !list->empty() && std::holds_alternative<TomlTable>(list->front().data));
+  });
+}
+
+// Settings of trees are refused where no tree that splits ever stands.
+void check_settings(const TableReader& file, Draft& draft) {
+  const auto splits = [](const StructureSpec& s) {
+    return s.kind != StructureKind::none && traits_of(s.kind).splits && s.why.empty();
+  };
+  const ScenarioSpec& s = draft.scenario;
+  if (!s.side.empty()) return;  // its table is one with what all sides share
+  if (s.structure.kind == StructureKind::none || splits(s.structure)) return;
+  for (const Step& step : s.steps)
+    if (const auto* rebuild = std::get_if<Rebuild>(&step.verb);
+        rebuild && splits(rebuild->structure))
+      return;
+  for (const TomlValue* value : file.tables("structure"))
+    for (const char* setting : {"capacity", "max_depth", "children", "no_progress_stop"})
+      if (const TomlEntry* entry = entry_of(std::get<TomlTable>(value->data), setting))
+        draft.problems.add(
+            entry->where,
+            fmt::format("a structure of kind '{}' has no '{}'",
+                        s.structure.why.empty() ? to_string(s.structure.kind) : "auto", setting),
+            "only trees that split have; leave it out, or take kind = \"quadtree\"");
+}
+
+// Settings of grids are refused where none ever stands, and cells of which there are too many.
+void check_grid(const TableReader& file, Draft& draft) {
+  constexpr double kMostCells = 2e6;
+  const ScenarioSpec& s = draft.scenario;
+  const bool grid = traits_of(s.structure.kind).has(Setting::cell);
+  if (!s.side.empty() || s.structure.kind == StructureKind::none) return;
+  const bool later = std::ranges::any_of(s.steps, [](const Step& step) {
+    const auto* rebuild = std::get_if<Rebuild>(&step.verb);
+    return rebuild && traits_of(rebuild->structure.kind).has(Setting::cell);
+  });
+  double cells = s.structure.cell > 0 && grid && !s.structure.open ? 1 : 0;
+  for (int i = 0; i < draft.dimension; ++i)
+    cells *= std::ceil(s.world.bounds.size()[i] / std::max(s.structure.cell, 1e-300));
+  for (const TomlValue* value : file.tables("structure"))
+    for (const char* setting : {"cell", "levels", "open"}) {
+      const TomlEntry* entry = entry_of(std::get<TomlTable>(value->data), setting);
+      if (entry && !grid && !later)
+        draft.problems.add(
+            entry->where,
+            fmt::format("a structure of kind '{}' has no '{}'",
+                        s.structure.why.empty() ? to_string(s.structure.kind) : "auto", setting),
+            "only kind = \"grid\" has");
+      else if (entry && std::string_view(setting) == "cell" && cells > kMostCells)
+        draft.problems.add(
+            entry->where,
+            fmt::format("the world has {:.3g} cells of this size, a grid may have 2000000", cells),
+            "take larger ones, or open = true");
+    }
+}
+
+void read_all(const TomlTable& table, const std::string& path, Draft& draft) {
+  const TableReader file(table, kTop, language_table(""), draft.problems, 0);
+  if (has_strange_table(table)) return;
+  file.fill(draft.scenario);
+  for (const Named& need : file.names("needs"))
+    draft.scenario.needs_at.push_back(draft.position(need.where));
+  read_name(file, path, draft);
+  read_world(file, draft);
+  read_display(file, draft);
+  read_bodies(file, draft);
+  read_links(file, draft);
+  read_level(file, draft);
+  read_chart(file, draft);
+  read_problem(file, draft);
+  read_atlas(file, draft);
+  read_script(file, draft);
+  if (draft.has_world) choose_structures(draft);
+  check_panels(file, draft);
+  check_settings(file, draft);
+  check_grid(file, draft);
+  if (!draft.problems.any()) notice_idle(file, draft);
+}
+
+// What a reading of the file begins with.
+void begin(std::string_view text, const std::string& path, Draft& draft) {
+  draft.text = without_mark(text);
+  draft.scenario.file = path;
+  draft.scenario.text = text;
+  draft.scenario.text_hash = Hash().add(text).value();
+}
+
+Scenario finished(Draft& draft) {
+  const Draft* one[] = {&draft};
+  if (draft.scenario.panels.empty()) draft.scenario.panels = derived_panels(one);
+  return Scenario(std::move(draft.scenario));
+}
+
+// A panel that one side has is on the page of all.
+void share_panels(std::vector<std::unique_ptr<Draft>>& drafts) {
+  if (!drafts[0]->scenario.panels.empty()) return;  // as the file wishes
+  std::vector<const Draft*> all;
+  for (const auto& draft : drafts) all.push_back(draft.get());
+  const std::vector<Panel> shared = derived_panels(all);
+  for (const auto& draft : drafts) draft->scenario.panels = shared;
+}
+
+// The file is read once for each side, as what it says to that one.
+Scenario parse_sides(const TomlTable& table, std::string_view text, const std::string& path,
+                     Problems& problems) {
+  const std::vector<SideFile> files = files_of_sides(table, problems);
+  std::vector<std::string> names;
+  for (const SideFile& side : files) names.push_back(side.name);
+  std::vector<std::unique_ptr<Draft>> drafts;
+  std::vector<std::pair<std::string, const Problems*>> readings;
+  for (const SideFile& side : files) {
+    Draft& draft = *drafts.emplace_back(std::make_unique<Draft>());
+    begin(text, path, draft);
+    draft.scenario.side = side.name;
+    draft.scenario.side_title = side.title;
+    draft.sides = names;
+    read_all(side.file, path, draft);
+    readings.emplace_back(side.name, &draft.problems);
+  }
+  problems.add_readings(readings);
+  problems.raise(path, without_mark(text));
+  share_panels(drafts);
+  ScenarioSpec whole;
+  for (const auto& draft : drafts) {
+    auto side = std::make_shared<const Scenario>(finished(*draft));
+    if (whole.sides.empty()) whole = *side;
+    if (side->chart) whole.chart = side->chart;
+    if (!whole.sides.empty()) whole.world_steps += side->world_steps;
+    whole.sides.push_back(std::move(side));
+  }
+  whole.side.clear();
+  whole.side_title.clear();
+  if (whole.chart) whole.chart = chart_of_sides(table, *whole.chart, names);
+  whole.noticed = noticed_on(whole.sides);
+  Draft all;
+  all.scenario = std::move(whole);
+  notice_empty_expectations(table, all);
+  return Scenario(std::move(all.scenario));
+}
+
+}  // namespace
+
+Scenario parse_scenario(std::string_view text, const std::string& path) {
+  if (text.size() > kMostFileBytes) refuse_size(path, text.size());
+  Draft draft;
+  begin(text, path, draft);
+  TomlTable table;
+  if (is_blank(draft.text)) {
+    draft.problems.add(kTop, "the file is empty",
+                       "a scenario needs at least a title and one step: title = \"…\", then "
+                       "[[step]] with do = \"show\"");
+  } else {
+    table = read_toml(draft.text, draft.problems);
+    const bool has_sides = std::ranges::find(table, "side", &TomlEntry::key) != table.end();
+    if (has_sides && !draft.problems.any()) return parse_sides(table, text, path, draft.problems);
+    if (!draft.problems.any()) read_all(table, path, draft);
+  }
+  draft.problems.raise(path, draft.text);
+  notice_empty_expectations(table, draft);
+  return finished(draft);
+}
+
+Scenario load_scenario(const std::string& path) {
+  if (path == "-") return parse_scenario(read_stdin(kMostFileBytes), std::string(kStandardInput));
+  std::error_code error;
+  if (std::filesystem::is_regular_file(path, error)) {
+    const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+    if (!error && bytes > kMostFileBytes) refuse_size(path, bytes);
+  }
+  return parse_scenario(read_input(path, kMostFileBytes), path);
+}
+
+Glance glance_at(const std::string& path) try {
+  Problems problems;
+  const std::string bytes = read_file(path, kMostFileBytes);
+  const TomlTable table = read_toml(without_mark(bytes), problems);
+  Glance glance;
+  glance.name = std::filesystem::path(path).stem().string();
+  if (problems.any() || table.empty()) return glance;
+  if (const TomlEntry* name = entry_of(table, "name"))
+    if (const auto* text = std::get_if<std::string>(&name->value.data)) glance.name = *text;
+  glance.is_scenario = std::ranges::any_of(
+      table, [](const TomlEntry& entry) { return language_table("").find(entry.key) != nullptr; });
+  if (const TomlEntry* lecture = entry_of(table, "lecture"))
+    if (const auto* place = std::get_if<std::int64_t>(&lecture->value.data);
+        place && std::in_range<std::uint32_t>(*place))
+      glance.lecture = static_cast<std::uint32_t>(*place);
+  return glance;
+} catch (const IoError&) {
+  return {};
+}
+
+}  // namespace lantern::language

@@ -1,0 +1,314 @@
+// Verbs about the structure and what it finds, as they are read: `rebuild`, `sweep` and `compare`;
+// `ray`, `cull` and `query`, which it is asked; `test_shapes`, `separate` and `gjk`, the narrow
+// phase.
+#include <tuple>
+
+#include <fmt/format.h>
+
+#include "language/keys/key.hpp"
+#include "language/script/script_reading.hpp"
+#include "spatial/structure_work.hpp"
+
+namespace lantern::language {
+namespace {
+
+using namespace keys;
+
+// --- rebuild, sweep, compare ---
+
+std::vector<KeyDoc> structure_keys() {
+  std::vector<KeyDoc> keys = language_table("structure").keys;
+  for (KeyDoc& key : keys) {
+    key.required = false;
+    key.fallback = {};
+    key.otherwise = "as it was";
+  }
+  return keys;
+}
+
+void read_rebuild(Rebuild& rebuild, const TableReader& table, ScriptReading& script) {
+  StructureSpec& structure = rebuild.structure = script.state.past.structure();
+  if (structure.of_level && !table.has("kind"))
+    return table.bad_value("do", "the compiled level holds the bodies, and takes no other settings",
+                           "add the kind of another structure, as kind = \"quadtree\"");
+  structure.of_level = false;
+  structure = read_structure(table, structure, script.draft);
+}
+
+void read_sweep(Sweep&, const TableReader& table, ScriptReading& script) {
+  const ScriptPast& past = script.state.past;
+  if (past.is_sure() && !traits_of(past.structure().kind).has(Setting::axis))
+    table.bad_value("do", "there is no sort_and_sweep at this step",
+                    "rebuild with kind = \"sort_and_sweep\" first");
+  script.frames = 1 + script.draft.scenario.bodies.size();
+}
+
+constexpr std::size_t kMostRows = 6;  // that have room in one table
+
+// Empty if it can be compared here; otherwise why not.
+std::string why_not_compared(StructureKind kind, const ScriptReading& script) {
+  if (!counts_its_work(kind))
+    return fmt::format("what a '{}' does is not counted", to_string(kind));
+  if (script.draft.dimension == 2 && !is_possible(kind, 2))
+    return "an octree needs a 3D world, this one is 2D";
+  if (traits_of(kind).has(Setting::planes) && script.state.past.structure().planes.empty())
+    return "a bsp needs the planes of a [structure] of kind \"bsp\", there are none";
+  return {};
+}
+
+void read_compare(Compare& compare, const TableReader& table, ScriptReading& script) {
+  std::vector<bool> named(script.state.in_world.size());
+  compare.bodies = script.bodies.take(table.names("bodies"), named, true, "is named twice");
+  if (!script.draft.sides.empty())
+    table.bad_value("do", "a scenario with sides has no 'compare'",
+                    "it sets every kind beside the others by itself: leave out the sides");
+  if (script.state.past.times<Compare>() == kMostRows)
+    table.bad_value("do", fmt::format("more than {} worlds are compared", kMostRows));
+  if (!table.has("kinds"))
+    for (const StructureKind kind : kStructureKinds)
+      if (why_not_compared(kind, script).empty()) compare.kinds.push_back(kind);
+  for (const StructureKind kind : compare.kinds) {
+    const std::string why = why_not_compared(kind, script);
+    if (!why.empty()) table.bad_value("kinds", why);
+  }
+  if (table.is_good("kinds") && compare.kinds.size() < 2)
+    table.bad_value("kinds", "one kind alone has nothing beside it", "name two or more");
+}
+
+// --- ray, cull, query ---
+
+// A ray and a view need a direction.
+void check_apart(const TableReader& table, const char* from, const char* to) {
+  const auto a = table.get<Vec<3>>(from), b = table.get<Vec<3>>(to);
+  if (a && b && *a == *b)
+    table.bad_value(to, fmt::format("'{}' and '{}' are the same point", from, to),
+                    "it goes nowhere");
+}
+
+void require_structure(const TableReader& table, std::string_view what, const char* hint,
+                       const ScriptReading& script) {
+  if (!script.state.past.has_structure())
+    table.bad_value("do", fmt::format("there is no structure at this step: {}", what), hint);
+}
+
+void require_asked(const TableReader& table, std::string_view verb, const ScriptReading& script) {
+  require_structure(table, fmt::format("nothing for '{}'", verb),
+                    "kind = \"brute_force\" tests every body", script);
+}
+
+void read_ray(CastRay&, const TableReader& table, ScriptReading& script) {
+  require_asked(table, "ray", script);
+  check_apart(table, "from", "to");
+}
+
+void read_cull(Cull& cull, const TableReader& table, ScriptReading& script) {
+  require_asked(table, "cull", script);
+  check_apart(table, "eye", "target");
+  const bool good =
+      table.is_good("near") == table.has("near") && table.is_good("far") == table.has("far");
+  if (good && cull.far <= cull.near)
+    table.bad_value(table.has("far") ? "far" : "near",
+                    fmt::format("it sees from {} to {}: that is nothing", cull.near, cull.far),
+                    "'far' is greater than 'near'");
+}
+
+void read_query(Query& query, const TableReader& table, ScriptReading& script) {
+  require_asked(table, "query", script);
+  if (const auto center = table.get<Vec<3>>("center")) {
+    query.radius = table.get<double>("radius").value_or(1);
+    Vec<3> half(query.radius);
+    if (script.draft.dimension != 3) half.z = 0;
+    query.box = Box<3>::around(*center, half);
+  }
+  const auto min = table.get<Vec<3>>("min"), max = table.get<Vec<3>>("max");
+  if (!min || !max) return;
+  query.box = {*min, *max};
+  if (!is_valid(query.box))
+    table.bad_value("max", "the box has no inside", "'max' lies to the upper right of 'min'");
+}
+
+KeyDoc walk_events() { return events_key({"visit", "skip", "hit", "miss"}); }
+
+// --- test_shapes, separate, gjk ---
+
+void read_test_shapes(TestShapes&, const TableReader& table, ScriptReading& script) {
+  require_structure(table, "no pairs to test", "kind = \"brute_force\" has all of them", script);
+}
+
+KeyDoc pair_key() {
+  return key(KeyType::texts, "pair", "Two bodies that are there; no half-spaces.", must());
+}
+
+// Two of a flat world, of `separate` and `gjk`. The first two bodies, and problems, if they are
+// not.
+template <class V>
+void read_pair(V& verb, const TableReader& table, ScriptReading& script) {
+  Draft& draft = script.draft;
+  if (draft.dimension == 3)
+    table.bad_value("do", "this is drawn of flat worlds only",
+                    "give the world a size of two numbers");
+  const std::vector<Named> written =
+      without_ranges(table.names("pair"), draft.bodies, "body", draft.problems);
+  if (!table.has("pair")) return;
+  script.bodies.present(written);
+  std::vector<std::size_t> found;
+  for (const Named& name : written) {
+    if (!draft.bodies.find(name.name)) return;  // which is told already
+    const auto body = one_body(name, draft);
+    if (!body) return;
+    if (std::holds_alternative<HalfSpace<3>>(draft.scenario.bodies[*body].shape))
+      draft.problems.add(name.where,
+                         fmt::format("'{}' is a half-space: it has no end to measure", name.name));
+    found.push_back(*body);
+  }
+  if (found.size() != 2)
+    return table.bad_value("pair", "a pair is two bodies", "as pair = [\"red\", \"pink\"]");
+  verb.a = found[0];
+  verb.b = found[1];
+}
+
+}  // namespace
+
+std::vector<VerbDoc> verbs_of_structures() {
+  return {
+      verb<Rebuild>({.doc = "The structure is made anew with the settings given; the others stay.",
+                     .keys = structure_keys(),
+                     .example = R"([[step]]
+do = "rebuild"
+kind = "bsp"
+planes = [{ name = "middle", point = [8, 0], normal = [1, 0] }]
+expect = { nodes = 3 }
+
+[[step]]
+do = "rebuild"
+kind = "quadtree"
+children = "eager"
+expect = { nodes = 5 }
+)"},
+                    read_rebuild),
+      verb<Sweep>({.doc = "A `sort_and_sweep` finds its pairs: one frame for each body, in the "
+                          "order in which they begin on the axis, then one of all.",
+                   .keys = {},
+                   .example = R"([[step]]
+do = "rebuild"
+kind = "sort_and_sweep"
+
+[[step]]
+do = "sweep"
+caption = "{pairs:pair} compared, {overlaps:overlap}."
+)"},
+                  read_sweep),
+      verb<Compare>(
+          {.doc = "Bodies stand alone in a world of their own, whether they are in this one or "
+                  "not, and go through one world step; each kind of structure is built for them, "
+                  "then made ready for where they are after the step, and finds their pairs. "
+                  "Counted are comparisons. What never moves has a structure of its own, built "
+                  "once. The panel `comparison` gets a row for it.",
+           .keys =
+               {
+                   bodies_key(),
+                   key(&Compare::row, "row", "What this world is called in the table.", must(),
+                       range(1, 24)),
+                   key(&Compare::kinds, "kinds",
+                       "Kinds of structures, with the settings of the [structure] that stands; a "
+                       "`bsp` with its planes.",
+                       or_else("all of Lantern's own that are possible here and whose work is "
+                               "counted")),
+                   key(&Compare::verdict, "verdict",
+                       "What the row says in words. It may quote counts, as a caption does.",
+                       range(0, 56)),
+               },
+           .example = R"([[step]]
+do = "compare"
+bodies = ["red", "pink", "blue"]
+row = "three ghosts"
+kinds = ["brute_force", "quadtree", "grid"]
+verdict = "Of {compared_pairs:pair} at best {least_work} compared."
+expect = { compared_bodies = 3, step_work = { brute_force = 3 } }
+)"},
+          read_compare),
+      verb<CastRay>(
+          {.doc = "Which bodies does a ray hit? The structure leaves out what it cannot hit.",
+           .keys = {key(&CastRay::from, "from", "Where it begins.", must(), range(-kFar, kFar)),
+                    key(&CastRay::to, "to", "Where it ends, unless something stops it.", must(),
+                        range(-kFar, kFar)),
+                    key(&CastRay::all, "hits",
+                        "It stops at the `nearest` body, or goes through `all`.",
+                        one_of({"nearest", "all"})),
+                    pace_key(), walk_events()},
+           .example = R"([[step]]
+do = "ray"
+from = [0, 6]
+to = [16, 6]
+caption = "{objects_tested:body/bodies} of {bodies} tested, {hits:hit}."
+expect = { hits_are = ["red"] }
+)"},
+          read_ray),
+      verb<Cull>(
+          {.doc = "Which bodies can a camera see? Whole nodes outside its view are left out.",
+           .keys = {key(&Cull::eye, "eye", "Where the camera is.", must(), range(-kFar, kFar)),
+                    key(&Cull::target, "target", "Where it looks.", must(), range(-kFar, kFar)),
+                    key(&Cull::angle, "angle",
+                        "How wide its view opens; in a 3D world from bottom to top.", above(0, 170),
+                        in("°")),
+                    key(&Cull::near, "near", "It sees nothing nearer.", above(0, kFar)),
+                    key(&Cull::far, "far", "It sees nothing farther.", above(0, kFar)), pace_key(),
+                    walk_events()},
+           .example = R"([[step]]
+do = "cull"
+eye = [0, 6]
+target = [16, 6]
+angle = 40
+far = 8
+expect = { hits_are = ["red"] }
+)"},
+          read_cull),
+      verb<Query>(
+          {.doc = "Which bodies overlap a box, or a disc or ball?",
+           .keys = {key(KeyType::point, "min", "Lowest corner of the box.", range(-kFar, kFar)),
+                    key(KeyType::point, "max", "Highest corner of the box.", range(-kFar, kFar)),
+                    key(KeyType::point, "center", "Of the disc or ball, instead.",
+                        range(-kFar, kFar)),
+                    key(KeyType::number, "radius", "Of the disc or ball.", above(0, kFar)),
+                    pace_key(), walk_events()},
+           .groups = {{{"min", "max"}, {"center", "radius"}}},
+           .example = R"([[step]]
+do = "query"
+min = [0, 4]
+max = [8, 9]
+expect = { hits_are = ["red"] }
+)"},
+          read_query),
+      verb<TestShapes>({.doc = "The shapes of all candidate pairs are tested, without comparing "
+                               "boxes first, as the lecture's narrow phase does. Nothing moves.",
+                        .keys = {},
+                        .example = R"([[step]]
+do = "test_shapes"
+caption = "{shapes_tested:pair} tested, {touching} in contact."
+expect = { touching = 1 }
+)"},
+                       read_test_shapes),
+      verb<Separate>({.doc = "Which axis parts two bodies? The narrow phase's own test, axis by "
+                             "axis, until there is a gap; in a flat world.",
+                      .keys = {pair_key(), pace_key(), events_key({"axis"})},
+                      .example = R"([[step]]
+do = "separate"
+pair = ["red", "pink"]
+caption = "{axes_tested:axis/axes} tested: a gap of {gap}."
+expect = { axes_tested = 1 }
+)"},
+                     read_pair<Separate>),
+      verb<SearchDistance>(
+          {.doc = "How far are two bodies apart? GJK finds it by asking for points of their "
+                  "Minkowski difference, each farther towards the origin; in a flat world.",
+           .keys = {pair_key(), pace_key(), events_key({"support", "simplex"})},
+           .example = R"([[step]]
+do = "gjk"
+pair = ["red", "pink"]
+caption = "{gjk_steps:search/searches}: a distance of {distance}."
+expect = { distance = 4.724, tolerance = 0.001 }
+)"},
+          read_pair<SearchDistance>)};
+}
+
+}  // namespace lantern::language

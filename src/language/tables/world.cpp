@@ -1,0 +1,396 @@
+// [world], [display] and how a step is looked at, and [level].
+#include <fmt/format.h>
+
+#include "language/keys/key.hpp"
+#include "language/script/script_reading.hpp"
+#include "language/tables/draft.hpp"
+
+namespace lantern::language {
+namespace {
+
+constexpr double kLeastExtent = 1e-6;
+
+// As many as its extent has numbers; 0 if that cannot be told, which is a mistake told elsewhere.
+int dimension_of(const TomlTable& world) {
+  for (const std::string_view key : {"size", "min", "max"})
+    for (const TomlEntry& e : world) {
+      const auto* list = e.key == key ? std::get_if<TomlArray>(&e.value.data) : nullptr;
+      if (list && (list->size() == 2 || list->size() == 3)) return static_cast<int>(list->size());
+    }
+  return 0;
+}
+
+bool is_large_enough(const Box<3>& bounds, int dimension) {
+  for (int i = 0; i < dimension; ++i)
+    if (!(bounds.size()[i] >= kLeastExtent)) return false;
+  return true;
+}
+
+Box<3> read_bounds(const TableReader& world, int dimension) {
+  const Box<3> guess{Vec<3>(0.0), dimension == 3 ? Vec<3>(1.0) : Vec<3>(1, 1, 0)};
+  Box<3> bounds{Vec<3>(0.0), world.get<Vec<3>>("size").value_or(guess.hi)};
+  if (const auto min = world.get<Vec<3>>("min"), max = world.get<Vec<3>>("max"); min && max)
+    bounds = {*min, *max};
+  if (is_large_enough(bounds, dimension)) return bounds;
+  world.bad_value(world.has("max") ? "max" : "size",
+                  fmt::format("the world must extend at least {} on each axis", kLeastExtent),
+                  "'max' lies to the upper right of 'min'");
+  return guess;
+}
+
+void check_camera(const TableReader& world, WorldSpec& w, int dimension) {
+  const bool eye = world.has("camera_eye"), target = world.has("camera_target");
+  if (!eye && !target) return;
+  const char* key = eye ? "camera_eye" : "camera_target";
+  if ((eye && !world.is_good("camera_eye")) || (target && !world.is_good("camera_target"))) return;
+  if (dimension == 2) {
+    world.bad_key(key, "a 2D world has no camera", "for a 3D one, size = [16, 9, 16]");
+  } else if (eye != target) {
+    world.bad_key(
+        key, fmt::format("[world] has '{}' but no '{}'", key, eye ? "camera_target" : "camera_eye"),
+        "'camera_eye' and 'camera_target' go together");
+  } else {
+    if (w.camera_eye == w.camera_target)
+      world.bad_value("camera_target", "the camera looks at itself",
+                      "'camera_target' is what it looks at");
+    w.has_camera = true;
+  }
+}
+
+void check_land(const TableReader& world, const WorldSpec& w, int dimension) {
+  if (!world.is_good("land")) return;
+  if (dimension == 3)
+    return world.bad_key("land", "a 3D world has no land to draw on",
+                         "for a 2D one, size = [16, 9]");
+  std::size_t corners = 0;
+  for (const auto& polygon : w.land) corners += polygon.size();
+  if (corners > kMostWalls)
+    world.bad_value("land", fmt::format("{} corners in all, the limit is {}", corners, kMostWalls));
+}
+
+}  // namespace
+
+TableDoc world_table() {
+  using namespace keys;
+  using W = WorldSpec;
+  TableDoc table = {"world", "[world]",
+                    "Where the bodies are: x to the right, y up, z towards the viewer. If its "
+                    "extent has two numbers the world is 2D, if three it is 3D, and every point in "
+                    "the file then has as many. A scenario has either a world or an atlas."};
+  table.keys = {
+      key(KeyType::point, "size", "Its extent, from the origin; at least 0.000001 on each axis.",
+          above(0, kFar)),
+      key(KeyType::point, "min", "Its lowest corner, instead of `size`.", range(-kFar, kFar)),
+      key(KeyType::point, "max", "Its highest corner, instead of `size`.", range(-kFar, kFar)),
+      key(&W::time_step, "time_step", "How much time passes in one world step.", above(0, 1e3),
+          in("s"), or_else("1/60")),
+      key(&W::frame_every, "frame_every", "World steps from one frame to the next.",
+          range(1, kMostEvery), in("steps")),
+      key(&W::gravity, "gravity", "Acts on every body that forces move.", range(-kFar, kFar),
+          in("units/s²"), or_else("none")),
+      key(&W::gravitation, "gravitation",
+          "Bodies attract each other with this times both masses over the square of their "
+          "distance. A static body attracts if it has a `mass`.",
+          range(0, kFar)),
+      key(&W::contacts, "contacts",
+          "How touching bodies are kept apart: by sequential `impulse`s; by `soft` contacts in "
+          "small steps; by the same in whole steps, `direct`ly; by one impulse a pair, as the "
+          "`lecture` does it; or not at all. Without a [structure], every pair is tested for it."),
+      key(&W::integrator, "integrator", "How forces become motion."),
+      key(&W::rotation, "rotation",
+          "How free bodies rotate. Where a splitting would change the energy by more than a "
+          "thousandth, because a body turns far in a step, it is turned exactly. "
+          "`explicit_gyroscopic` is there to be seen failing."),
+      key(&W::sub_steps, "sub_steps", "How many parts soft contacts divide a world step into.",
+          range(1, 64)),
+      key(&W::wanted_error, "wanted_error",
+          "The error that is wanted of soft contacts of many bodies: by how much they may be out "
+          "of place, in units. 0.01 is quick, 0.0001 is slow, 0 as exact as can be; `sub_steps` "
+          "are then made as far as the error asks for them.",
+          range(0, 1)),
+      key(&W::iterations, "iterations",
+          "Sweeps over the velocities in a world step, and as many over the positions.",
+          range(1, 1000)),
+      key(&W::impact_budget, "impact_budget",
+          "How many impacts are located in one world step; later ones are treated as soft. "
+          "Bouncing bodies are stopped at the moment of impact, however often they bounce.",
+          range(0, 10'000'000)),
+      key(&W::may_sleep, "may_sleep", "Bodies that have been at rest for a while fall asleep."),
+      key(&Display::boxes, "show_boxes", "The boxes of the broad phase are drawn."),
+      key(&Display::arrows, "show_velocities", "Velocities are drawn as arrows."),
+      key(&Display::depths, "show_depths",
+          "Penetration depths are written beside the contacts, taking one unit as one metre."),
+      key(&Display::forces, "show_forces",
+          "The forces of `do = \"force\"` and the pulls of springs are drawn as arrows, with their "
+          "sizes."),
+      key(&Display::coordinates, "show_coordinates",
+          "Where the borders of the lit nodes and of those above them lie stands at the edges of a "
+          "2D world."),
+      key(&W::camera_eye, "camera_eye", "Where a 3D world is seen from; with `camera_target`.",
+          range(-kFar, kFar), or_else("so that all is seen")),
+      key(&W::camera_target, "camera_target", "What is in the middle of the picture.",
+          range(-kFar, kFar), or_else("so that all is seen")),
+      key(&W::land, "land",
+          "Polygons that are only drawn, under all else in a 2D world, as the land of a map: "
+          "`[[[0, 0], [8, 0], [8, 6]]]`. No body meets them. 2000 corners in all are allowed.",
+          range(-kFar, kFar), or_else("none")),
+      key(&W::quiet, "quiet",
+          "What is intended and needs no warning: a `view` without any body, a body `outside` the "
+          "world, bodies that fall into each other where `contacts` are off, `joints` that come "
+          "apart, `energy` that grows though nothing drives it, a body pushed `through` a static "
+          "one, a body that is `crush`ed between two others; an `expect` that cannot fail, "
+          "`settings` of contacts where nothing touches, `bodies` that never enter, `prototypes` "
+          "that nobody is like, `letters` that stand nowhere in the map, `links` (springs or "
+          "joints) that are there twice, `needs` of a scenario that is not there, a `problem` "
+          "whose solution is another one's.",
+          or_else("nothing")),
+  };
+  table.groups = {{{"size"}, {"min", "max"}}};
+  return table;
+}
+
+void read_world(const TableReader& file, Draft& draft) {
+  draft.has_world = file.has("world");
+  for (const TomlValue* value : file.tables("world")) {
+    draft.dimension = dimension_of(std::get<TomlTable>(value->data));
+    const TableReader world = open(*value, language_table("world"), draft);
+    WorldSpec& w = draft.scenario.world;
+    world.fill(w);
+    world.fill(draft.scenario.display);
+    w.dimension = draft.dimension == 3 ? 3 : 2;
+    w.bounds = read_bounds(world, w.dimension);
+    w.where = draft.position(value->where);
+    for (const KeyDoc& key : world.doc().keys)
+      if (world.has(key.key)) w.keys[key.key] = draft.position(world.key_place(key.key));
+    if (draft.scenario.display.depths && w.contacts == ContactMethod::none)
+      world.bad_key("show_depths", kNothingTouches, kGiveContacts);
+    check_camera(world, w, draft.dimension);
+    check_land(world, w, draft.dimension);
+  }
+  read_structures(file, draft);
+}
+
+namespace {
+
+constexpr const char* kGiveView = "a part of it: view = { at = [4, 3], width = 6 }";
+constexpr const char* kGiveCamera = "its part is camera = { eye = [9, 6, 9], target = [2, 2, 2] }";
+
+// What [world] and [display] both say.
+constexpr std::pair<const char*, const char*> kTwice[] = {{"boxes", "show_boxes"},
+                                                          {"arrows", "show_velocities"},
+                                                          {"depths", "show_depths"},
+                                                          {"forces", "show_forces"},
+                                                          {"coordinates", "show_coordinates"}};
+
+// Depths are of contacts.
+void check_depths(const TableReader& table, const Display& display, const Draft& draft) {
+  if (table.truth("depths") && display.depths && draft.dimension != 0 &&
+      !draft.scenario.has_contacts())
+    table.bad_key("depths", kNothingTouches, kGiveContacts);
+}
+
+std::optional<ViewSpec> read_view(const TomlValue& value, Draft& draft) {
+  const TableReader table = open(value, language_table("view"), draft, "'view'");
+  ViewSpec view;
+  table.fill(view);
+  view.where = draft.position(value.where);
+  if (table.has("at") != table.has("width")) {
+    const char* given = table.has("at") ? "at" : "width";
+    table.bad_key(
+        given, fmt::format("'view' has '{}' but no '{}'", given, table.has("at") ? "width" : "at"),
+        "'at' and 'width' go together; view = {} shows all");
+    return std::nullopt;
+  }
+  if (!view.at || !table.is_good("width")) return view;
+  const Box<3>& bounds = draft.scenario.world.bounds;
+  if (!contains(bounds, *view.at))
+    table.bad_value("at", "the view's middle lies outside the world",
+                    fmt::format("the world reaches from [{:.6g}, {:.6g}] to [{:.6g}, {:.6g}]",
+                                bounds.lo.x, bounds.lo.y, bounds.hi.x, bounds.hi.y));
+  else if (view.width > bounds.size().x)
+    table.bad_value(
+        "width",
+        fmt::format("the view is wider than the world, which is {:.6g} wide", bounds.size().x),
+        "view = {} shows all of it");
+  return view;
+}
+
+std::optional<CameraSpec> read_camera(const TomlValue& value, Draft& draft) {
+  const TableReader table = open(value, language_table("camera"), draft, "'camera'");
+  CameraSpec camera;
+  table.fill(camera);
+  camera.where = draft.position(value.where);
+  if (!table.is_good("eye") || !table.is_good("target")) return std::nullopt;
+  if (camera.eye != camera.target) return camera;
+  table.bad_value("target", "the camera looks at itself", "'target' is what it looks at");
+  return std::nullopt;
+}
+
+// Is there a world of so many dimensions? Else says so at the step's key.
+bool has_world(const TableReader& step, const char* key, int dimension, const Draft& draft) {
+  if (!draft.has_world) {
+    step.bad_key(key, fmt::format("'{}' needs a [world], the scenario has none", key),
+                 "leave it out");
+    return false;
+  }
+  if (draft.dimension == dimension || draft.dimension == 0) return draft.dimension != 0;
+  if (dimension == 2)
+    step.bad_key(key, fmt::format("a 3D world has no '{}'", key), kGiveCamera);
+  else
+    step.bad_key(key, fmt::format("a 2D world has no '{}'", key), kGiveView);
+  return false;
+}
+
+}  // namespace
+
+TableDoc display_table() {
+  using namespace keys;
+  using D = Display;
+  return {
+      "display",
+      "[display] and display",
+      "What frames show of what there is: for the whole scenario as `[display]`, for one step "
+      "alone as `display = { names = \"none\", arrows = true }`; what a step does not name stays "
+      "as `[display]` has it.",
+      {
+          key(&D::names, "names",
+              "Names beside bodies. `story`: of more than 8 bodies only of those that are lit, or "
+              "that the caption names; `all`: of all, as far as there is room; `none`."),
+          key(&D::pairs, "pairs", "Links between bodies that are to be tested."),
+          key(&D::contacts, "contacts", "Contact points, normals and impulses."),
+          key(&D::arrows, "arrows", "Velocities as arrows; `show_velocities` of [world]."),
+          key(&D::forces, "forces", "Forces as arrows."),
+          key(&D::cells, "cells", "The nodes' cells in the world."),
+          key(&D::not_made, "not_made", "Hatching where a child was not made."),
+          key(&D::fill, "fill",
+              "Leaves as buckets, with a level in each: how much of its capacity it holds."),
+          key(&D::boxes, "boxes", "The boxes of the broad phase; `show_boxes` of [world]."),
+          key(&D::depths, "depths",
+              "How deep bodies overlap, beside their contacts; `show_depths` of [world]."),
+          key(&D::coordinates, "coordinates",
+              "The borders of the lit way, at a 2D world's edges; `show_coordinates` of [world]."),
+          key(&D::trail, "trail",
+              "Where moving bodies were at the ends of so many world steps before, in outline, and "
+              "their way from one to the next by the impacts between; before a step is taken "
+              "(`phases`), dotted, also where they would be after it if they met nothing.",
+              range(0, kMostTrail), in("steps")),
+          key(&D::counters, "counters", "The numbers at the right of the caption."),
+          key(&D::title, "title", "The thin line above."),
+          key(&D::caption, "caption", "The caption below."),
+          key(&D::settings, "settings", "What the structure was told, under its tree."),
+          key(&D::legend, "legend", "The marks of the frame with their meanings, above the foot."),
+      }};
+}
+
+TableDoc view_table() {
+  using namespace keys;
+  return {
+      "view",
+      "view",
+      "Which part of a 2D world is shown from this step on, with a locator of the whole; `view = "
+      "{}` shows all again. The part is as wide as it says and as high as the world's proportions "
+      "make it; it stays within the world.",
+      {key(&ViewSpec::at, "at", "Its middle.", range(-kFar, kFar), or_else("all is shown")),
+       key(&ViewSpec::width, "width", "How wide it is.", above(0, kFar), or_else("all is shown"))}};
+}
+
+TableDoc camera_table() {
+  using namespace keys;
+  return {"camera",
+          "camera",
+          "From where a 3D world is seen from this step on, instead of [world]'s camera.",
+          {key(&CameraSpec::eye, "eye", "Where the eye is.", must(), range(-kFar, kFar)),
+           key(&CameraSpec::target, "target", "What is in the middle of the picture.", must(),
+               range(-kFar, kFar))}};
+}
+
+void read_display(const TableReader& file, Draft& draft) {
+  for (const TomlValue* value : file.tables("display")) {
+    const TableReader table = open(*value, language_table("display"), draft);
+    for (const auto& [key, old] : kTwice)
+      if (table.has(key) && draft.scenario.world.keys.contains(old))
+        table.bad_key(key, fmt::format("[world] has '{}', which says the same", old),
+                      "give one of them");
+    table.fill(draft.scenario.display);
+    check_depths(table, draft.scenario.display, draft);
+  }
+}
+
+void read_look(const TableReader& step, Step& to, Draft& draft) {
+  for (const TomlValue* value : step.tables("display")) {
+    const TableReader table = open(*value, language_table("display"), draft, "'display'");
+    to.display = draft.scenario.display;
+    table.fill(*to.display);
+    check_depths(table, *to.display, draft);
+  }
+  if (step.is_good("view") && has_world(step, "view", 2, draft))
+    for (const TomlValue* value : step.tables("view")) to.view = read_view(*value, draft);
+  if (step.is_good("camera") && has_world(step, "camera", 3, draft))
+    for (const TomlValue* value : step.tables("camera")) to.camera = read_camera(*value, draft);
+  if (step.is_good("orbit")) has_world(step, "orbit", 3, draft);
+}
+
+namespace {
+
+// Walls of no length have no line.
+void check_loops(const LevelSpec& level, const TableReader& table) {
+  std::size_t walls = 0, number = 0;
+  for (const auto& loop : level.loops) {
+    ++number;
+    walls += loop.size();
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      if (loop[i] == loop[(i + 1) % loop.size()]) {
+        table.bad_value("loops",
+                        fmt::format("polygon {} has the corner [{}, {}] twice in a row", number,
+                                    loop[i].x, loop[i].y),
+                        "the last corner is joined to the first by itself");
+        break;
+      }
+  }
+  if (walls > kMostWalls)
+    table.bad_value("loops", fmt::format("{} walls in all, the limit is {}", walls, kMostWalls));
+}
+
+}  // namespace
+
+TableDoc level_table() {
+  using namespace keys;
+  using L = LevelSpec;
+  TableDoc table = {
+      "level", "[level]",
+      "Walls in a 2D world that `do = \"compile\"` turns into a BSP, as for a first-person game."};
+  table.keys = {
+      key(&L::loops, "loops",
+          "Closed polygons, as `[[[0, 0], [8, 0], [8, 6]]]`, each with its solid side on the right "
+          "as you go round. 2000 walls in all are allowed.",
+          must(), range(-kFar, kFar)),
+      key(&L::balance, "balance",
+          "What a line's score counts for each wall that one side has more than the other.",
+          range(0, 1e6)),
+      key(&L::cuts, "cuts", "What it counts for each wall that the line cuts in two.",
+          range(0, 1e6)),
+      key(&L::first_wall, "choose", "The line with the lowest score, or the first wall's.",
+          one_of({"score", "first_wall"})),
+  };
+  return table;
+}
+
+void read_level(const TableReader& file, Draft& draft) {
+  if (file.has("level")) draft.scenario.level.emplace();  // a bad one is told once
+  for (const TomlValue* value : file.tables("level")) {
+    const TableReader table = open(*value, language_table("level"), draft);
+    LevelSpec level;
+    table.fill(level);
+    level.where = draft.position(value->where);
+    check_loops(level, table);
+    draft.scenario.level = std::move(level);
+    if (!draft.has_world)
+      draft.problems.add(value->where, "a [level] needs a [world]",
+                         "add [world] with size = [64, 64]");
+    else if (draft.dimension == 3)
+      draft.problems.add(value->where, "a [level] needs a 2D world, this one is 3D",
+                         "write [world] with size = [64, 64]");
+  }
+}
+
+}  // namespace lantern::language

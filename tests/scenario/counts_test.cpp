@@ -1,0 +1,60 @@
+// There is a count when its rule says so, and it is called as its row says.
+#include "language/counts.hpp"
+
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "scenario/directing.hpp"
+#include "scenario/parsing.hpp"
+
+namespace lantern::scenario {
+namespace {
+
+// Of the last frame of each step that has one.
+void expect_as_ruled(const Scenario& scenario, const std::vector<Frame>& frames) {
+  ScriptPast past(scenario, scenario.world.dimension);
+  auto frame = frames.begin();
+  for (std::size_t i = 0; i < scenario.steps.size(); ++i) {
+    past.note(scenario.steps[i].verb);
+    const auto is_of_step = [&] { return frame != frames.end() && frame->step == i; };
+    if (!is_of_step()) continue;
+    while (is_of_step()) ++frame;
+    const Frame& last = *std::prev(frame);
+    for (const auto docs : {known_counts(), known_measures()})
+      for (const CountDoc& count : docs)
+        EXPECT_EQ(last.number(std::string(count.name)).has_value(),
+                  why_not_counted(count, past).empty())
+            << count.name << " in step " << i + 1 << " of " << scenario.name;
+  }
+}
+
+void expect_as_ruled(const Scenario& scenario) {
+  const std::vector<Frame> frames = frames_of(scenario);
+  if (scenario.sides.empty()) return expect_as_ruled(scenario, frames);
+  for (std::size_t side = 0; side < scenario.sides.size(); ++side) {
+    std::vector<Frame> own;
+    for (const Frame& frame : frames) own.push_back(frame.sides.at(side));
+    expect_as_ruled(*scenario.sides[side], own);
+  }
+}
+
+TEST(Counts, AreThereWhenTheirRulesSaySo) {
+  for (const std::string& name : all_scenarios()) expect_as_ruled(shipped(name));
+  for (const std::string& text : good_texts()) expect_as_ruled(good(text));
+  for (const char* name : {"big_atlas", "galton"})
+    expect_as_ruled(load_scenario(LANTERN_ROOT "/tests/cases/" + std::string(name) + ".toml"));
+}
+
+TEST(Counts, HaveWordsForOneAndForMany) {
+  const auto words = [](const char* name, bool one) { return find_count(name)->words(one); };
+  EXPECT_EQ(words("leaves", true), "leaf");
+  EXPECT_EQ(words("leaves", false), "leaves");
+  EXPECT_EQ(words("asleep", true), "asleep") << "one word for both";
+  EXPECT_EQ(words("asleep", false), "asleep");
+  EXPECT_EQ(words("narrow_tests", true), "narrow test") << "from its name";
+  EXPECT_EQ(words("narrow_tests", false), "narrow tests");
+}
+
+}  // namespace
+}  // namespace lantern::scenario
