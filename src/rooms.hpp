@@ -21,11 +21,14 @@ namespace language {
 using namespace physics;
 using namespace atlas;
 }  // namespace language
-namespace scenario {
+namespace frame {
 using namespace language;
 }
+namespace run {
+using namespace frame;
+}
 namespace draw {
-using namespace scenario;
+using namespace frame;
 }
 namespace render {
 using namespace draw;
@@ -34,7 +37,7 @@ namespace publish {
 using namespace render;
 }
 namespace measure {
-using namespace scenario;
+using namespace run;
 }
 namespace peers {
 using namespace measure;
@@ -45,7 +48,8 @@ using namespace render;
 }  // namespace report
 namespace app {
 using namespace publish;
-}
+using namespace run;
+}  // namespace app
 namespace lab {
 using namespace app;
 using namespace report;

@@ -80,7 +80,11 @@ int run_program(int argc, char** argv, std::vector<OwnKind> own, std::vector<Own
     remember_command_line(argc, argv);
     try {
       know_own_structures(std::move(own));
-      for (const OwnPanel& panel : panels) add_panel(panel);
+      for (OwnPanel& panel : panels) {
+        add_panel(panel.kind, std::move(panel.run));
+        panel.view.name = panel.kind.name;
+        add_panel(panel.view);
+      }
     } catch (const Refused& refused) {
       throw UsageError(refused.what());
     }

@@ -22,7 +22,7 @@
 #include "draw/font.hpp"
 #include "draw/page.hpp"
 #include "language/text/problems.hpp"
-#include "scenario/warnings.hpp"
+#include "run/warnings.hpp"
 
 namespace lantern::app {
 

@@ -10,7 +10,7 @@
 #include "base/error.hpp"
 #include "base/json_writer.hpp"
 #include "base/work.hpp"
-#include "scenario/director.hpp"
+#include "run/director.hpp"
 
 namespace lantern::app {
 

@@ -5,7 +5,7 @@ include(CMakePackageConfigHelpers)
 
 set(lantern_cmake_dir ${CMAKE_INSTALL_LIBDIR}/cmake/Lantern)
 # The rooms whose headers others may include.
-set(lantern_public_rooms base geometry lecture spatial atlas physics language scenario draw render)
+set(lantern_public_rooms base geometry lecture spatial atlas physics language frame run draw render)
 
 # lantern_installed_library(NAME): lantern_NAME goes along, whoever links it finds it.
 function(lantern_installed_library name)
@@ -14,13 +14,14 @@ function(lantern_installed_library name)
     ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development)
 endfunction()
 
-# lantern_public(NAME ROOM): Lantern::NAME, here and after find_package(Lantern), is ROOM and the rooms
-# that it sees, with <lantern/ROOM/....hpp> and <lantern/version.hpp>.
-function(lantern_public name room)
+# lantern_public(NAME ROOM...): Lantern::NAME, here and after find_package(Lantern), is these rooms and
+# those that they see, with <lantern/ROOM/....hpp> and <lantern/version.hpp>.
+function(lantern_public name)
+  list(TRANSFORM ARGN PREPEND lantern_ OUTPUT_VARIABLE rooms)
   add_library(lantern_public_${name} INTERFACE)
   add_library(Lantern::${name} ALIAS lantern_public_${name})
   set_target_properties(lantern_public_${name} PROPERTIES EXPORT_NAME ${name})
-  target_link_libraries(lantern_public_${name} INTERFACE lantern_${room})
+  target_link_libraries(lantern_public_${name} INTERFACE ${rooms})
   target_compile_features(lantern_public_${name} INTERFACE cxx_std_20)
   # Headers hold arithmetic, too: it is rounded as in the libraries, on whatever machine.
   target_compile_options(lantern_public_${name} INTERFACE -ffp-contract=off)

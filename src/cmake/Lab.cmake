@@ -10,7 +10,7 @@ lantern_headers(lab_headers LINKS fmt::fmt glm::glm HEADERS ${common_headers})
 set_target_properties(lantern_problems lantern_stress lab_headers PROPERTIES
   POSITION_INDEPENDENT_CODE ON)
 
-lantern_room(measure GUEST LINKS scenario lantern_problems lantern_stress lantern_lab_version)
+lantern_room(measure GUEST LINKS run lantern_problems lantern_stress lantern_lab_version)
 lantern_room(report GUEST LINKS measure render)
 lantern_room(lab GUEST LINKS report app)
 # A report says how its program was built.

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "draw/staging.hpp"
+#include "frame/frame.hpp"
 #include "geometry/box.hpp"
-#include "scenario/frame.hpp"
 
 namespace lantern::draw {
 

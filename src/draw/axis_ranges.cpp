@@ -4,10 +4,10 @@
 
 namespace lantern::draw {
 
-void AxisRanges::see(const scenario::Frame& frame) {
-  const scenario::FrameChart& chart = frame.get<FrameChart>();
-  for (const scenario::FrameBar& bar : chart.bars) chart_.add(bar.value, chart.logarithmic);
-  for (const scenario::FrameSeries& series : chart.series)
+void AxisRanges::see(const frame::Frame& frame) {
+  const frame::FrameChart& chart = frame.get<FrameChart>();
+  for (const frame::FrameBar& bar : chart.bars) chart_.add(bar.value, chart.logarithmic);
+  for (const frame::FrameSeries& series : chart.series)
     for (const Vec<2>& p : series.points) {
       chart_.add(p.y, chart.logarithmic);
       chart_x_.add(p.x, chart.logarithmic && !chart.over_time);
@@ -17,7 +17,7 @@ void AxisRanges::see(const scenario::Frame& frame) {
     double& seconds = seconds_[frame.part];
     seconds = std::max(seconds, p.x);
   }
-  for (const scenario::Frame& side : frame.sides) see(side);
+  for (const frame::Frame& side : frame.sides) see(side);
 }
 
 std::optional<double> AxisRanges::seconds_of(const std::string& part) const {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "draw/plot_layout.hpp"
-#include "scenario/frame.hpp"
+#include "frame/frame.hpp"
 
 namespace lantern::draw {
 
@@ -16,7 +16,7 @@ class AxisRanges {
  public:
   using Ends = std::optional<std::pair<double, double>>;
 
-  void see(const scenario::Frame& frame);
+  void see(const frame::Frame& frame);
   Ends chart() const { return ends_of(chart_); }      // of charts' values
   Ends chart_x() const { return ends_of(chart_x_); }  // of what they are drawn against
   double trace() const { return trace_; }             // the most of a sparkline

@@ -9,8 +9,8 @@
 
 #include "draw/draw_list.hpp"
 #include "draw/role.hpp"
+#include "frame/frame.hpp"
 #include "geometry/plane.hpp"
-#include "scenario/frame.hpp"
 
 namespace lantern::draw {
 

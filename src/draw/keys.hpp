@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scenario/frame.hpp"
+#include "frame/frame.hpp"
 
 namespace lantern::draw {
 

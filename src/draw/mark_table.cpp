@@ -62,7 +62,7 @@ bool draw_finding(MarkKind kind, const Vec<2>& c, const Vec<2>& left, const Vec<
 }  // namespace
 
 bool draw_mark(MarkKind kind, const Box<2>& place, DrawList& list) {
-  using State = scenario::PairState;
+  using State = frame::PairState;
   const Vec<2> c = place.center();
   const Vec<2> left{place.lo.x + 4, c.y}, right{place.hi.x - 4, c.y};
   Pen pen(list, place);
@@ -105,7 +105,7 @@ bool draw_mark(MarkKind kind, const Box<2>& place, DrawList& list) {
 }
 
 MarkKind kind_of(const LinkLook& look) {
-  using State = scenario::PairState;
+  using State = frame::PairState;
   if (!look.full) return MarkKind::faint_pair;
   if (look.state == State::boxes_apart) return MarkKind::boxes_apart;
   return look.state == State::shapes_apart ? MarkKind::shapes_apart : MarkKind::candidate;
@@ -113,7 +113,7 @@ MarkKind kind_of(const LinkLook& look) {
 
 Stroke stroke_of(const LinkLook& look) {
   if (!look.full) return {Role::faint_pair, 1.8};
-  if (look.state != scenario::PairState::candidate) return {Role::rejected_pair, 2.6, 5};
+  if (look.state != frame::PairState::candidate) return {Role::rejected_pair, 2.6, 5};
   return {Role::pair, look.lit ? 4.4 : 3.0};
 }
 
@@ -126,9 +126,9 @@ void draw_cross(const Vec<2>& at, Role role, Pen& pen) {
 }
 
 void draw_link(const Vec<2>& from, const Vec<2>& to, const LinkLook& look, Pen& pen) {
-  if (look.state == scenario::PairState::contact) return;
+  if (look.state == frame::PairState::contact) return;
   pen.line(from, to, stroke_of(look), look.full ? kCasing : 0);
-  if (look.full && look.state == scenario::PairState::shapes_apart)
+  if (look.full && look.state == frame::PairState::shapes_apart)
     draw_cross((from + to) / 2.0, Role::rejected_pair, pen);
 }
 

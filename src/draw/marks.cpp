@@ -184,7 +184,7 @@ void Marks3D::ball(const Vec<3>& center, double radius, const Stroke& stroke) {
 bool add_pairs(const Frame& frame, Marks3D& marks) {
   const BodiesById bodies = drawn_of(frame, marks.bodies);
   const std::vector<bool> full = full_links(frame);
-  const scenario::PairStates states(frame);
+  const frame::PairStates states(frame);
   std::size_t count = 0;
   const auto add = [&](bool in_full) {
     for (std::size_t i = 0; i < frame.pairs.size(); ++i) {
@@ -193,8 +193,8 @@ bool add_pairs(const Frame& frame, Marks3D& marks) {
       if (full[i] != in_full || a == bodies.end() || b == bodies.end()) continue;
       if (++count > kMostPairs) return false;
       const LinkLook look{states.state_of(pair.pair), in_full, pair.lit};
-      if (look.state == scenario::PairState::contact ||
-          (!in_full && look.state != scenario::PairState::candidate))
+      if (look.state == frame::PairState::contact ||
+          (!in_full && look.state != frame::PairState::candidate))
         continue;
       const std::string key = pair_key("world/pair", *a->second, *b->second);
       const Marks::Scope scope(marks, key, key);
@@ -212,18 +212,18 @@ bool add_pairs(const Frame& frame, Marks3D& marks) {
 void draw_joints(const Frame& frame, const Marks3D& marks) {
   const BodiesById bodies = drawn_of(frame, marks.bodies);
   const std::vector<bool> full = full_links(frame);
-  const scenario::PairStates states(frame);
+  const frame::PairStates states(frame);
   Pen pen = marks.over();
   for (std::size_t i = 0; i < frame.pairs.size(); ++i) {
     const FramePair& pair = frame.pairs[i];
     const auto a = bodies.find(pair.pair.a), b = bodies.find(pair.pair.b);
-    const scenario::PairState state = states.state_of(pair.pair);
-    if (!full[i] || a == bodies.end() || b == bodies.end() || state == scenario::PairState::contact)
+    const frame::PairState state = states.state_of(pair.pair);
+    if (!full[i] || a == bodies.end() || b == bodies.end() || state == frame::PairState::contact)
       continue;
     const std::string key = pair_key("world/joint", *a->second, *b->second);
     const Marks::Scope scope(marks, key, key);
     const Vec<3> from = link_end(*a->second, *b->second), to = link_end(*b->second, *a->second);
-    if (state == scenario::PairState::shapes_apart)
+    if (state == frame::PairState::shapes_apart)
       if (const auto at = marks.projection().seen((from + to) * 0.5))
         draw_cross(*at, Role::rejected_pair, pen);
     if (!overlap(a->second->box, b->second->box)) continue;

@@ -12,7 +12,7 @@
 #include "draw/labels.hpp"
 #include "draw/pen.hpp"
 #include "draw/projection.hpp"
-#include "scenario/pair_state.hpp"
+#include "frame/pair_state.hpp"
 
 namespace lantern::draw {
 
@@ -76,7 +76,7 @@ bool draw_mark(MarkKind kind, const Box<2>& place, DrawList& list);
 // The link of a pair, from outline to outline, by how far the pair has come; nothing for a contact,
 // which has a mark of its own. `full`: else thin and pale, one among many.
 struct LinkLook {
-  scenario::PairState state = scenario::PairState::candidate;
+  frame::PairState state = frame::PairState::candidate;
   bool full = true;
   bool lit = false;
 };

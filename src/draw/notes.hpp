@@ -2,7 +2,7 @@
 #pragma once
 
 #include "draw/labels.hpp"
-#include "scenario/frame.hpp"
+#include "frame/frame.hpp"
 
 namespace lantern::draw {
 

@@ -7,7 +7,7 @@
 #include "base/work.hpp"
 #include "draw/draw_list.hpp"
 #include "draw/staging.hpp"
-#include "scenario/frame.hpp"
+#include "frame/frame.hpp"
 
 namespace lantern::draw {
 

@@ -31,10 +31,6 @@ const PanelView& view_of(Panel panel) {
   return *found;
 }
 
-void add_panel(const OwnPanel& panel) {
-  scenario::add_panel(panel.kind, panel.run);
-  views().push_back(panel.view);
-  views().back().name = panel.kind.name;
-}
+void add_panel(PanelView view) { views().push_back(view); }
 
 }  // namespace lantern::draw

@@ -1,5 +1,5 @@
 // How panels are drawn, and what room they want. What else is known of them is in
-// language/panel.hpp and scenario/panel.hpp. Each panel is a file that gives one entry of the list
+// language/panel.hpp and run/panel.hpp. Each panel is a file that gives one entry of the list
 // in panel.cpp.
 #pragma once
 
@@ -7,8 +7,7 @@
 
 #include "draw/labels.hpp"
 #include "draw/staging.hpp"
-#include "scenario/frame.hpp"
-#include "scenario/panel.hpp"
+#include "frame/frame.hpp"
 
 namespace lantern::draw {
 
@@ -48,12 +47,7 @@ class PanelPicture {
   Labels& labels_;
 };
 
-// A panel of a program's own: its three entries, named by the first.
-struct OwnPanel {
-  language::PanelKind kind;
-  scenario::PanelRun run;
-  PanelView view;
-};
-void add_panel(const OwnPanel& panel);
+// One more, of a program's own.
+void add_panel(PanelView view);
 
 }  // namespace lantern::draw

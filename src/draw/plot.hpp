@@ -98,8 +98,8 @@ struct Plot {
   }
 };
 
-// The key (DrawList::Scope) of what is drawn of a series: "series/3", "series/3/whiskers", or of the
-// mark of one of its points, "series/3/7". A slide has none of them.
+// The key (DrawList::Scope) of what is drawn of a series: "series/3", "series/3/whiskers", or of
+// the mark of one of its points, "series/3/7". A slide has none of them.
 std::string plot_key(const Plot& plot, const PlotSeries& series);
 std::string plot_key(const Plot& plot, const PlotSeries& series, const PlotPoint& point);
 

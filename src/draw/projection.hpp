@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "draw/draw_list.hpp"
+#include "frame/frame.hpp"
 #include "geometry/flat.hpp"
-#include "scenario/frame.hpp"
 
 namespace lantern::draw {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "draw/draw_list.hpp"
-#include "scenario/frame.hpp"
+#include "frame/frame.hpp"
 
 namespace lantern::draw {
 

@@ -5,7 +5,7 @@
 
 #include "draw/labels.hpp"
 #include "draw/staging.hpp"
-#include "scenario/frame.hpp"
+#include "frame/frame.hpp"
 
 namespace lantern::draw {
 

@@ -15,8 +15,8 @@
 
 #include "draw/axis_ranges.hpp"
 #include "draw/keys.hpp"
+#include "frame/frame.hpp"
 #include "geometry/box.hpp"
-#include "scenario/frame.hpp"
 
 namespace lantern::draw {
 

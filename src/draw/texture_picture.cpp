@@ -8,7 +8,7 @@
 namespace lantern::draw {
 namespace {
 
-using scenario::Picture;
+using run::Picture;
 
 // A rectangle whose points count from its upper left corner (0, 0) to its lower right one (1, 1);
 // turned by 90 degrees with the texture.

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "draw/pattern.hpp"
-#include "scenario/frame.hpp"
+#include "frame/frame.hpp"
 
 namespace lantern::draw {
 

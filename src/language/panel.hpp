@@ -1,5 +1,5 @@
 // Panels: what a page is made of. All that the language knows of one is an entry of one list; what
-// a run gathers for it is one of another (scenario/panel.hpp), and how it is drawn one of a third
+// a run gathers for it is one of another (run/panel.hpp), and how it is drawn one of a third
 // (draw/panel.hpp).
 #pragma once
 

@@ -8,7 +8,7 @@
 #include "base/error.hpp"
 #include "measure/forms/dormand_prince.hpp"
 #include "physics/integrate/smooth_system.hpp"
-#include "scenario/players.hpp"
+#include "run/players.hpp"
 
 namespace lantern::measure {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "physics/energy.hpp"
 #include "physics/manifold.hpp"
-#include "scenario/players.hpp"
+#include "run/players.hpp"
 
 namespace lantern::measure {
 namespace {

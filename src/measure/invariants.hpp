@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
+#include "frame/body_state.hpp"
 #include "language/scenario.hpp"
 #include "measure/row.hpp"
-#include "scenario/body_state.hpp"
 
 namespace lantern::measure {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scenario/engine.hpp"
+#include "run/engine.hpp"
 
 namespace lantern::measure {
 namespace {

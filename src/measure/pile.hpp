@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
+#include "frame/body_state.hpp"
 #include "measure/invariants.hpp"
-#include "scenario/body_state.hpp"
 
 namespace lantern::measure {
 

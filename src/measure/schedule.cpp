@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "scenario/engine.hpp"
+#include "run/engine.hpp"
 
 namespace lantern::measure {
 namespace {

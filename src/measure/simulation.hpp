@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "frame/body_state.hpp"
 #include "language/scenario.hpp"
 #include "physics/world_config.hpp"
-#include "scenario/body_state.hpp"
 
 namespace lantern::measure {
 

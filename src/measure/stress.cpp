@@ -10,7 +10,7 @@
 #include "base/stop.hpp"
 #include "embedded/stress_scenarios.hpp"
 #include "language/scenario.hpp"
-#include "scenario/director.hpp"
+#include "run/director.hpp"
 
 namespace lantern::measure {
 

@@ -9,8 +9,8 @@
 
 #include "base/file.hpp"
 #include "draw/draw_list.hpp"
+#include "frame/frame.hpp"
 #include "publish/lesson_frames.hpp"
-#include "scenario/frame.hpp"
 
 namespace lantern::publish {
 

@@ -10,7 +10,7 @@
 
 #include "draw/draw_list.hpp"
 #include "draw/tween.hpp"
-#include "scenario/frame.hpp"
+#include "frame/frame.hpp"
 
 namespace lantern::publish {
 

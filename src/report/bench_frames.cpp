@@ -10,7 +10,7 @@
 #include "base/counted.hpp"
 #include "draw/page.hpp"
 #include "report/benches.hpp"
-#include "scenario/director.hpp"
+#include "run/director.hpp"
 
 namespace lantern::report {
 

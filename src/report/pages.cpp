@@ -232,8 +232,8 @@ class OverviewPage {
     list_.page.x =
         std::max(kLeastWidth, 2 * kOverviewMargin +
                                   static_cast<double>(columns_) * (kCell + kCellGap) - kCellGap);
-    const double fixed =
-        kOverviewHead + kOverviewFoot + bars_height() + plot_legend_height(legend_, inner(), kSmall) + 48;
+    const double fixed = kOverviewHead + kOverviewFoot + bars_height() +
+                         plot_legend_height(legend_, inner(), kSmall) + 48;
     const double page = kTall * list_.page.x, words = 56;
     const double tallest = columns_ > 2 ? 1.3 : 0.62;  // over the width
     row_ = std::clamp(rows() > 0 ? (page - fixed) / rows() : 0, words + 0.62 * cell_width(),

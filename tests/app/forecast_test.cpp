@@ -1,7 +1,7 @@
 // The words in which a long run is told of.
-#include "app/progress.hpp"
-
 #include <gtest/gtest.h>
+
+#include "app/progress.hpp"
 
 namespace lantern::app {
 namespace {

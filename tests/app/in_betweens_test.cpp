@@ -1,12 +1,11 @@
 // --tween and --fps: pictures between the frames, and no trace of them where they are not wanted.
-#include "app/output/render_job.hpp"
-
 #include <algorithm>
 #include <map>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "app/output/render_job.hpp"
 #include "app/process.hpp"
 #include "app/terminal.hpp"
 

@@ -26,14 +26,15 @@ const std::map<std::string, std::set<std::string>> kRooms = {
     {"atlas", {"geometry"}},
     {"physics", {"spatial"}},
     {"language", {"physics", "atlas"}},
-    {"scenario", {"language"}},
-    {"draw", {"scenario"}},
+    {"frame", {"language"}},
+    {"run", {"frame"}},
+    {"draw", {"frame"}},
     {"render", {"draw"}},
     {"publish", {"render"}},
-    {"measure", {"scenario"}},
+    {"measure", {"run"}},
     {"peers", {"measure"}},
     {"report", {"measure", "draw", "render"}},
-    {"app", {"publish"}},
+    {"app", {"publish", "run"}},
     {"lab", {"app", "report"}},
 };
 
@@ -155,11 +156,11 @@ TEST(Rooms, NameNoStructureButWhereItIsMeant) {
       {"draw/world/world2d_parts.cpp", 1},      // quarters that a quadtree has not made
       {"app/commands/structure_bench.cpp", 2},  // others are timed beside brute force
       {"language/counts.cpp", 1},               // a compiled level is a BSP
-      {"scenario/level_stage.cpp", 1},          // as well
+      {"run/level_stage.cpp", 1},               // as well
       {"language/tables/structure.cpp", 2},     // a guess of a bad one, octrees in flat worlds
-      {"scenario/watch_contacts.cpp", 1},       // pairs of worlds without a structure
-      {"scenario/structure_picture.cpp", 2},    // what brute force says of itself
-      {"scenario/tally.cpp", 1},                // no structure is brute force
+      {"run/watch_contacts.cpp", 1},            // pairs of worlds without a structure
+      {"run/structure_picture.cpp", 2},         // what brute force says of itself
+      {"run/tally.cpp", 1},                     // no structure is brute force
       {"measure/broad_phase_cost.cpp", 1},      // brute force is measured once
       {"measure/broad_phase_cost.hpp", 1},      // what a row is of, if nothing is said
       {"measure/step_bench.hpp", 1},            // as well

@@ -1,11 +1,12 @@
 // `lantern watch`: what is saved is drawn again.
+#include "app/output/watch.hpp"
+
 #include <tuple>
 #include <utility>
 
 #include <gtest/gtest.h>
 
 #include "app/process.hpp"
-#include "app/output/watch.hpp"
 
 namespace lantern::app {
 namespace {

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Which lines of src/language and src/scenario the fuzzer's files run, out of a build with counters.
+# Which lines of src/language and src/run the fuzzer's files run, out of a build with counters.
 #   coverage.sh [ROUNDS]      5,000 files unless told
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
@@ -18,9 +18,9 @@ head -n 2 "$build/report.txt"
 # Plain gcov: for each object a list of its sources' lines. A line counts once, however many
 # objects hold it.
 gcov=$(command -v gcov || ls /usr/bin/gcov-* | head -n 1)
-find "$build/CMakeFiles/lantern_language.dir" "$build/CMakeFiles/lantern_scenario.dir" -name '*.gcda' -exec "$gcov" -t {} + 2>/dev/null |
+find "$build/CMakeFiles/lantern_language.dir" "$build/CMakeFiles/lantern_run.dir" -name '*.gcda' -exec "$gcov" -t {} + 2>/dev/null |
   awk -F: '
-    $3 == "Source" { inside = $0 ~ "/src/(language|scenario)/"; file = $4; sub(/.*\/src\//, "", file) }
+    $3 == "Source" { inside = $0 ~ "/src/(language|run)/"; file = $4; sub(/.*\/src\//, "", file) }
     inside && NF > 2 && $2 + 0 > 0 {
       line = file ":" ($2 + 0)
       gsub(/ /, "", $1)
@@ -32,6 +32,6 @@ find "$build/CMakeFiles/lantern_language.dir" "$build/CMakeFiles/lantern_scenari
       for (file in all)
         printf "%6.1f %% of %4d lines  %s\n", 100 * run[file] / all[file], all[file], file | "sort -n"
       close("sort -n")
-      if (total == 0) { print "no line of src/language and src/scenario was counted"; exit 1 }
-      printf "%.1f %% of %d lines of src/language and src/scenario\n", 100 * ran / total, total
+      if (total == 0) { print "no line of src/language and src/run was counted"; exit 1 }
+      printf "%.1f %% of %d lines of src/language and src/run\n", 100 * ran / total, total
     }'

@@ -10,7 +10,7 @@
 namespace lantern::draw {
 namespace {
 
-using scenario::PairState;
+using frame::PairState;
 
 const Frame& ledger(const std::string& name) {
   static const samples::Named all = samples::ledgers();
@@ -73,7 +73,7 @@ TEST(Ledger, StandsStillWhileBodiesCome) {
 // In grey nothing but shapes is left.
 TEST(Ledger, StatesDifferInShape) {
   std::set<std::string> seen;
-  for (std::size_t s = 0; s < scenario::kPairStates; ++s) {
+  for (std::size_t s = 0; s < frame::kPairStates; ++s) {
     DrawList list;
     draw_pair_mark(static_cast<PairState>(s), false, {{0, 0}, {12, 12}}, list);
     std::string kinds;

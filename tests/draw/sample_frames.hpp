@@ -8,7 +8,7 @@
 
 #include "draw/axis_ranges.hpp"
 #include "draw/draw_list.hpp"
-#include "scenario/frame.hpp"
+#include "frame/frame.hpp"
 
 namespace lantern::draw::samples {
 

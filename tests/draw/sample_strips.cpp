@@ -49,7 +49,7 @@ void put_in_pool(Frame& frame, std::uint32_t slots, std::uint32_t reused) {
 // Pairs that touch in every ninth step, once, and in every second.
 Frame collisions(std::uint64_t steps) {
   Frame frame = ghosts(4);
-  scenario::FrameCollisions& told = frame.add<FrameCollisions>();
+  frame::FrameCollisions& told = frame.add<FrameCollisions>();
   told.remembered = 5;
   told.now = steps;
   if (steps == 30) told.steps = 60;
@@ -69,7 +69,7 @@ Frame collisions(std::uint64_t steps) {
 // A function with the line of this number lit, or all of them.
 std::pair<std::string, Frame> code(const std::string& function, std::size_t lit) {
   Frame frame = ghosts(4);
-  scenario::FrameCode& code = frame.add<FrameCode>() = *scenario::code_of(function);
+  run::FrameCode& code = frame.add<FrameCode>() = *run::code_of(function);
   for (std::size_t i = 0; i < code.lines.size(); ++i)
     code.lines[i].lit = i == lit || lit > code.lines.size();
   frame.panels = {panel_named("world"), panel_named("tree"), panel_named("code")};
@@ -124,7 +124,7 @@ Named screens() {
   Frame frame = atlas(8, 0);
   frame.panels = {panel_named("screen"), panel_named("atlas")};
   for (FrameTexture& t : frame.add<FrameTextures>().textures)
-    t.picture = static_cast<scenario::Picture>(t.id % 6);
+    t.picture = static_cast<run::Picture>(t.id % 6);
   FrameScreen& screen = frame.add<FrameScreen>();
   screen.width = 480;
   screen.height = 270;

@@ -23,7 +23,7 @@ const Box<2> kTreePanel{{0, 0}, {700, 560}};
 // The frames of a run, cut into the groups that share a layout.
 std::vector<std::vector<Frame>> groups_of(const std::string& scenario) {
   std::vector<std::vector<Frame>> groups;
-  for (Frame& frame : scenario::frames_of(scenario)) {
+  for (Frame& frame : run::frames_of(scenario)) {
     if (groups.empty() || !Staging::is_one_group(groups.back().back(), frame))
       groups.emplace_back();
     groups.back().push_back(std::move(frame));
@@ -124,7 +124,7 @@ TEST_P(EverySequence, TypeIsLargeEnoughAndLabelsAreApart) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenarios, EverySequence, testing::ValuesIn(scenario::all_scenarios()),
+INSTANTIATE_TEST_SUITE_P(Scenarios, EverySequence, testing::ValuesIn(run::all_scenarios()),
                          [](const auto& each) { return each.param; });
 
 TEST(Staging, AGroupEndsWhereItsPanelsOrSettingsChange) {

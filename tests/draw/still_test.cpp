@@ -103,7 +103,7 @@ void expect_still(const Frame& a, const Frame& b, const DrawList& before, const 
 class EveryPageTurned : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryPageTurned, LeavesWhatHasNotChangedWhereItIs) {
-  const std::vector<Frame> frames = scenario::frames_of(GetParam());
+  const std::vector<Frame> frames = run::frames_of(GetParam());
   std::size_t first = 0;
   for (std::size_t next = 1; next <= frames.size(); ++next) {
     if (next < frames.size() && Staging::is_one_group(frames[next - 1], frames[next])) continue;
@@ -120,7 +120,7 @@ TEST_P(EveryPageTurned, LeavesWhatHasNotChangedWhereItIs) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenarios, EveryPageTurned, testing::ValuesIn(scenario::all_scenarios()),
+INSTANTIATE_TEST_SUITE_P(Scenarios, EveryPageTurned, testing::ValuesIn(run::all_scenarios()),
                          [](const auto& each) { return each.param; });
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 #include "draw/page.hpp"
 #include "draw/referents.hpp"
-#include "scenario/director.hpp"
+#include "run/director.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -32,7 +32,7 @@ class EveryPage : public testing::TestWithParam<std::string> {};
 TEST_P(EveryPage, ShowsTheNumbersThatItsCaptionTells) {
   const std::string name = GetParam();
   const auto scenario =
-      scenario::load_scenario((fs::path(LANTERN_ROOT) / "scenarios" / (name + ".toml")).string());
+      run::load_scenario((fs::path(LANTERN_ROOT) / "scenarios" / (name + ".toml")).string());
   std::set<std::string> unshown;
   Frame last;
   const auto look = [&] {
@@ -42,7 +42,7 @@ TEST_P(EveryPage, ShowsTheNumbersThatItsCaptionTells) {
     for (const std::string& number : unshown_numbers(last, list)) unshown.insert(number);
   };
   Work work;
-  scenario::direct(scenario, scenario.pace, work, [&](const Frame& frame) {
+  run::direct(scenario, scenario.pace, work, [&](const Frame& frame) {
     if (frame.step != last.step) look();
     last = frame;
     return true;

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "scenario/frame.hpp"
+#include "frame/frame.hpp"
 
 namespace lantern::draw::samples {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include <lantern/draw/panel.hpp>
-#include <lantern/scenario/part_fields.hpp>
+#include <lantern/app/program.hpp>
+#include <lantern/frame/part_fields.hpp>
 
 struct Speeds {
   static constexpr std::string_view kName = "speeds";
@@ -25,15 +25,15 @@ struct Speeds {
 
   static decltype(auto) fields(const auto& r, auto&& v) { return v("speeds", r.speeds); }
 };
-template const lantern::scenario::PartType& lantern::scenario::part_type<Speeds>();
+template const lantern::frame::PartType& lantern::frame::part_type<Speeds>();
 
-inline void gather_speeds(const lantern::scenario::Stage&, lantern::scenario::Frame& frame) {
+inline void gather_speeds(const lantern::run::Stage&, lantern::frame::Frame& frame) {
   for (const auto& body : frame.bodies)
     if (!body.is_static)
       frame.add<Speeds>().speeds.push_back({body.name, glm::length(body.velocity), body.color});
 }
 
-inline void draw_speeds(const lantern::scenario::Frame& frame, const lantern::draw::Staging&,
+inline void draw_speeds(const lantern::frame::Frame& frame, const lantern::draw::Staging&,
                         const lantern::geometry::Box<2>& box, lantern::draw::DrawList& list,
                         lantern::draw::Labels& labels) {
   using namespace lantern::draw;
@@ -54,11 +54,11 @@ inline void draw_speeds(const lantern::scenario::Frame& frame, const lantern::dr
   }
 }
 
-inline lantern::draw::OwnPanel speeds_panel() {
+inline lantern::app::OwnPanel speeds_panel() {
   return {{.name = "speeds"},
           {.stage = "speeds panel",
            .shows = {{"speeds",
-                      [](const lantern::scenario::Frame& frame) {
+                      [](const lantern::frame::Frame& frame) {
                         return !frame.get<Speeds>().speeds.empty();
                       }}},
            .gather = gather_speeds},

@@ -9,10 +9,10 @@
 #include <lantern/render/png.hpp>
 #include <lantern/render/renderer.hpp>
 #include <lantern/render/svg.hpp>
-#include <lantern/scenario/director.hpp>
+#include <lantern/run/director.hpp>
 
 using namespace lantern::render;
-namespace scenario = lantern::scenario;
+namespace run = lantern::run;
 
 constexpr const char* kText = R"(
 title = "Two bodies"
@@ -37,11 +37,11 @@ expect = { pairs = 1 }
 
 int main() try {
   //! [frames]
-  const scenario::Scenario spec = scenario::parse_scenario(kText, "two_bodies.toml");
+  const run::Scenario spec = run::parse_scenario(kText, "two_bodies.toml");
   lantern::Work work;  // counts what is done
   std::string svg, png;
   const auto report =
-      scenario::direct(spec, scenario::Pace::step, work, [&](const scenario::Frame& frame) {
+      run::direct(spec, run::Pace::step, work, [&](const lantern::frame::Frame& frame) {
         const DrawList shapes = draw_frame(frame, page_for(640, 360), work);
         const Theme theme = *theme_named("light");
 

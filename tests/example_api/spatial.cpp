@@ -18,8 +18,8 @@ int main() {
   };
 
   //! [pairs]
-  const auto tree = make_structure<2>(StructureKind::quadtree,
-                                      {.bounds = world, .capacity = 2, .max_depth = 6});
+  const auto tree =
+      make_structure<2>(StructureKind::quadtree, {.bounds = world, .capacity = 2, .max_depth = 6});
   for (const Item<2>& item : items) tree->insert(item);
 
   const CandidatePairs found = candidate_pairs(*tree, 1000);

@@ -4,9 +4,9 @@
 #include <optional>
 #include <string>
 
+#include "frame/frame.hpp"
 #include "fuzz/sees_all.hpp"
 #include "language/scenario.hpp"
-#include "scenario/frame.hpp"
 
 namespace lantern::fuzz {
 

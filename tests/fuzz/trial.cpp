@@ -14,9 +14,9 @@
 #include "language/text/toml_tree.hpp"
 #include "measure/plan.hpp"
 #include "render/svg.hpp"
-#include "scenario/director.hpp"
-#include "scenario/tally.hpp"
-#include "scenario/warnings.hpp"
+#include "run/director.hpp"
+#include "run/tally.hpp"
+#include "run/warnings.hpp"
 
 namespace lantern::fuzz {
 namespace {

@@ -12,11 +12,11 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "frame/frame.hpp"
 #include "fuzz/sees_all.hpp"
 #include "fuzz/values.hpp"
 #include "fuzz/watch.hpp"
 #include "render/renderer.hpp"
-#include "scenario/frame.hpp"
 
 namespace lantern::fuzz {
 

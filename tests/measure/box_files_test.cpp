@@ -1,6 +1,4 @@
 // Boxes of a user's own, and what is wrong in their files.
-#include "measure/boxes/worlds.hpp"
-
 #include <cstdint>
 #include <cstring>
 #include <fstream>
@@ -9,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "fresh_folder.hpp"
+#include "measure/boxes/worlds.hpp"
 
 namespace lantern::measure {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "base/file.hpp"
 #include "language/method.hpp"
-#include "scenario/engine.hpp"
+#include "run/engine.hpp"
 
 namespace lantern::measure {
 namespace {

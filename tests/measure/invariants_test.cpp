@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "measure/scenes.hpp"
-#include "scenario/engine.hpp"
+#include "run/engine.hpp"
 
 namespace lantern::measure {
 namespace {

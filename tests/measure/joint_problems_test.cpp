@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "measure/forms/closed_forms.hpp"
 #include "measure/contact_runs.hpp"
+#include "measure/forms/closed_forms.hpp"
 #include "measure/forms/linkage.hpp"
 
 namespace lantern::measure {

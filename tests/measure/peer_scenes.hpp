@@ -39,8 +39,7 @@ inline Scenario scene(int dimension, std::vector<BodySpec> bodies) {
   return Scenario(std::move(s));
 }
 
-inline std::vector<BodyState> after(const Solver& peer, const Scenario& s, double h,
-                                    int steps) {
+inline std::vector<BodyState> after(const Solver& peer, const Scenario& s, double h, int steps) {
   const auto simulation = peer.start(s, h);
   simulation->advance(static_cast<std::uint64_t>(steps));
   std::vector<BodyState> states;

@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "measure/forms/closed_forms.hpp"
 #include "measure/dormand_prince_solver.hpp"
+#include "measure/forms/closed_forms.hpp"
 #include "measure/lantern_solver.hpp"
 #include "measure/problems.hpp"
 #include "measure/run.hpp"

@@ -233,10 +233,10 @@ void expect_pinned(std::uint64_t from, std::uint64_t to, std::uint64_t motion, s
   EXPECT_EQ(works.value(), work) << "the same is done with other work";
 }
 
-TEST(Pinned, FewWorldsIn2D) {
-  expect_pinned<2>(0, 6, 9340845521676784376u, 15856555919300653549u);
+TEST(Pinned, FewWorldsIn2D) { expect_pinned<2>(0, 6, 9340845521676784376u, 15856555919300653549u); }
+TEST(Pinned, FewWorldsIn3D) {
+  expect_pinned<3>(0, 6, 13159575984621223820u, 14361357022768657988u);
 }
-TEST(Pinned, FewWorldsIn3D) { expect_pinned<3>(0, 6, 13159575984621223820u, 14361357022768657988u); }
 // The bits are the same with sanitizers: the few worlds show it.
 #ifndef __SANITIZE_ADDRESS__
 TEST(Pinned, ManyWorldsIn2D) {

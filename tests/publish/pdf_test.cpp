@@ -10,9 +10,9 @@
 
 #include <gtest/gtest.h>
 
+#include "base/child.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
-#include "base/child.hpp"
 #include "draw/labels.hpp"
 #include "fresh_folder.hpp"
 #include "render/cairo_painter.hpp"

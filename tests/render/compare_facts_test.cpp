@@ -1,7 +1,6 @@
-#include "render/compare.hpp"
-
 #include <gtest/gtest.h>
 
+#include "render/compare.hpp"
 #include "render/seal.hpp"
 
 namespace lantern::render {

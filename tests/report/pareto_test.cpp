@@ -1,11 +1,10 @@
-#include "report/problem_rows.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
+#include "report/problem_rows.hpp"
 #include "report/sample_rows.hpp"
 
 namespace lantern::report {

@@ -8,7 +8,7 @@
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 std::string atlas_text(const std::string& keys, const std::string& textures,
@@ -95,4 +95,4 @@ TEST(AtlasRules, TrialsAreThoseOfThePacker) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

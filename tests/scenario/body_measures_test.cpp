@@ -8,7 +8,7 @@
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 // Two bobs, each on a spring from a point of the world: without gravity all is known.
@@ -226,4 +226,4 @@ TEST(SolveBy, NeedsAWorldWithContacts) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -6,7 +6,7 @@
 
 #include "base/random.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 std::optional<std::int64_t> count(std::string_view name) {
@@ -93,4 +93,4 @@ TEST(Caption, WhatHasNoMistakesIsFilledInWhole) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -13,7 +13,7 @@
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 std::vector<std::string> lines_of(const std::string& file) {
@@ -122,4 +122,4 @@ TEST(CollisionLog, CountsDownAsTheLectureDoes) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -4,7 +4,7 @@
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 const std::string kDots = "[[pattern]]\nname = \"dot\"\ncount = 30\nradius = 0.5\nspeed = 2\n";
@@ -54,4 +54,4 @@ TEST(Compare, RefusesWhatItCannotSetBesideAnother) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -8,7 +8,7 @@
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 // Of the last frame of each step that has one.
@@ -57,4 +57,4 @@ TEST(Counts, HaveWordsForOneAndForMany) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -8,7 +8,7 @@
 
 #include "base/hash.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 
 std::vector<Frame> frames_of(const Scenario& scenario, Pace pace) {
   Work work;
@@ -103,4 +103,4 @@ std::string world_text(const std::string& keys, const std::string& rest) {
   return "title = \"test\"\n[world]\n" + keys + "\n" + rest;
 }
 
-}  // namespace lantern::scenario
+}  // namespace lantern::run

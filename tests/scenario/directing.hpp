@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "scenario/director.hpp"
+#include "run/director.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 
 // Every frame of a run.
 std::vector<Frame> frames_of(const Scenario& scenario, Pace pace = Pace::step);
@@ -38,4 +38,4 @@ std::uint64_t motion_hash(const Frame& frame);
 // "title", then a world with these keys, then `rest`.
 std::string world_text(const std::string& keys, const std::string& rest);
 
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -1,5 +1,5 @@
 // The director: what a script brings about, step by step.
-#include "scenario/director.hpp"
+#include "run/director.hpp"
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@
 
 #include "scenario/directing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 Scenario scenario(const std::string& text) { return parse_scenario(text, "test.toml"); }
@@ -143,4 +143,4 @@ TEST(Director, TellsTheFirstThatDoNotHoldAndCountsAll) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -1,6 +1,6 @@
 // The engine of a scenario: structures may change, bodies do not notice; what is not needed is not
 // there.
-#include "scenario/engine.hpp"
+#include "run/engine.hpp"
 
 #include <set>
 
@@ -9,7 +9,7 @@
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 // A heap of bodies falls onto a floor, between two walls.
@@ -180,4 +180,4 @@ TEST(Engine, CountsTheLastWorldStepOnly) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -8,10 +8,10 @@
 #include <gtest/gtest.h>
 
 #include "base/hash.hpp"
+#include "frame/pair_state.hpp"
 #include "scenario/directing.hpp"
-#include "scenario/pair_state.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 // Long runs are looked at frame by frame for the first few, then here and there.
@@ -286,4 +286,4 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, EveryFrame, testing::ValuesIn(all_runs()),
                          });
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -5,10 +5,10 @@
 
 #include "language/language.hpp"
 #include "language/reference.hpp"
-#include "scenario/director.hpp"
+#include "run/director.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 // Runs the scenario without pixels; every promise in it must hold.
@@ -42,4 +42,4 @@ TEST(Examples, OfTheVerbsGoOnFromTheirScenariosAndKeepTheirPromises) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

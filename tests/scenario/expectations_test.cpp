@@ -2,11 +2,11 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "frame/frame.hpp"
 #include "scenario/directing.hpp"
-#include "scenario/frame.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 // Two that touch, one that sleeps elsewhere, a turned box; and a query that finds the first two.
@@ -125,4 +125,4 @@ TEST(Expectations, OfAlwaysAreVerifiedOnEveryFrame) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

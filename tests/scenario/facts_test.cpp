@@ -5,7 +5,7 @@
 
 #include "scenario/directing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 TEST(Facts, Pong) {
@@ -97,4 +97,4 @@ TEST(Facts, AtlasFitsAndRefuses) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

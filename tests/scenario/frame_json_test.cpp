@@ -6,7 +6,7 @@
 #include "base/file.hpp"
 #include "scenario/directing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 using nlohmann::json;
@@ -98,4 +98,4 @@ TEST(FrameJson, LosesNoBitOfANumber) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -4,7 +4,7 @@
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 constexpr const char* kDotPillAndBar =
@@ -70,4 +70,4 @@ TEST(GridPictures, AFloorWithoutEndIsInEveryCellOrInOneLeafOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

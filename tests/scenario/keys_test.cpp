@@ -13,7 +13,7 @@
 #include "language/language.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 using Lines = std::vector<std::pair<std::string, std::string>>;  // key, value
@@ -1080,4 +1080,4 @@ TEST(Keys, MisspeltOnesAreFoundInEveryTable) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -9,7 +9,7 @@
 #include "scenario/parsing.hpp"
 #include "spatial/pairs.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 // Two rooms whose doors lead the same way into one passage, so that neither sees the other; two
@@ -165,4 +165,4 @@ TEST(LevelBodies, MistakesAreTold) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -6,7 +6,7 @@
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 bool lights_anything(const Frame& frame) {
@@ -178,9 +178,12 @@ TEST(Forces, AreShownWhenTheWorldSaysSo) {
       "[[spring]]\na = \"b\"\nto = [14, 5]\nstiffness = 10\nrest_length = 1\n";
   const std::vector<std::string> script = {"do = \"insert\"\nbodies = [\"a\", \"b\", \"c\"]",
                                            "do = \"force\"\nbody = \"a\"\nforce = [40, 0]"};
-  EXPECT_TRUE(frames_of(scene("", kThree + spring, script)).back().get<FrameForces>().forces.empty());
-  const auto forces =
-      frames_of(scene("show_forces = true\n", kThree + spring, script)).back().get<FrameForces>().forces;
+  EXPECT_TRUE(
+      frames_of(scene("", kThree + spring, script)).back().get<FrameForces>().forces.empty());
+  const auto forces = frames_of(scene("show_forces = true\n", kThree + spring, script))
+                          .back()
+                          .get<FrameForces>()
+                          .forces;
   ASSERT_EQ(forces.size(), 2u);
   EXPECT_EQ(forces[0].force, Vec<3>(40, 0, 0));
   EXPECT_EQ(forces[1].force, Vec<3>(0, 20, 0)) << "3 long, at rest 1: 2 units of 10 N";
@@ -188,4 +191,4 @@ TEST(Forces, AreShownWhenTheWorldSaysSo) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

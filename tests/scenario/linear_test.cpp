@@ -38,7 +38,7 @@ void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return co
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
-namespace lantern::scenario::linear {
+namespace lantern::run::linear {
 namespace {
 
 // n log n at some hundred bodies, and what chance adds to the pairs of bodies that lie at random.
@@ -229,4 +229,4 @@ TEST(Linear, OfBodiesThatAreTiedTogether) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario::linear
+}  // namespace lantern::run::linear

@@ -4,7 +4,7 @@
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 const std::string kTiedTwo = R"([structure]
@@ -104,4 +104,4 @@ TEST(Links, KeepTheirEnergyInMind) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -9,7 +9,7 @@
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 const std::string kFlatWorld = "title = \"x\"\n[world]\nsize = [64, 32]\n" + kTree +
@@ -159,4 +159,4 @@ TEST(Note, WithoutItsNodeIsNotKept) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -9,7 +9,7 @@
 #include "language/language.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -515,4 +515,4 @@ TEST(Mistakes, OfZeroSizesAndStillBodies) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -6,7 +6,7 @@
 
 #include "scenario/directing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 std::vector<const Frame*> of_step(const std::vector<Frame>& frames, const std::string& event) {
@@ -114,4 +114,4 @@ TEST(MotionFacts, OnlyWithSweepsDepthGrowsWithTheMassRatio) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

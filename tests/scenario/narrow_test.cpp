@@ -7,7 +7,7 @@
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 const std::string kTwoBoxes =
@@ -134,4 +134,4 @@ TEST(NarrowMistakes, OfPairsThatHaveNoTest) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

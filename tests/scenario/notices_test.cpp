@@ -6,11 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include "run/warnings.hpp"
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
-#include "scenario/warnings.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 namespace notices {  // other tests have helpers of these names
 
@@ -410,4 +410,4 @@ TEST(Notices, OfWhatComesWithLanternAreNotGiven) {
 
 }  // namespace notices
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -10,7 +10,7 @@
 #include "scenario/directing.hpp"
 #include "spatial/query_walk.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 constexpr std::size_t kManyBodies = 150;
@@ -274,4 +274,4 @@ std::string name_of_test(const testing::TestParamInfo<std::string>& info) {
 INSTANTIATE_TEST_SUITE_P(Files, EveryPairChain, testing::ValuesIn(all_files()), name_of_test);
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -9,7 +9,7 @@
 
 #include "language/reference.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 
 const std::string_view kSolid = R"(title = "solid"
 panels = ["world", "tree", "memory", "chart"]
@@ -160,4 +160,4 @@ std::string read_text(const std::string& path) {
   return text.str();
 }
 
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -8,7 +8,7 @@
 
 #include "language/scenario.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 
 // The mistakes in a scenario text; none if it is good. The file is called ghosts.toml.
 std::vector<Diagnostic> mistakes(const std::string& text);
@@ -38,4 +38,4 @@ std::string read_text(const std::string& path);
 inline const std::string kTree = "[structure]\nkind = \"quadtree\"\n";
 inline const std::string kShow = "[[step]]\ndo = \"show\"\n";
 
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -2,10 +2,10 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "scenario/frame.hpp"
-#include "scenario/part_fields.hpp"
+#include "frame/frame.hpp"
+#include "frame/part_fields.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 // A part that nobody else knows.
@@ -89,4 +89,4 @@ TEST(Parts, OfLanternHaveNamesOfTheirOwn) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

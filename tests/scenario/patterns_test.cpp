@@ -8,7 +8,7 @@
 
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 std::vector<BodySpec> bodies(const std::string& keys, const std::string& top = "") {
@@ -161,4 +161,4 @@ TEST(Patterns, AndBodiesHaveFittingLooks) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -9,7 +9,7 @@
 #include "language/language.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 const std::string kFlat = "title = \"x\"\n[world]\nsize = [64, 64]\n";
@@ -463,4 +463,4 @@ TEST(Chart, IsOfCountsThatTheStepsCount) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -9,7 +9,7 @@
 #include "language/language.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 const std::string kPhysicsRules = R"(title = "x"
@@ -66,8 +66,8 @@ TEST(PhysicsVerbs, MoveTurnsAndSpins) {
 }
 
 TEST(PhysicsVerbs, RunMayHaveItsOwnFrames) {
-  EXPECT_EQ(verb<scenario::Run>("do = \"run\"\nseconds = 1\nevery = 4").every, 4);
-  EXPECT_EQ(verb<scenario::Run>("do = \"run\"\nseconds = 1").every, 0) << "the world's";
+  EXPECT_EQ(verb<run::Run>("do = \"run\"\nseconds = 1\nevery = 4").every, 4);
+  EXPECT_EQ(verb<run::Run>("do = \"run\"\nseconds = 1").every, 0) << "the world's";
 }
 
 TEST(PhysicsVerbs, WaitsForWhatCanHappen) {
@@ -272,4 +272,4 @@ TEST(PhysicsPromises, OfNamesAreBounded) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -7,7 +7,7 @@
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 const std::string kCrowd = R"([[pattern]]
@@ -180,4 +180,4 @@ TEST(Pictures, BarsOfOnePartStandTogether) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

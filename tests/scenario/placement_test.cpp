@@ -9,7 +9,7 @@
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 std::vector<BodySpec> stand(const std::string& keys, const std::string& before = "",
@@ -188,4 +188,4 @@ TEST(Turns, AreRefused) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

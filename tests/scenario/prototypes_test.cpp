@@ -6,7 +6,7 @@
 
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 const std::string kArena = "title = \"x\"\n[world]\nsize = [12, 8]\n";
@@ -189,4 +189,4 @@ TEST(Mistakes, OfWordsListWhatThereIs) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -9,7 +9,7 @@
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 const std::vector<std::string> kFlatKinds = {
@@ -211,4 +211,4 @@ TEST(Queries, EventsTellTheWholeWalk) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

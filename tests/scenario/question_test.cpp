@@ -4,11 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include "frame/frame.hpp"
 #include "scenario/directing.hpp"
-#include "scenario/frame.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 const std::string kAskBodies =
@@ -58,4 +58,4 @@ TEST(Question, HasAnAnswerAndTheAnswerAProof) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -15,7 +15,7 @@
 #include "language/text/toml_tree.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 using nlohmann::json;
@@ -279,4 +279,4 @@ TEST(Schema, TakesAllThatTheParserTakes) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -6,7 +6,7 @@
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 const std::string kScreenScene = R"(title = "t"
@@ -127,4 +127,4 @@ TEST(Screen, CannotBeDrawnFromAnAtlasThatRefusedATexture) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

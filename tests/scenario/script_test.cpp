@@ -6,7 +6,7 @@
 
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 const std::string kScriptScene = R"(title = "x"
@@ -73,7 +73,7 @@ TEST(Script, VerbsOfAWorld) {
   EXPECT_FALSE(verb<Move>(s, 3).velocity);
   EXPECT_EQ(verb<Move>(s, 4).body, 2u);
   EXPECT_EQ(verb<Move>(s, 4).velocity, Vec<3>(3, 4, 0));
-  EXPECT_EQ(verb<scenario::Run>(s, 5).seconds, 1.5);
+  EXPECT_EQ(verb<run::Run>(s, 5).seconds, 1.5);
   EXPECT_EQ(s.steps[5].where.line, 42);
 }
 
@@ -280,4 +280,4 @@ TEST(Script, CaptionsAreCheckedBeforeAnythingRuns) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

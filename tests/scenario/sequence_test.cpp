@@ -5,7 +5,7 @@
 
 #include "scenario/directing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 class EverySequenceTold : public testing::TestWithParam<std::string> {};
@@ -32,4 +32,4 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, EverySequenceTold, testing::ValuesIn(all_sce
                          [](const auto& each) { return each.param; });
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -7,13 +7,13 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "frame/frame.hpp"
+#include "run/tally.hpp"
+#include "run/warnings.hpp"
 #include "scenario/directing.hpp"
-#include "scenario/frame.hpp"
 #include "scenario/parsing.hpp"
-#include "scenario/tally.hpp"
-#include "scenario/warnings.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 const std::string kEager = "[[side]]\nname = \"eager\"\nstructure = { children = \"eager\" }\n";
@@ -397,4 +397,4 @@ TEST(Sides, AMistakeOfOneSideSaysOfWhich) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

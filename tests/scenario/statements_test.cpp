@@ -12,7 +12,7 @@
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 // | number | statement | `scenario` | `step` | proof; proof |
@@ -69,4 +69,4 @@ TEST(Statements, EachHasAStepThatShowsItAndAnExpectationThatProvesIt) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

@@ -4,7 +4,7 @@
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 Scenario with_auto(int bodies) {
@@ -27,4 +27,4 @@ TEST(StructureAuto, IsAKindThatSuitsTheBodies) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

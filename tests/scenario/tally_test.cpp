@@ -1,5 +1,5 @@
 // What `explain` tells of a run is what ran: its numbers against others that were counted apart.
-#include "scenario/tally.hpp"
+#include "run/tally.hpp"
 
 #include <algorithm>
 #include <fstream>
@@ -13,11 +13,11 @@
 #include "language/reference.hpp"
 #include "language/verbs.hpp"
 #include "physics/world_config.hpp"
+#include "run/engine.hpp"
 #include "scenario/directing.hpp"
-#include "scenario/engine.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 // One dry run of a scenario, tallied, and what its frames say by themselves.
@@ -338,4 +338,4 @@ TEST(Panels, AreDerivedUnlessGiven) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

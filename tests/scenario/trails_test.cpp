@@ -8,7 +8,7 @@
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 // A ball that flies 4 in a step at a wall of which 3 part it, and bounces.
@@ -70,4 +70,4 @@ TEST(Trails, LooksNarrowDownTheMomentOfTheImpact) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

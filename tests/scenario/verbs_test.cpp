@@ -5,11 +5,11 @@
 
 #include <gtest/gtest.h>
 
+#include "frame/pair_state.hpp"
 #include "scenario/directing.hpp"
-#include "scenario/pair_state.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 // A disc of mass 2 at rest in the midst of nothing.
@@ -241,4 +241,4 @@ TEST(Verbs, PhasesCountTheStructureThatTheyShow) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

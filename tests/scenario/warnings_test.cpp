@@ -1,5 +1,5 @@
 // What is legal and surely not meant is told; its near twin is not.
-#include "scenario/warnings.hpp"
+#include "run/warnings.hpp"
 
 #include <algorithm>
 #include <string>
@@ -10,7 +10,7 @@
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 
-namespace lantern::scenario {
+namespace lantern::run {
 namespace {
 
 bool shown_always(const Frame&) { return true; }
@@ -353,4 +353,4 @@ TEST(Warnings, ThatAreWatchedForChangeNoFrame) {
 }
 
 }  // namespace
-}  // namespace lantern::scenario
+}  // namespace lantern::run

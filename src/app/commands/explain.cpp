@@ -10,7 +10,7 @@
 #include "base/grouped.hpp"
 #include "base/json_writer.hpp"
 #include "base/memory.hpp"
-#include "scenario/tally.hpp"
+#include "run/tally.hpp"
 
 namespace lantern::app {
 namespace {

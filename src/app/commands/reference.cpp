@@ -20,7 +20,7 @@
 #include "render/renderer.hpp"
 #include "render/seal.hpp"
 #include "render/svg.hpp"
-#include "scenario/director.hpp"
+#include "run/director.hpp"
 
 namespace lantern::app {
 namespace {

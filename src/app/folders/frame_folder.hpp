@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "base/file.hpp"
+#include "frame/frame.hpp"
 #include "render/png.hpp"
 #include "render/seal.hpp"
-#include "scenario/frame.hpp"
 
 namespace lantern::app {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "scenario/frame.hpp"
+#include "frame/frame.hpp"
 
 namespace lantern::app {
 

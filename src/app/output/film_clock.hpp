@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scenario/frame.hpp"
+#include "frame/frame.hpp"
 
 namespace lantern::app {
 

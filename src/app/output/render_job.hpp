@@ -14,8 +14,8 @@
 #include "draw/draw_list.hpp"
 #include "draw/staging.hpp"
 #include "draw/tween.hpp"
+#include "frame/frame.hpp"
 #include "render/pipeline.hpp"
-#include "scenario/frame.hpp"
 
 namespace lantern::app {
 
@@ -73,8 +73,9 @@ struct RenderOptions {
   std::optional<int> threads;                         // that encode; none for one a core
   std::optional<std::uint64_t> tween = std::nullopt;  // in-betweens before each frame but the first
   std::optional<double> fps = std::nullopt;           // or as many as a change of half a second has
-  bool reloading = false;  // a page loads itself again when it was made again (app/output/watch.hpp)
-  std::string shard = "";  // "2/4": the second of four parts; empty for all
+  bool reloading =
+      false;  // a page loads itself again when it was made again (app/output/watch.hpp)
+  std::string shard = "";                        // "2/4": the second of four parts; empty for all
   std::optional<double> hold = std::nullopt;     // seconds of each still of a film
   bool format_given = false, png_given = false;  // on the command line
   bool json = false;

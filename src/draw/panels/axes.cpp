@@ -28,7 +28,7 @@ struct Shadows {
   double a_lo = 0, a_hi = 0, b_lo = 0, b_hi = 0;
 };
 
-Shadows shadows_of(const scenario::FrameAxis& axis) {
+Shadows shadows_of(const frame::FrameAxis& axis) {
   const auto at = [&](std::size_t i) { return glm::dot(axis.ends[i], axis.direction); };
   return {at(0), at(1), at(2), at(3)};
 }

@@ -21,7 +21,7 @@
 namespace lantern::draw {
 namespace {
 
-using scenario::FrameCode;
+using run::FrameCode;
 
 constexpr std::array<double, 4> kCodeSizes = {30, 28, 26, 24};  // em
 constexpr double kCodePitch = 1.28;                             // of the em, from row to row

@@ -20,8 +20,8 @@
 namespace lantern::draw {
 namespace {
 
-using scenario::FrameCollision;
-using scenario::FrameCollisions;
+using frame::FrameCollision;
+using frame::FrameCollisions;
 
 constexpr double kCollisionText = 24;
 constexpr double kCollisionHeading = 40;

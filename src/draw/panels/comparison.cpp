@@ -20,7 +20,7 @@
 namespace lantern::draw {
 namespace {
 
-using scenario::FrameComparison;
+using frame::FrameComparison;
 
 constexpr double kPictureWidth = 128, kPictureHeight = 84;
 constexpr double kWorldWidth = 316, kWhenWidth = 124;  // of a world's words, of "each step"

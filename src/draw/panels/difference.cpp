@@ -131,7 +131,7 @@ class DifferenceView : PanelPicture {
     }
   }
 
-  void draw_search(const scenario::FrameSearch& search) {
+  void draw_search(const frame::FrameSearch& search) {
     const auto& step = search.steps.back();
     Outline points;
     for (const auto& p : simplex_of(search)) points.push_back(to_page(p.difference()));
@@ -147,7 +147,7 @@ class DifferenceView : PanelPicture {
   }
 
   // The search goes straight at the origin, and finds the point whose line across is the farthest.
-  void draw_newest(const scenario::FrameSearch& search, const scenario::GjkStep& step) {
+  void draw_newest(const frame::FrameSearch& search, const frame::GjkStep& step) {
     const DrawList::Scope scope(list_, "difference/search");
     const Vec<2> found = to_page(step.found.difference());
     const Vec<2> d{step.direction.x, -step.direction.y}, across{-d.y, d.x};
@@ -162,7 +162,7 @@ class DifferenceView : PanelPicture {
     number(search_number(search, step.found.difference()), found);
   }
 
-  void draw_nearest(const scenario::FrameSearch& search, const Vec<2>& nearest) {
+  void draw_nearest(const frame::FrameSearch& search, const Vec<2>& nearest) {
     if (glm::length(nearest) * scale_ < 1) return;
     const DrawList::Scope scope(list_, "difference/nearest");
     const Vec<2> at = to_page(nearest), way = at - origin_;
@@ -195,7 +195,7 @@ class DifferenceView : PanelPicture {
                     kOwn, panel_);
   }
 
-  const scenario::FrameDifference& difference_;
+  const frame::FrameDifference& difference_;
   Box<2> area_;
   Pen pen_;
   double scale_ = 1;

@@ -25,8 +25,8 @@
 namespace lantern::draw {
 namespace {
 
-using scenario::FrameEdge;
-using scenario::FrameIsland;
+using frame::FrameEdge;
+using frame::FrameIsland;
 
 constexpr double kMostNodeRadius = 25;
 constexpr double kLeastNodeRadius = 8;

@@ -15,13 +15,13 @@
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 #include "draw/world/ledger_marks.hpp"
-#include "scenario/pair_state.hpp"
+#include "frame/pair_state.hpp"
 
 namespace lantern::draw {
 namespace {
 
-using scenario::PairState;
-using scenario::PairStates;
+using frame::PairState;
+using frame::PairStates;
 
 constexpr double kLedgerText = 24;
 constexpr double kLedgerLine = 34;     // from a line of the key to the next
@@ -39,7 +39,7 @@ const TextStyle kLedgerStyle{kLedgerText, Weight::regular, Role::ink};
 std::string key_text(PairState state, std::uint64_t n, const Frame& frame) {
   const bool looked = frame.structure != StructureKind::none;
   const bool compared =
-      frame.count("contacts").has_value() && frame.phase != scenario::StepPhase::broad;
+      frame.count("contacts").has_value() && frame.phase != frame::StepPhase::broad;
   const bool one = n == 1;
   const char* const overlap = one ? "box overlap" : "box overlaps";
   const char* const candidate = one ? "candidate" : "candidates";

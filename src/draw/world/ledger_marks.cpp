@@ -14,7 +14,7 @@
 namespace lantern::draw {
 namespace {
 
-using scenario::PairState;
+using frame::PairState;
 
 // Three lines that lean right, on a grid of the cell's own.
 void hatch_cell(const Box<2>& cell, const Stroke& stroke, DrawList& list) {

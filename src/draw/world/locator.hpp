@@ -3,7 +3,7 @@
 
 #include "draw/draw_list.hpp"
 #include "draw/projection.hpp"
-#include "scenario/frame.hpp"
+#include "frame/frame.hpp"
 
 namespace lantern::draw {
 

@@ -29,8 +29,8 @@ void mark_separation(const Frame& frame, const View2D& map, DrawList& list, Labe
 void mark_search(const Frame& frame, const View2D& map, DrawList& list, Labels& labels);
 
 // The number of the search that has found a point, from 1.
-std::string search_number(const scenario::FrameSearch& search, const Vec<2>& difference);
+std::string search_number(const frame::FrameSearch& search, const Vec<2>& difference);
 // The points that the search has between them at this frame.
-const std::vector<scenario::SupportPair>& simplex_of(const scenario::FrameSearch& search);
+const std::vector<frame::SupportPair>& simplex_of(const frame::FrameSearch& search);
 
 }  // namespace lantern::draw

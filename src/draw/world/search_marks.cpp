@@ -11,8 +11,8 @@
 namespace lantern::draw {
 namespace {
 
-using scenario::FrameSearch;
-using scenario::SupportPair;
+using frame::FrameSearch;
+using frame::SupportPair;
 
 constexpr double kSearched = 46;  // length of the arrow of a search's direction
 

@@ -121,7 +121,7 @@ void draw_bow(const PageLink& link, Pen& pen) {
   const Stroke stroke = stroke_of(link.look);
   pen.path(link.bow, false, {Role::panel, stroke.width + 4});
   pen.path(link.bow, false, stroke);
-  if (link.look.state == scenario::PairState::shapes_apart)
+  if (link.look.state == frame::PairState::shapes_apart)
     draw_cross(link.bow[link.bow.size() / 2], Role::rejected_pair, pen);
 }
 
@@ -153,7 +153,7 @@ PageLinks links_of(const Frame& frame, const std::vector<Stand>& stands, const V
   for (const FrameBody& body : frame.bodies)
     if (is_half_space(body)) grounds[body.id] = &body;
   const std::vector<bool> full = full_links(frame);
-  const scenario::PairStates states(frame);
+  const frame::PairStates states(frame);
   PageLinks found;
   std::map<std::pair<std::uint64_t, std::uint64_t>, std::size_t> seen;  // two places -> link
   for (std::size_t i = 0; i < frame.pairs.size() && found.complete; ++i) {
@@ -195,9 +195,9 @@ void draw_links(const PageLinks& links, bool over, const View2D& map, DrawList& 
   for (const bool full : {false, true})
     for (const PageLink& link : links.links) {
       if (link.look.full != full || (link.close && full) != over) continue;
-      if (link.look.state == scenario::PairState::contact) continue;
+      if (link.look.state == frame::PairState::contact) continue;
       // Among many, only what may still touch is worth a line.
-      if (!full && link.look.state != scenario::PairState::candidate) continue;
+      if (!full && link.look.state != frame::PairState::candidate) continue;
       list.marks.add(kind_of(link.look));
       const DrawList::Scope scope(list, link.key, link.key);
       if (!link.bow.empty())
@@ -207,8 +207,7 @@ void draw_links(const PageLinks& links, bool over, const View2D& map, DrawList& 
     }
   if (!over) return;
   for (const PageLink& link : links.links) {
-    if (!link.common || !link.look.full || link.look.state == scenario::PairState::contact)
-      continue;
+    if (!link.common || !link.look.full || link.look.state == frame::PairState::contact) continue;
     const std::string key = link.key + "/boxes";
     const DrawList::Scope scope(list, key, key);
     const Box<2> limit = mark_limit(map);
@@ -216,7 +215,7 @@ void draw_links(const PageLinks& links, bool over, const View2D& map, DrawList& 
       draw_overlap({glm::clamp(link.common->lo, limit.lo, limit.hi),
                     glm::clamp(link.common->hi, limit.lo, limit.hi)},
                    list);
-    if (link.close && link.look.state == scenario::PairState::shapes_apart)
+    if (link.close && link.look.state == frame::PairState::shapes_apart)
       draw_cross(glm::clamp(link.common->center(), limit.lo, limit.hi), Role::rejected_pair, pen);
   }
 }

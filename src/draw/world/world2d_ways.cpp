@@ -11,8 +11,8 @@
 namespace lantern::draw {
 namespace {
 
-using scenario::FrameLook;
-using scenario::FramePlace;
+using frame::FrameLook;
+using frame::FramePlace;
 
 // The body's outline where it stands then.
 Polygon outline_at(const FrameBody& body, const FramePlace& place, const View2D& map) {
@@ -31,16 +31,16 @@ Polygon outline_at(const FrameBody& body, const FramePlace& place, const View2D&
 
 // A step that is about to be taken shows where it would end.
 bool looks_ahead(const Frame& frame) {
-  using enum scenario::StepPhase;
+  using enum frame::StepPhase;
   return frame.phase == broad || frame.phase == boxes || frame.phase == narrow;
 }
 
 void draw_trail(const FrameBody& body, const View2D& map, Pen& pen) {
   std::vector<Vec<2>> way;
-  for (const scenario::FrameStop& stop : body.trail) way.push_back(map.to_page(stop.position));
+  for (const frame::FrameStop& stop : body.trail) way.push_back(map.to_page(stop.position));
   way.push_back(map.to_page(body.position));
   draw_way(way, pen);
-  for (const scenario::FrameStop& stop : body.trail)
+  for (const frame::FrameStop& stop : body.trail)
     pen.path(outline_at(body, stop, map), true,
              stop.impact ? Stroke{Role::contact, kTrailStroke.width} : kTrailStroke);
 }

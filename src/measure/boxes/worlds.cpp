@@ -12,7 +12,7 @@
 #include "base/stop.hpp"
 #include "geometry/flat.hpp"
 #include "geometry/random_vec.hpp"
-#include "scenario/director.hpp"
+#include "run/director.hpp"
 
 namespace lantern::measure {
 

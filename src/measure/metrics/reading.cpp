@@ -262,7 +262,9 @@ const Problem& row_of_problem(const Scenario& scenario) {
 
 }  // namespace
 
-MetricMaker metrics_of(const Scenario& scenario) { return row_of_problem(scenario).metrics(scenario); }
+MetricMaker metrics_of(const Scenario& scenario) {
+  return row_of_problem(scenario).metrics(scenario);
+}
 
 std::unique_ptr<ErrorMetric> make_error_metric(const Scenario& scenario) {
   return metrics_of(scenario)();

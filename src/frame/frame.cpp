@@ -1,0 +1,113 @@
+#include "frame/frame.hpp"
+
+#include <algorithm>
+
+#include "frame/part_fields.hpp"
+
+namespace lantern::frame {
+namespace {
+
+void add(Hash& hash, const Vec<3>& v, int dimension) {
+  for (int i = 0; i < dimension; ++i) hash.add(v[i]);
+}
+
+void add(Hash& hash, const FrameBody& body, int dimension) {
+  hash.add(std::uint64_t{body.id});
+  add(hash, body.position, dimension);
+  add(hash, body.velocity, dimension);
+  if (dimension == 2) {
+    hash.add(body.angle).add(body.angular_momentum.z);
+    return;
+  }
+  const auto& q = body.orientation.q;
+  for (const double x : {q.w, q.x, q.y, q.z}) hash.add(x);
+  add(hash, body.angular_momentum, dimension);
+}
+
+// What `get` finds in the side that the name begins with.
+template <class Get>
+auto in_side(const Frame& frame, std::string_view name, const Get& get)
+    -> decltype(get(frame, name)) {
+  const std::size_t dot = name.find('.');
+  const Frame* side =
+      dot == std::string_view::npos ? nullptr : frame.side_named(name.substr(0, dot));
+  return side ? get(*side, name.substr(dot + 1)) : std::nullopt;
+}
+
+template <class V>
+std::optional<V> value_of(std::string_view name,
+                          const std::vector<std::pair<std::string, V>>& list) {
+  for (const auto& [key, value] : list)
+    if (key == name) return value;
+  return std::nullopt;
+}
+
+}  // namespace
+
+Camera usual_camera(const Box<3>& bounds) {
+  const double size = glm::length(bounds.size());
+  Camera camera;
+  camera.target = bounds.center();
+  camera.eye =
+      camera.target + glm::normalize(Vec<3>(0.52, 0.52, 1)) * (2.2 * (size > 0 ? size : 1));
+  return camera;
+}
+
+std::uint64_t state_hash(const Frame& frame) {
+  Hash hash;
+  hash.add(frame.time);
+  for (const Frame& side : frame.sides) hash.add(side.hash);
+  for (const FrameBody& body : frame.bodies) add(hash, body, frame.dimension);
+  for (const FrameNode& n : frame.nodes) {
+    hash.add(std::uint64_t{n.parent}).add(std::uint64_t{n.slot}).add(std::uint64_t{n.leaf});
+    add(hash, n.box.lo, frame.dimension);
+    add(hash, n.box.hi, frame.dimension);
+    for (const BodyId id : n.bodies) hash.add(std::uint64_t{id});
+  }
+  for (const FramePair& p : frame.pairs)
+    hash.add(std::uint64_t{p.pair.a}).add(std::uint64_t{p.pair.b});
+  frame.parts.each([&](const PartType& type, const std::any& part) { type.add_state(part, hash); });
+  return hash.value();
+}
+
+std::size_t estimated_bytes(const Frame& frame) {
+  ListBytes lists;
+  lists.drawn(frame.bodies, frame.nodes, frame.pairs, frame.tested, frame.contacts, frame.counts,
+              frame.measures);
+  for (const FrameNode& node : frame.nodes) lists.drawn(node.bodies, node.region);
+  std::size_t bytes = sizeof(Frame) + lists.bytes;
+  frame.parts.each([&](const PartType& type, const std::any& part) { bytes += type.bytes(part); });
+  for (const Frame& side : frame.sides) bytes += estimated_bytes(side);
+  return bytes;
+}
+
+const FrameBody* Frame::body_of(BodyId id) const {
+  const auto found = std::ranges::find(bodies, id, &FrameBody::id);
+  return found == bodies.end() ? nullptr : &*found;
+}
+
+const Frame* Frame::side_named(std::string_view name) const {
+  const auto found = std::ranges::find(sides, name, [](const Frame& side) -> std::string_view {
+    return side.get<FrameSide>().name;
+  });
+  return found == sides.end() ? nullptr : &*found;
+}
+
+std::optional<std::int64_t> Frame::count(std::string_view name) const {
+  if (!sides.empty())
+    return in_side(*this, name, [](const Frame& f, std::string_view n) { return f.count(n); });
+  return value_of(name, counts);
+}
+
+std::optional<double> Frame::measure(std::string_view name) const {
+  if (!sides.empty())
+    return in_side(*this, name, [](const Frame& f, std::string_view n) { return f.measure(n); });
+  return value_of(name, measures);
+}
+
+std::optional<double> Frame::number(std::string_view name) const {
+  if (const auto counted = count(name)) return static_cast<double>(*counted);
+  return measure(name);
+}
+
+}  // namespace lantern::frame

@@ -1,0 +1,170 @@
+#include "run/atlas_stage.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace lantern::run {
+
+AtlasStage::AtlasStage(const Scenario& scenario, Work& work)
+    : spec_(*scenario.atlas), atlas_(scenario.atlas->width, scenario.atlas->height) {
+  ++work.atlases_created;
+  for (std::size_t i = 0; i < scenario.textures.size(); ++i) {
+    const TextureSpec& t = scenario.textures[i];
+    FrameTexture texture;
+    texture.id = static_cast<std::uint32_t>(i);
+    texture.name = t.name;
+    texture.color = t.color;
+    texture.picture = t.picture;
+    texture.width = t.width;
+    texture.height = t.height;
+    textures_.push_back(texture);
+  }
+}
+
+void AtlasStage::hold(std::size_t index, bool turned) {
+  FrameTexture& texture = textures_[index];
+  if (texture.turned == turned) return;
+  std::swap(texture.width, texture.height);
+  texture.turned = turned;
+}
+
+bool AtlasStage::pack(std::size_t index, const Watch& watch) {
+  FrameTexture& texture = textures_[index];
+  const bool fits_turned = spec_.turn && !atlas_.has_room(texture.width, texture.height) &&
+                           atlas_.has_room(texture.height, texture.width);
+  hold(index, fits_turned);
+  const auto rect = watch ? atlas_.insert(texture.id, texture.width, texture.height, watch)
+                          : atlas_.insert(texture.id, texture.width, texture.height);
+  texture.refused = !rect;
+  return rect.has_value();
+}
+
+void AtlasStage::pack_all(const std::vector<std::size_t>& textures, const Watch& watch) {
+  std::vector<TextureId> ids;
+  std::vector<TextureSize> sizes;
+  for (const std::size_t index : textures) {
+    ids.push_back(textures_[index].id);
+    sizes.push_back({textures_[index].width, textures_[index].height});
+  }
+  const auto told = [&](const AtlasEvent& event) {
+    hold(event.texture, event.turned);
+    if (event.kind == AtlasEvent::Kind::refuse) textures_[event.texture].refused = true;
+    if (watch) watch(event);
+  };
+  atlas_.insert_all(ids, sizes, spec_.turn, static_cast<std::size_t>(spec_.trials), told);
+}
+
+std::vector<std::uint32_t> AtlasStage::free_leaves() const {
+  std::vector<std::uint32_t> handles;
+  atlas_.visit([&](const AtlasNodeView& node) {
+    if (node.leaf && !node.texture) handles.push_back(node.handle);
+    return true;
+  });
+  return handles;
+}
+
+void AtlasStage::name_free_leaf(const std::string& name, const std::vector<std::uint32_t>& before) {
+  std::int64_t largest = 0;
+  std::uint32_t handle = 0;
+  atlas_.visit([&](const AtlasNodeView& node) {
+    const std::int64_t area = std::int64_t{node.rect.width} * node.rect.height;
+    const bool is_new = std::find(before.begin(), before.end(), node.handle) == before.end();
+    if (node.leaf && !node.texture && is_new && area > largest) {
+      largest = area;
+      handle = node.handle;
+    }
+    return true;
+  });
+  if (largest > 0) free_names_[handle] = name;
+}
+
+bool AtlasStage::ask_room(int width, int height) {
+  room_ = atlas_.has_room(width, height);
+  return *room_;
+}
+
+std::optional<std::uint32_t> AtlasStage::leaf_of(std::size_t texture) const {
+  std::optional<std::uint32_t> leaf;
+  atlas_.visit([&](const AtlasNodeView& node) {
+    if (node.texture == textures_[texture].id) leaf = node.handle;
+    return true;
+  });
+  return leaf;
+}
+
+std::string AtlasStage::label_of(std::uint32_t handle) const {
+  std::string found;
+  atlas_.visit([&](const AtlasNodeView& node) {
+    if (node.handle != handle) return true;
+    const auto name = free_names_.find(handle);
+    if (node.texture)
+      found = textures_[*node.texture].name;
+    else if (name != free_names_.end())
+      found = name->second;
+    else
+      found = fmt::format("of {} × {}", node.rect.width, node.rect.height);
+    return true;
+  });
+  return found;
+}
+
+FrameNode AtlasStage::frame_node(const AtlasNodeView& view,
+                                 std::vector<FrameTexture>& textures) const {
+  FrameNode node;
+  node.id = view.id;
+  node.parent = view.parent;
+  node.slot = view.slot;
+  node.depth = view.depth;
+  node.leaf = view.leaf;
+  const Rect& r = view.rect;
+  node.box = {{r.x, r.y, 0}, {double(r.x) + r.width, double(r.y) + r.height, 0}};
+  node.cut_vertically = view.cut_vertically;
+  if (view.texture) {
+    FrameTexture& texture = textures[*view.texture];
+    texture.packed = true;
+    texture.x = r.x;
+    texture.y = r.y;
+    node.bodies = {*view.texture};
+    node.label = texture.name;
+  } else if (view.leaf) {
+    const auto name = free_names_.find(view.handle);
+    if (name != free_names_.end()) node.label = name->second;
+  } else if (view.parent == kNone) {
+    node.label = "root";
+  }
+  return node;
+}
+
+void AtlasStage::picture(const Touched& touched, Frame& frame) const {
+  std::int64_t free_leaves = 0, leaves = 0, depth = 0, packed = 0, refused = 0;
+  std::vector<FrameTexture>& textures = frame.add<FrameTextures>().textures;
+  textures = textures_;
+  atlas_.visit([&](const AtlasNodeView& view) {
+    frame.nodes.push_back(frame_node(view, textures));
+    frame.nodes.back().mark = touched.mark_of(view.handle);
+    leaves += view.leaf;
+    free_leaves += view.leaf && !view.texture;
+    depth = std::max<std::int64_t>(depth, view.depth);
+    return true;
+  });
+  for (const FrameTexture& t : textures) {
+    packed += t.packed;
+    refused += t.refused;
+  }
+  frame.counts.insert(frame.counts.end(),
+                      {{"nodes", std::int64_t(frame.nodes.size())},
+                       {"leaves", leaves},
+                       {"depth", depth},
+                       {"textures", packed},
+                       {"refused", refused},
+                       {"used_area", atlas_.used_area()},
+                       {"free_area", atlas_.free_area()},
+                       {"atlas_area", std::int64_t{atlas_.width()} * atlas_.height()},
+                       {"free_leaves", free_leaves},
+                       {"leaf_tests", static_cast<std::int64_t>(atlas_.leaf_tests())}});
+  if (room_) frame.counts.emplace_back("room", *room_);
+}
+
+}  // namespace lantern::run

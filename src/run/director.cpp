@@ -1,0 +1,128 @@
+#include "run/director.hpp"
+
+#include <cmath>
+
+#include "base/stop.hpp"
+#include "run/event_text.hpp"
+#include "run/script_run.hpp"
+#include "run/sides_run.hpp"
+
+namespace lantern::run {
+
+std::uint32_t ScriptRun::ticks_in(double seconds) const {
+  return static_cast<std::uint32_t>(std::llround(seconds / scenario.world.time_step));
+}
+
+std::uint32_t ScriptRun::frame_every(int of_step) const {
+  return static_cast<std::uint32_t>(of_step > 0 ? of_step : scenario.world.frame_every);
+}
+
+std::vector<FrameLook> ScriptRun::let_time_pass(bool with_looks) {
+  std::vector<FrameLook> looks;
+  if (stage.engine) {
+    if (with_looks)
+      looks = engine().step_and_tell_looks();
+    else
+      engine().step();
+    if (watch) watch->passed(engine());
+    engine().rebuild();
+  }
+  stage.time += scenario.world.time_step;
+  return looks;
+}
+
+void ScriptRun::focus(std::size_t body) { frames.focus.insert(*engine().id_of(body)); }
+
+void ScriptRun::watch_movers() {
+  for (std::size_t i = 0; i < scenario.bodies.size(); ++i)
+    if (engine().is_moving(i)) focus(i);
+}
+
+// Once nobody looks any more, the rest of an insertion goes on without words and pictures.
+void ScriptRun::witness(const Event& event) {
+  if (frames.stopped()) return;
+  using Kind = Event::Kind;
+  if (event.kind == Kind::test) frames.touched.passed.insert(event.node);
+  if (!frames.by_event() || !frames.wanted(event_name(event.kind))) return;
+  const StructureSpec& structure = engine().structure();
+  if (event.kind == Kind::make_child && structure.children == Children::eager) return;
+  Touched now = frames.touched;
+  (event.kind == Kind::miss ? now.passed : now.lit).insert(event.node);
+  const StructureTraits traits = traits_of(structure.kind);
+  const std::string body = name_of(event.body);
+  const auto node = [&] { return engine().label_of(event.node); };
+  const std::string text = !traits.is_tree ? list_event_text(event, traits.words, body)
+                           : traits.holds_once
+                               ? fitting_event_text(event, node(), body)
+                               : event_text(event, node(), body, structure.max_depth);
+  frames.emit(now, event_name(event.kind), text, event.body);
+}
+
+EventWatch ScriptRun::watch_of_insertion() {
+  if (!frames.by_event()) return {};
+  const Bits told = traits_of(engine().structure().kind).tells;
+  for (int kind = 0; kind <= static_cast<int>(Event::Kind::leave); ++kind)
+    if ((told >> kind & 1u) != 0 && frames.wanted(event_name(static_cast<Event::Kind>(kind))))
+      return [this](const Event& event) { witness(event); };
+  return {};
+}
+
+std::string ScriptRun::name_of(BodyId id) const {
+  for (std::size_t i = 0; i < scenario.bodies.size(); ++i)
+    if (stage.engine->id_of(i) == id) return scenario.bodies[i].name;
+  return {};
+}
+
+namespace {
+
+// A verb that has no frames of its own is one change, shown when it is done.
+template <class V>
+void carry(const V& verb, ScriptRun& run) {
+  if constexpr (requires { act(verb, run); }) {
+    act(verb, run);
+  } else {
+    if constexpr (V::kTraits.changes_bodies) change(verb, run.engine());
+    if constexpr (requires { verb.body; }) run.focus(verb.body);
+    run.frames.settle(V::kTraits.name);
+  }
+}
+
+}  // namespace
+
+void ScriptRun::play(const Step& step, std::uint32_t index) {
+  stop_if_asked();
+  frames.begin(step, index);
+  if (watch) watch->begin(step);
+  if (stage.engine) engine().forget_events();
+  if (const VerbTraits& verb = traits_of(step.verb);
+      stage.level && (verb.changes_bodies || verb.passes_time))
+    stage.level->put_away_answers();
+  try {
+    std::visit([&](const auto& verb) { carry(verb, *this); }, step.verb);
+  } catch (const Refused& refused) {
+    throw ScenarioError(diagnose(scenario, step.where, refused.what()));
+  } catch (const StructureFault& broken) {
+    const auto name_of = [this](BodyId id) { return engine().name_of(id); };
+    throw BrokenStructure(diagnose(scenario, step.where, text_of(broken.fault(), name_of)));
+  }
+}
+
+DirectorReport direct(const Scenario& scenario, Pace pace, Work& work,
+                      const std::function<bool(const Frame&)>& sink, RunWatch* watch) {
+  if (!scenario.sides.empty()) return direct_sides(scenario, pace, work, sink, watch);
+  const std::function<bool(const Frame&)> watched = [&](const Frame& frame) {
+    watch->see(frame);
+    return sink(frame);
+  };
+  ScriptRun run(scenario, pace, work, watch ? watched : sink, watch);
+  std::uint32_t index = 0;
+  for (const Step& step : scenario.steps) {
+    run.play(step, index++);
+    if (run.frames.stopped()) break;
+  }
+  DirectorReport report = run.frames.take_report();
+  if (run.stage.engine) report.world = run.engine().world_work();
+  return report;
+}
+
+}  // namespace lantern::run

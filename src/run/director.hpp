@@ -1,0 +1,29 @@
+// Runs a scenario's script on the engine and gives one Frame a step, or one an event.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "base/error.hpp"
+#include "base/work.hpp"
+#include "frame/frame.hpp"
+#include "physics/world_config.hpp"
+
+namespace lantern::run {
+
+struct DirectorReport {
+  std::uint32_t frames = 0;
+  std::uint64_t expectations = 0;  // verified
+  Diagnostics unmet{50};           // one for each that did not hold
+  WorldWork world;                 // what the world did; zeros if there is none
+};
+
+class RunWatch;
+
+// Calls `sink` with each frame in order; it returns false to end the run early. The frames depend
+// on the scenario and the pace only, whether or not somebody watches. Throws ScenarioError, at the
+// step's place, when the engine refuses what the step asks for.
+DirectorReport direct(const Scenario& scenario, Pace pace, Work& work,
+                      const std::function<bool(const Frame&)>& sink, RunWatch* watch = nullptr);
+
+}  // namespace lantern::run

@@ -1,0 +1,126 @@
+// The engine of one scenario: its world and structures, of two or three dimensions. The director
+// drives it without knowing which.
+#pragma once
+
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/work.hpp"
+#include "frame/body_state.hpp"
+#include "frame/frame.hpp"
+#include "physics/world_config.hpp"
+#include "run/step_findings.hpp"
+#include "spatial/query.hpp"
+
+namespace lantern::run {
+
+// What a ray, a view or a region found, and the walk that found it.
+struct Finding {
+  struct Met {
+    double distance = 0;  // along the ray
+    Vec<3> position{0.0};
+  };
+
+  std::vector<BodyId> hits;  // of a ray in order along it, else ascending
+  QueryCounts counts;
+  std::vector<QueryEvent> walk;  // all that happened, in order
+  // Of the walk, what belongs to the structure of what never moves.
+  std::size_t first_static = std::numeric_limits<std::size_t>::max();
+  bool done = true;           // else the walk is still under way
+  std::set<BodyId> missed;    // while it is: tested in vain
+  bool nearest = false;       // a ray stops at its first hit
+  Vec<3> asked{0.0};          // where the ray would end if nothing stopped it
+  std::map<BodyId, Met> met;  // all that the ray's walk found, also behind the nearest
+  std::optional<FrameRay> ray;
+  std::optional<FrameView> view;
+  std::optional<FrameQuery> region;
+};
+
+class WorldWatch;
+
+// Bodies are named by their index in the scenario. Each call throws Refused as world and trees do.
+class Engine {
+ public:
+  using Watch = std::function<void(const Event&)>;
+  virtual ~Engine() = default;
+
+  virtual void enter(std::size_t body) = 0;  // into the world only
+  // The first of them now, then one each `every` world steps.
+  virtual void emit(const std::vector<std::size_t>& bodies, std::uint64_t every) = 0;
+  // Into the structure as well, one after another.
+  virtual void store(std::span<const std::size_t> bodies, const Watch& watch) = 0;
+  virtual void leave(std::span<const std::size_t> bodies) = 0;
+  virtual void move(const Move& move) = 0;
+  virtual void apply(const ApplyForce& force) = 0;
+  virtual void apply(const ApplyImpulse& impulse) = 0;
+  virtual void sleep(std::size_t body) = 0;
+  virtual void wake(std::span<const std::size_t> bodies) = 0;
+  virtual void solve_by(const SolveBy& method) = 0;
+  virtual void step() = 0;  // one world step
+  // From now on the structure is that of the bodies as they are. It is built, its memory reused,
+  // when a frame, a query or the next step of a world with contacts needs it.
+  virtual void rebuild() = 0;
+  // The same at once; a structure that goes on from where its bodies were tells what it does.
+  virtual void follow(const Watch& watch) = 0;
+  // f(id, id) for each pair that a sweep compares, in its order.
+  virtual void each_swept(const std::function<void(BodyId, BodyId)>& f) = 0;
+  // Another structure, all bodies anew; the world's broad phase becomes the same kind.
+  virtual void rebuild_as(const StructureSpec& structure) = 0;
+
+  virtual Finding ask(const Question& question) = 0;
+  // Of these bodies alone, by each of these kinds with the settings that stand; without a name.
+  virtual FrameComparison::Row compare(const std::vector<std::size_t>& bodies,
+                                       const std::vector<StructureKind>& kinds) const = 0;
+
+  // Two bodies of a flat world that are there, no half-spaces: what the narrow phase's test of them
+  // measures, and how their distance is searched for.
+  virtual FrameSeparation separate(std::size_t a, std::size_t b) const = 0;
+  virtual FrameSearch search(std::size_t a, std::size_t b) const = 0;
+  // The shapes of all pairs that the structure has, which there must be: each tested as it is.
+  virtual ShapeTests test_shapes() = 0;
+  // Their Minkowski difference; nothing unless both are there, and of half-spaces.
+  virtual std::optional<FrameDifference> difference(BodyId a, BodyId b) const = 0;
+
+  virtual std::optional<BodyId> id_of(std::size_t body) const = 0;
+  virtual bool is_moving(std::size_t body) const = 0;
+  virtual bool has_happened(Wait::Event event, const std::vector<std::size_t>& bodies) const = 0;
+  virtual std::string label_of(NodeHandle node) const = 0;
+  virtual const StructureSpec& structure() const = 0;
+  virtual std::string name_of(BodyId id) const = 0;  // "'red'": for messages
+  // What is not so of a structure that the program was given, as it stands.
+  virtual std::vector<std::string> structure_faults() const = 0;
+
+  // One state a body of the scenario, in its order; without pixels, and without structures.
+  virtual void observe(std::vector<BodyState>& states) const = 0;
+  virtual const WorldWork& world_work() const = 0;  // of the world since it was made
+  virtual std::uint64_t world_hash() const = 0;
+  virtual void show(WorldWatch& watch) const = 0;  // the world as it is now
+  // What the world remembered of pairs that touch, step by step. It is written down only if the
+  // scenario has a panel for it.
+  virtual void list_collisions(FrameCollisions& collisions) const = 0;
+
+  // One world step, and the looks by which it found its first impact; none if it found none.
+  virtual std::vector<FrameLook> step_and_tell_looks() = 0;
+
+  // What the last step found; its events as they are counted below.
+  virtual StepFindings findings() const = 0;
+  // Events of contacts are counted from here on.
+  virtual void forget_events() = 0;
+  // Bodies, nodes, pairs, contacts, links, counts and measures as they are.
+  virtual void picture(const Touched& touched, Frame& frame) = 0;
+};
+
+std::unique_ptr<Engine> make_engine(const Scenario& scenario, Work& work);
+
+// What a verb does to an engine's bodies, without frames: one that only shows, asks or partitions
+// does nothing, one that passes time takes its steps. Throws Refused as the engine does.
+void carry_out(const Verb& verb, Engine& engine, double time_step);
+
+}  // namespace lantern::run

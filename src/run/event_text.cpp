@@ -1,0 +1,227 @@
+#include "run/event_text.hpp"
+
+#include <fmt/format.h>
+
+namespace lantern::run {
+namespace {
+
+std::string place_of(const std::string& node) {
+  if (node.empty()) return "an inner node";
+  return node == "root" ? "the root" : "node " + node;
+}
+
+// Of an ASCII letter; other scripts are left as they are.
+std::string capitalised(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = char(text[0] - 'a' + 'A');
+  return text;
+}
+
+}  // namespace
+
+std::string_view event_name(Event::Kind kind) {
+  static constexpr std::string_view kNames[] = {"test",   "miss",      "make_child",  "store",
+                                                "split",  "hand_down", "depth_limit", "no_progress",
+                                                "rotate", "leave"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+std::string_view event_name(AtlasEvent::Kind kind) {
+  static constexpr std::string_view kNames[] = {"too_small", "used", "cut", "store", "refuse"};
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
+std::string event_text(const Event& e, const std::string& node, const std::string& body,
+                       std::uint32_t depth_limit) {
+  const std::string place = place_of(node);
+  const std::string name = capitalised(place);
+  switch (e.kind) {
+    case Event::Kind::test:
+      return fmt::format("{} reaches {}.", capitalised(body), place);
+    case Event::Kind::miss:
+      return fmt::format("{} does not reach {}.", capitalised(body), place);
+    case Event::Kind::make_child:
+      return fmt::format("{} is made, because something enters it.", name);
+    case Event::Kind::store:
+      if (e.limit == 0) return fmt::format("{} stores {} and holds {}.", name, body, e.count);
+      if (e.count <= e.limit)
+        return fmt::format("{} stores {} and holds {} of at most {}.", name, body, e.count,
+                           e.limit);
+      return fmt::format("{} stores {} and now holds {}, more than its limit of {}.", name, body,
+                         e.count, e.limit);
+    case Event::Kind::split:
+      return fmt::format("{} holds {}, its limit is {}: it splits.", name, e.count, e.limit);
+    case Event::Kind::hand_down:
+      return fmt::format("{} hands {} down to its children.", name, body);
+    case Event::Kind::depth_limit:
+      return fmt::format(
+          "{} holds {}, its limit is {}. But it lies at depth {}, and no node may lie deeper: it "
+          "stays a leaf.",
+          name, e.count, e.limit, depth_limit);
+    case Event::Kind::no_progress:
+      return fmt::format(
+          "{} holds {}, its limit is {}. But all share one point, so a split would separate no "
+          "pair.",
+          name, e.count, e.limit);
+    case Event::Kind::rotate:
+    case Event::Kind::leave:
+      return fitting_event_text(e, node, body);
+  }
+  return {};
+}
+
+std::string fitting_event_text(const Event& e, const std::string& node, const std::string& body) {
+  const std::string place = place_of(node);
+  const std::string name = capitalised(place);
+  switch (e.kind) {
+    case Event::Kind::test:
+      return fmt::format("{} comes to {}: would all boxes together grow least beside it?",
+                         capitalised(body), place);
+    case Event::Kind::miss:
+      return fmt::format("{} would grow more by {}: it is left out.", name, body);
+    case Event::Kind::store:
+      return fmt::format("{} is the leaf of {}.", name, body);
+    case Event::Kind::split:
+      return fmt::format("A new node takes the place of {}: it holds what was there, and {}.",
+                         place, body);
+    case Event::Kind::rotate:
+      return fmt::format(
+          "A rotation: a child of {} and the sibling of {} change places, and {} shrinks.", place,
+          place, place);
+    case Event::Kind::leave:
+      return fmt::format(
+          "{} has left its box: its leaf goes, the sibling takes the parent's place, and {} is "
+          "inserted again.",
+          capitalised(body), body);
+    default:
+      return event_text(e, node, body, 0);
+  }
+}
+
+std::string list_event_text(const Event& e, std::string_view structure, const std::string& body) {
+  return fmt::format("{} lists {}: {} in all.", capitalised(std::string(structure)), body, e.count);
+}
+
+std::string event_text(const AtlasEvent& e, const std::string& node, const std::string& texture,
+                       int width, int height) {
+  const std::string size = fmt::format("{} ({} × {})", texture, width, height);
+  switch (e.kind) {
+    case AtlasEvent::Kind::too_small:
+      return fmt::format("The free leaf {} is too small for {}.", node, size);
+    case AtlasEvent::Kind::used:
+      return fmt::format("This leaf already holds {}.", node);
+    case AtlasEvent::Kind::cut:
+      return fmt::format("The free leaf {} has room for {}. It is cut to fit.", node, size);
+    case AtlasEvent::Kind::store:
+      return fmt::format("This leaf has exactly the size of {}: it is stored here.", size);
+    case AtlasEvent::Kind::refuse:
+      return fmt::format("No leaf has room for {}: it is refused, the rest is kept.", size);
+  }
+  return {};
+}
+
+std::string bind_text(const std::string& image, const std::string& bound, std::uint64_t bindings) {
+  const std::string count = fmt::format("binding {}", bindings);
+  if (bound.empty()) return fmt::format("Nothing is bound yet. Bind {}: {}.", image, count);
+  return fmt::format("Next comes {}, but {} is bound. Bind {}: {}.", image, bound, image, count);
+}
+
+std::string draw_text(const std::string& texture, bool from_atlas) {
+  if (!from_atlas) return fmt::format("{} is bound: draw it.", capitalised(texture));
+  return fmt::format("The atlas is bound: draw {} from its place in it.", texture);
+}
+
+std::string query_text(std::string_view event, const std::string& node, const std::string& body) {
+  const std::string place = place_of(node);
+  if (event == "visit") return fmt::format("{} is reached: look inside.", capitalised(place));
+  if (event == "skip")
+    return fmt::format("{} is not reached: it is skipped, with all below it.", capitalised(place));
+  if (event == "hit") return fmt::format("{} is tested: a hit.", capitalised(body));
+  return fmt::format("{} is tested: no hit.", capitalised(body));
+}
+
+std::string axis_text(const FrameSeparation& separation, const std::string& a,
+                      const std::string& b) {
+  const FrameAxis& axis = separation.axes.back();
+  const std::string where =
+      axis.across ? fmt::format("across a face of {}", *axis.across == separation.a ? a : b)
+                  : fmt::format("from {} to {}, where they are closest", a, b);
+  const std::string name = fmt::format("Axis {}, {}", separation.axes.size(), where);
+  if (axis.separation > 0)
+    return fmt::format("{}: a gap of {:.4g}. One gap is enough: they are apart.", name,
+                       axis.separation);
+  return fmt::format("{}: the shadows overlap. Along it the way out is {:.4g} long.", name,
+                     -axis.separation);
+}
+
+std::string search_text(const FrameSearch& search, const std::string& a, const std::string& b) {
+  const GjkStep& step = search.steps.back();
+  const std::size_t n = search.steps.size();
+  if (step.ends)
+    return fmt::format(
+        "Search {} finds nothing farther that way: no point is nearer to the origin.", n);
+  if (!search.taken && n == 1)
+    return fmt::format(
+        "Search 1, from {} towards {}: farthest point of {} less farthest of {} the "
+        "other way.",
+        a, b, a, b);
+  if (!search.taken)
+    return fmt::format("Search {}, straight at the origin: point {} is the farthest that way.", n,
+                       n);
+  if (step.simplex.size() == 3)
+    return "The origin lies inside the triangle: the bodies have a point in common.";
+  const double distance = glm::length(step.nearest);
+  if (step.simplex.size() == 1)
+    return fmt::format("It is {:.4g} from the origin. Search again, straight at the origin.",
+                       distance);
+  return fmt::format(
+      "The line of the two points comes nearer: {:.4g}. Again, straight at the "
+      "origin.",
+      distance);
+}
+
+std::string look_text(const FrameLook& look) {
+  if (look.meets)
+    return fmt::format("At {:.3f} of the step they touch: the time of impact, found by {} looks.",
+                       look.time, look.number);
+  // A guess, by how fast they come nearer.
+  if (look.gap < 0)
+    return fmt::format("Do they meet by {:.2f} of the step? Yes, they would overlap: too late.",
+                       look.time);
+  if (!(look.free_until > look.time))
+    return fmt::format("Do they meet by {:.2f} of the step? Not yet: the gap is {:.2g}.", look.time,
+                       look.gap);
+  return fmt::format("At {:.2f} of the step the gap is {:.2g}: it cannot close before {:.2f}.",
+                     look.time, look.gap, look.free_until);
+}
+
+std::string phase_text(std::string_view phase, const Frame& frame) {
+  const auto counted = [](std::int64_t n, std::string_view one, std::string_view many) {
+    return fmt::format("{} {}", n, n == 1 ? one : many);
+  };
+  const auto pairs = static_cast<std::int64_t>(frame.pairs.size());
+  const auto contacts = static_cast<std::int64_t>(frame.contacts.size());
+  if (phase == "broad_phase")
+    return fmt::format("Broad phase: {}, where brute force has {}. These might touch.",
+                       counted(pairs, "candidate pair", "candidate pairs"),
+                       frame.count("testable_pairs").value_or(0));
+  const std::int64_t overlaps = frame.count("overlaps").value_or(0);
+  if (phase == "boxes")
+    return fmt::format("Boxes: of {}, {} overlap. Only their shapes need a test.",
+                       counted(pairs, "candidate pair", "candidate pairs"),
+                       overlaps == pairs ? "all" : fmt::format("the boxes of {}", overlaps));
+  if (phase == "narrow_phase") {
+    const std::int64_t tested = frame.count("pairs_tested").value_or(0);
+    if (overlaps == 0) return "Narrow phase: no boxes overlap, so no shapes are tested.";
+    const std::string whose = tested != overlaps ? fmt::format("the true shapes of {}", tested)
+                              : overlaps == 1    ? "its true shapes"
+                                                 : "their true shapes";
+    return fmt::format("Narrow phase: the boxes of {} overlap; {} are tested. {} really {}.",
+                       counted(overlaps, "pair", "pairs"), whose, contacts,
+                       contacts == 1 ? "touches" : "touch");
+  }
+  return fmt::format(
+      "Resolution: impulses at {} push the bodies apart. The arrows show how strong they are.",
+      counted(frame.count("contact_points").value_or(0), "contact point", "contact points"));
+}
+
+}  // namespace lantern::run

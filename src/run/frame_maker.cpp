@@ -1,0 +1,427 @@
+#include "run/frame_maker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "base/stop.hpp"
+#include "frame/frame.hpp"
+#include "geometry/flat.hpp"
+#include "language/code_text.hpp"
+#include "language/counts.hpp"
+#include "language/script/caption.hpp"
+#include "run/comparison.hpp"
+#include "run/panel.hpp"
+#include "run/rulers.hpp"
+
+namespace lantern::run {
+namespace {
+
+// Frames of one run, all paces together.
+constexpr std::uint32_t kMostFrames = 100'000;
+
+bool has_node(const Frame& frame, const std::string& label) {
+  return std::ranges::find(frame.nodes, label, &FrameNode::label) != frame.nodes.end();
+}
+
+// Does the part of a flat world that is shown hold what the note is about?
+bool in_view(const FrameNote& note, const Frame& frame) {
+  if (!frame.view) return true;
+  if (note.of == NoteOf::point) return contains(*frame.view, flat(note.point));
+  for (const BodyId id : note.bodies) {
+    const FrameBody* body = frame.body_of(id);
+    if (!body || !overlap(flat(body->box), *frame.view)) return false;
+  }
+  return true;
+}
+
+// What the sparkline shows: the number that the scenario puts in front, if it is a count.
+std::string trace_name(const Scenario& scenario) {
+  const auto& front = scenario.headline;
+  return !front.empty() && find_in(known_counts(), front[0]) ? front[0] : "pairs";
+}
+
+std::string why_not_noted(const NoteSpec& note, const Frame& frame) {
+  if (note.of == NoteOf::node && !has_node(frame, note.name))
+    return fmt::format("there is no node '{}'", note.name);
+  if (frame.view) return "it lies outside the view";
+  return "its body is not there";
+}
+
+}  // namespace
+
+FrameMaker::FrameMaker(const Scenario& scenario, Pace pace, const Stage& stage,
+                       const std::function<bool(const Frame&)>& sink)
+    : scenario_(scenario),
+      pace_(pace),
+      stage_(stage),
+      sink_(sink),
+      headline_(scenario.headline),
+      comparison_(empty_comparison(scenario)),
+      looks_(scenario) {
+  if (scenario.chart) plotter_.emplace(scenario);
+  if (shows(scenario.panels, "sparkline")) {
+    trace_ = FrameTrace{trace_name(scenario), {}, script_seconds(scenario, &part_)};
+  }
+  if (shows(scenario.panels, "code"))
+    for (const Step& step : scenario.steps)
+      if (step.code && !code_) code_ = code_of(step.code->function);
+}
+
+void FrameMaker::begin(const Step& step, std::uint32_t index) {
+  step_ = &step;
+  step_index_ = index;
+  const bool new_part = !step.part.empty() && step.part != part_;
+  if (!step.part.empty()) part_ = step.part;
+  if (trace_ && new_part) {
+    trace_->points.clear();
+    trace_->seconds = script_seconds(scenario_, &part_);
+    trace_begun_ = stage_.time;
+  }
+  if (plotter_) plotter_->begin_part(part_, stage_.time);
+  if (index == 0 || new_part) {
+    part_seconds_ = script_seconds(scenario_, &part_);
+    steps_before_part_ = stage_.engine ? stage_.engine->world_work().steps : 0;
+  }
+  touched = {};
+  focus.clear();
+  texture.clear();
+  finding_.reset();
+  narrow.begin_step();
+  noted_.clear();
+  looks_.begin(step, stage_.time);
+  begin_code();
+  if (!step.headline.empty()) headline_ = step.headline;
+  lengths_before_.clear();
+  for (const RulerSpec& ruler : step.rulers) {
+    const auto ends = ends_of(ruler, stage_.engine.get());
+    lengths_before_.push_back(ends ? std::optional(glm::distance(ends->first, ends->second))
+                                   : std::nullopt);
+  }
+}
+
+bool FrameMaker::wanted(std::string_view event) const {
+  const auto& events = step_->events;
+  return events.empty() || std::find(events.begin(), events.end(), event) != events.end();
+}
+
+void FrameMaker::note_refused(const std::string& name) {
+  refused_names_ += (refused_names_.empty() ? "" : ", ") + name;
+}
+
+void FrameMaker::show_finding(Finding finding) {
+  counted_ = QueryNumbers{finding.counts, finding.hits.size()};
+  focus = {finding.hits.begin(), finding.hits.end()};
+  finding_ = std::move(finding);
+}
+
+void FrameMaker::add_row(FrameComparison::Row row, const std::string& answer) {
+  comparison_.rows.push_back(std::move(row));
+  answer_ = answer;
+}
+
+Frame FrameMaker::picture(const Touched& now, std::string_view event) {
+  return drawn(now, event, false);
+}
+
+Frame FrameMaker::drawn(const Touched& now, std::string_view event, bool midst) {
+  stop_if_asked();
+  Frame frame;
+  frame.scenario = scenario_.name;
+  if (!scenario_.side.empty())
+    frame.add<FrameSide>() = {scenario_.side, scenario_.side_title, false};
+  frame.title = scenario_.title;
+  frame.part = part_;
+  frame.seed = scenario_.seed;
+  frame.index = report_.frames;
+  frame.step = step_index_;
+  frame.steps = static_cast<std::uint32_t>(scenario_.steps.size());
+  frame.event = event;
+  frame.panels = scenario_.panels;
+  frame.cast = static_cast<std::uint32_t>(scenario_.bodies.size());
+  if (!scenario_.world.land.empty()) frame.add<FrameLand>().land = scenario_.world.land;
+  frame.time = stage_.time;
+  frame.dimension = scenario_.world.dimension;
+  frame.bounds = scenario_.world.bounds;
+  looks_.show(frame);
+  frame.headline = headline_;
+  if (stage_.engine) stage_.engine->picture(now, frame);
+  if (stage_.engine) tell_faults(frame);
+  if (stage_.engine) narrow.add_to(frame, *stage_.engine);
+  // Speeds that numbers still hold may have squares that they do not.
+  for (const auto& [name, number] : frame.measures)
+    if (!std::isfinite(number)) throw Refused(fmt::format("the measure '{}' overflows", name));
+  if (stage_.level)
+    stage_.level->picture(stage_.engine && stage_.engine->structure().of_level, frame);
+  if (stage_.atlas) stage_.atlas->picture(now, frame);
+  if (stage_.screen) stage_.screen->picture(frame);
+  frame.hash = state_hash(frame);
+  add_finding(frame);
+  add_comparison(frame);
+  add_rulers(frame);
+  lighting_.light({traits_of(step_->verb), focus, midst}, frame);
+  light_room(frame);
+  add_notes(frame);
+  if (plotter_) frame.add<FrameChart>() = plotter_->chart();
+  if (trace_) trace(frame);
+  frame.put(code_);
+  if (stage_.engine && shows(scenario_.panels, "collisions")) add_collisions(frame);
+  for (const Panel panel : frame.panels)
+    if (const auto gather = run_of(panel).gather) gather(stage_, frame);
+  return frame;
+}
+
+// The function of the step, or of the step before, and the lines that the step names.
+void FrameMaker::begin_code() {
+  if (!code_) return;
+  if (step_->code && code_->function != step_->code->function)
+    code_ = code_of(step_->code->function);
+  light_line(*code_, step_->code ? step_->code->line : "");
+}
+
+// The line in which the lecture's code is, if the step runs that.
+void FrameMaker::light_code(std::string_view event) {
+  const auto place = code_ ? code_place(event) : std::nullopt;
+  if (!place) return;
+  if (code_->function != place->function) code_ = code_of(place->function);
+  light_line(*code_, place->line);
+}
+
+void FrameMaker::show_phase(std::string_view phase, Frame& frame) {
+  if (scenario_.world.contacts == ContactMethod::lecture) light_code(phase);
+  frame.put(code_);
+}
+
+void FrameMaker::add_collisions(Frame& frame) const {
+  FrameCollisions& told = frame.add<FrameCollisions>();
+  stage_.engine->list_collisions(told);
+  told.now = stage_.engine->world_work().steps;
+  told.first = steps_before_part_;
+  if (part_seconds_)
+    told.steps =
+        static_cast<std::uint64_t>(std::llround(*part_seconds_ / scenario_.world.time_step));
+}
+
+// A wrong tree is drawn as it is, and its run fails; each fault is told where it is first seen.
+void FrameMaker::tell_faults(const Frame& frame) {
+  constexpr std::size_t kMost = 8;
+  for (const std::string& fault : stage_.engine->structure_faults())
+    if (faults_.size() < kMost && faults_.insert(fault).second)
+      fail(fmt::format("{} (frame {}, time {:.6g} s)", fault, frame.index, frame.time));
+}
+
+// One point a moment: the last that was so.
+void FrameMaker::trace(Frame& frame) {
+  if (const auto n = frame.count(trace_->name)) {
+    const Vec<2> now{frame.time - trace_begun_, static_cast<double>(*n)};
+    std::vector<Vec<2>>& points = trace_->points;
+    if (!points.empty() && points.back().x == now.x) points.pop_back();
+    points.push_back(now);
+  }
+  frame.add<FrameTrace>() = *trace_;
+}
+
+void FrameMaker::settle(std::string_view verb, bool last, const std::string& caption) {
+  begin_code();  // events have shown where they are
+  Frame frame = picture(touched, step_->name.empty() ? verb : step_->name);
+  if (plotter_ && (plotter_->over_time() || (last && step_->plot))) {
+    if (plotter_->over_time())
+      plotter_->add_moment(frame);
+    else
+      plotter_->add(*step_->plot, part_, frame);
+    frame.add<FrameChart>() = plotter_->chart();
+  }
+  // Of a side's frames the caption is that of all sides together.
+  if (caption.empty() && scenario_.side.empty())
+    tell(step_->caption, frame);
+  else
+    frame.caption = caption;
+  frame.ending = last && step_->ending;
+  if (last && !step_->question.empty() && scenario_.side.empty())
+    frame.add<FrameQuestion>() = FrameQuestion{step_->question, fill(step_->answer, frame)};
+  verify(step_->always, frame);
+  if (last) verify(step_->expect, frame);
+  if (last) require_notes(frame);
+  give(std::move(frame));
+}
+
+void FrameMaker::emit(const Touched& now, std::string_view event, std::string caption,
+                      std::optional<BodyId> about) {
+  if (stage_.engine && traits_of(stage_.engine->structure().kind).is_plain &&
+      std::holds_alternative<Insert>(step_->verb))
+    light_code(event);
+  Frame frame = drawn(now, event, true);
+  frame.caption = std::move(caption);
+  for (FrameBody& body : frame.bodies) body.lit = body.id == about;
+  give(std::move(frame), true);
+}
+
+void FrameMaker::give(Frame frame, bool midst) {
+  if (stopped_) return;
+  if (report_.frames == kMostFrames)
+    throw ScenarioError(diagnose(scenario_, step_->where,
+                                 fmt::format("more than {} frames", kMostFrames),
+                                 "run for a shorter time, or choose fewer events"));
+  frame.index = report_.frames++;
+  if (stage_.engine) {
+    const WorldWork& now = stage_.engine->world_work();
+    if (now.steps > last_work_.steps) frame.since_last_frame = work_between(last_work_, now);
+    last_work_ = now;
+  }
+  if (frame.dimension == 3) tell_splits(frame);
+  lighting_.remember(frame, midst);
+  stopped_ = !sink_(frame);
+}
+
+// Which nodes are divided and were not; while time passes they come and go, and none is told.
+void FrameMaker::tell_splits(Frame& frame) {
+  const bool same = frame.structure == last_structure_;
+  std::set<std::string> divided;
+  for (FrameNode& node : frame.nodes) {
+    if (node.leaf || node.of_static) continue;
+    node.split = frame.time == last_time_ && !(same && divided_.contains(node.label));
+    divided.insert(node.label);
+  }
+  divided_ = std::move(divided);
+  last_structure_ = frame.structure;
+  last_time_ = frame.time;
+}
+
+void FrameMaker::fail(std::string message) {
+  report_.unmet.add([&] { return diagnose(scenario_, step_->where, message + on_side()); });
+}
+
+std::string FrameMaker::on_side() const {
+  return scenario_.side.empty() ? "" : fmt::format(", side '{}'", scenario_.side);
+}
+
+void FrameMaker::add_finding(Frame& frame) const {
+  if (counted_) {
+    frame.add_count("nodes_visited", counted_->counts.nodes_visited);
+    frame.add_count("nodes_skipped", counted_->counts.nodes_skipped);
+    frame.add_count("objects_tested", counted_->counts.objects_tested);
+    frame.add_count("hits", counted_->hits);
+  }
+  if (!finding_) return;
+  FrameFinding& found = frame.add<FrameFinding>();
+  found.hits = finding_->hits;
+  if (finding_->ray) found.rays.push_back(*finding_->ray);
+  if (finding_->view) found.views.push_back(*finding_->view);
+  if (finding_->region) found.queries.push_back(*finding_->region);
+  if (!finding_->ray) dim(frame);
+}
+
+// Of the world that was compared last.
+void FrameMaker::add_comparison(Frame& frame) {
+  if (comparison_.kinds.empty()) return;
+  FrameComparison& told = frame.add<FrameComparison>();
+  if (comparison_.rows.empty()) return void(told = comparison_);
+  FrameComparison::Row& last = comparison_.rows.back();
+  frame.add_count("compared_bodies", last.bodies);
+  frame.add_count("compared_pairs", last.testable);
+  frame.add_count("compared_overlaps", last.cells.front().work.overlaps);
+  frame.add_count("least_work", last.least());
+  if (!answer_.empty()) last.answer = fill(std::exchange(answer_, {}), frame);
+  told = comparison_;
+}
+
+// Who is ruled out: not found in the end; before it, tested in vain or only in nodes left out.
+void FrameMaker::dim(Frame& frame) const {
+  std::set<BodyId> within_reach;
+  for (const FrameNode& node : frame.nodes)
+    if (!node.skipped) within_reach.insert(node.bodies.begin(), node.bodies.end());
+  for (FrameBody& body : frame.bodies) {
+    if (std::ranges::binary_search(frame.get<FrameFinding>().hits, body.id)) continue;
+    body.dimmed =
+        finding_->done || finding_->missed.contains(body.id) || !within_reach.contains(body.id);
+  }
+}
+
+void FrameMaker::add_rulers(Frame& frame) const {
+  for (std::size_t i = 0; i < step_->rulers.size(); ++i) {
+    const RulerSpec& spec = step_->rulers[i];
+    const auto ends = ends_of(spec, stage_.engine.get());
+    if (!ends) continue;
+    FrameRuler ruler{
+        ends->first, ends->second, glm::distance(ends->first, ends->second), {}, spec.text};
+    if (spec.change) ruler.before = lengths_before_[i];
+    frame.add<FrameRulers>().rulers.push_back(std::move(ruler));
+  }
+}
+
+// The leaves of an atlas that are large enough.
+void FrameMaker::light_room(Frame& frame) const {
+  if (const auto* ask = std::get_if<AskRoom>(&step_->verb))
+    for (FrameNode& node : frame.nodes)
+      if (node.leaf && node.bodies.empty() && node.box.size().x >= ask->width &&
+          node.box.size().y >= ask->height)
+        node.mark = Mark::lit;
+}
+
+std::optional<std::string> FrameMaker::text_of(std::string_view name, const Frame& frame) const {
+  if (name == "texture") return texture;
+  if (name == "refused_names") return refused_names_.empty() ? "none" : refused_names_;
+  if (name == "time") return fmt::format("{:.2f}", frame.time);
+  if (const auto measured = frame.measure(name)) return fmt::format("{:.4g}", *measured);
+  return std::nullopt;
+}
+
+// Those whose bodies and nodes are there by now.
+void FrameMaker::add_notes(Frame& frame) {
+  for (const NoteSpec& spec : step_->notes) {
+    FrameNote note{fill(spec.text, frame), spec.of, {}, kNone, {}, spec.point};
+    for (const std::size_t body : spec.bodies)
+      if (const auto id = stage_.engine->id_of(body)) note.bodies.push_back(*id);
+    if (spec.of == NoteOf::count) note.count = spec.name;
+    for (std::uint32_t i = 0; spec.of == NoteOf::node && i < frame.nodes.size(); ++i)
+      if (frame.nodes[i].label == spec.name && note.node == kNone) note.node = i;
+    if (note.bodies.size() != spec.bodies.size()) continue;
+    if (spec.of == NoteOf::node && note.node == kNone) continue;
+    if (!in_view(note, frame)) continue;
+    frame.notes.push_back(std::move(note));
+    noted_.insert(&spec);
+  }
+}
+
+// A note that stood on no frame of the step is a promise that was not kept.
+void FrameMaker::require_notes(const Frame& frame) {
+  for (const NoteSpec& note : step_->notes)
+    if (!noted_.contains(&note))
+      report_.unmet.add([&] {
+        return diagnose(
+            scenario_, note.where,
+            fmt::format("the note '{}' has nothing to point at on frame {}: {}{}", note.text,
+                        report_.frames, why_not_noted(note, frame), on_side()));
+      });
+}
+
+// The caption, and which numbers it tells.
+void FrameMaker::tell(const std::string& text, Frame& frame) const {
+  frame.caption = fill(text, frame);
+  for (const std::string& name : placeholders_of(text))
+    if (frame.number(name)) frame.told.push_back(name);
+}
+
+std::string FrameMaker::fill(const std::string& text, const Frame& frame) const {
+  return fill_caption(
+      text, [&](std::string_view name) { return text_of(name, frame); },
+      [&](std::string_view name) { return frame.count(name); });
+}
+
+void FrameMaker::verify(const std::vector<Expectation>& expectations, const Frame& frame) {
+  report_.expectations += expectations.size();
+  const auto problems = unmet(expectations, frame);
+  for (std::size_t i = 0; i < problems.size(); ++i) {
+    if (!problems[i] || !reported_.insert(&expectations[i]).second) continue;
+    report_.unmet.add([&] {
+      return diagnose(scenario_, expectations[i].where,
+                      fmt::format("{} (frame {}, time {:.6g} s{})", *problems[i], frame.index,
+                                  frame.time, on_side()));
+    });
+  }
+}
+
+}  // namespace lantern::run

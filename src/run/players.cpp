@@ -1,0 +1,145 @@
+#include "run/players.hpp"
+
+#include "base/stop.hpp"
+
+namespace lantern::run {
+namespace {
+
+template <int D>
+WorldConfig<D> config_of(const Scenario& scenario) {
+  const WorldSpec& spec = scenario.world;
+  WorldConfig<D> config;
+  config.gravity = in_dimension<D>(spec.gravity);
+  config.gravitation = spec.gravitation;
+  config.integrator = spec.integrator;
+  config.rotation = spec.rotation;
+  config.contacts = spec.contacts;
+  config.sub_steps = spec.sub_steps;
+  config.wanted_error = spec.wanted_error;
+  config.iterations = spec.iterations;
+  config.impact_budget = spec.impact_budget;
+  config.may_sleep = spec.may_sleep;
+  config.broad_phase = broad_phase_of<D>(scenario.structure, in_dimension<D>(spec.bounds));
+  return config;
+}
+
+template <int D>
+Body<D> body_of(const BodySpec& spec) {
+  Body<D> body;
+  body.name = spec.name;
+  body.shape = in_dimension<D>(spec.shape);
+  body.kind = spec.kind;
+  body.position = in_dimension<D>(spec.position);
+  body.orientation = turned(Rotation<D>(), spin_about<D>(spec.axis, spec.angle));
+  body.velocity = in_dimension<D>(spec.velocity);
+  body.density = spec.density;
+  body.mass = spec.mass;
+  body.material = spec.material;
+  body.linear_drag = spec.linear_drag;
+  body.angular_drag = spec.angular_drag;
+  body.may_turn = spec.may_turn;
+  body.integrator = spec.integrator;
+  body.rotation = spec.rotation;
+  return body;
+}
+
+}  // namespace
+
+template <int D>
+Players<D>::Players(const Scenario& scenario)
+    : scenario_(scenario),
+      world_(config_of<D>(scenario)),
+      ids_(scenario.bodies.size()),
+      links_(scenario.links.size()),
+      links_of_(scenario.links.empty() ? 0 : scenario.bodies.size()) {
+  for (std::size_t i = 0; i < scenario.links.size(); ++i) {
+    const LinkSpec& link = scenario.links[i];
+    links_of_[link.a].push_back(i);
+    if (link.b && *link.b != link.a) links_of_[*link.b].push_back(i);
+  }
+}
+
+template <int D>
+void Players<D>::enter(std::size_t index) {
+  const BodySpec& spec = scenario_.bodies[index];
+  const BodyId id = world_.add(body_of<D>(spec), spin_about<D>(spec.axis_of_spin(), spec.spin));
+  ids_[index] = id;
+  index_of_.push_back(index);
+  stop_if_asked();
+  if (!links_of_.empty())
+    for (const std::size_t i : links_of_[index]) {
+      const LinkSpec& link = scenario_.links[i];
+      if (ids_[link.a] && (!link.b || ids_[*link.b])) make_link(link, links_[i]);
+    }
+  if (spec.asleep) world_.sleep(id);
+}
+
+template <int D>
+void Players<D>::leave(std::span<const std::size_t> indices) {
+  std::vector<BodyId> gone;
+  for (const std::size_t index : indices) {
+    gone.push_back(*ids_[index]);
+    ids_[index].reset();
+    if (!links_of_.empty())
+      for (const std::size_t i : links_of_[index]) links_[i].there = false;
+  }
+  world_.remove(gone);
+}
+
+template <int D>
+std::pair<Vec<D>, Vec<D>> Players<D>::ends_of(const LinkSpec& link) const {
+  const auto point = [&](std::size_t index, const Vec<3>& at) {
+    const Body<D>& b = *body(index);
+    return b.position + matrix(b.orientation) * in_dimension<D>(at);
+  };
+  return {point(link.a, link.at_a),
+          link.b ? point(*link.b, link.at_b) : in_dimension<D>(link.at_b)};
+}
+
+template <int D>
+void Players<D>::make_link(const LinkSpec& spec, Link& link) {
+  const auto [from, to] = ends_of(spec);
+  link = {true, spec.rest_length.value_or(glm::length(to - from))};
+  const Vec<D> away = spec.b ? Vec<D>(0.0) : out_of_the_way();
+  const BodyId a = *ids_[spec.a], b = spec.b ? *ids_[*spec.b] : add_anchor(away);
+  const Vec<D> at_a = in_dimension<D>(spec.at_a);
+  const Vec<D> at_b = spec.b ? in_dimension<D>(spec.at_b) : to - away;
+  if (spec.kind == LinkSpec::Kind::spring) {
+    world_.add_spring({a, b, at_a, at_b, link.rest_length, spec.stiffness, spec.damping});
+    return;
+  }
+  Joint<D> joint;
+  joint.kind = spec.kind == LinkSpec::Kind::pin ? JointKind::pin : JointKind::distance;
+  joint.a = a;
+  joint.b = b;
+  joint.at_a = at_a;
+  joint.at_b = at_b;
+  joint.length = link.rest_length;
+  world_.add_joint(joint);
+}
+
+// Beyond the world's lowest corner by its own size: bodies that go on below it are not likely to
+// meet a point there.
+template <int D>
+Vec<D> Players<D>::out_of_the_way() const {
+  const Box<D> bounds = in_dimension<D>(scenario_.world.bounds);
+  return bounds.lo - bounds.size();
+}
+
+// A point of the world is fixed to a static body without size, which nothing meets.
+template <int D>
+BodyId Players<D>::add_anchor(const Vec<D>& at) {
+  Body<D> anchor;
+  anchor.name = "anchor";
+  anchor.shape = Sphere{0};
+  anchor.kind = BodyKind::static_body;
+  anchor.collides = false;
+  anchor.position = at;
+  index_of_.push_back(kAnchor);
+  return world_.add(std::move(anchor));
+}
+
+template class Players<2>;
+template class Players<3>;
+
+}  // namespace lantern::run

@@ -1,0 +1,81 @@
+// A script while it runs: what its verbs act on.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "run/frame_maker.hpp"
+#include "run/warnings.hpp"
+
+namespace lantern::run {
+
+struct ScriptRun {
+  ScriptRun(const Scenario& of, Pace pace, Work& work,
+            const std::function<bool(const Frame&)>& sink, RunWatch* watched_by)
+      : scenario(of), stage(of, work), frames(of, pace, stage, sink), watch(watched_by) {}
+
+  const Scenario& scenario;
+  Stage stage;
+  FrameMaker frames;
+  RunWatch* watch;  // null if nobody looks for warnings
+
+  // Of the bodies, which the scenario must have.
+  Engine& engine() { return *stage.engine; }
+
+  std::uint32_t ticks_in(double seconds) const;
+  std::uint32_t frame_every(int of_step) const;  // 0: the world's
+  // One world step, and the structure anew. The looks by which it found its first impact, if they
+  // are asked for.
+  std::vector<FrameLook> let_time_pass(bool with_looks = false);
+
+  // The step is about this body, or about all that move.
+  void focus(std::size_t body);
+  void watch_movers();
+  // An insertion into the structure, as it happens.
+  void witness(const Event& event);
+  // Does that; empty if the step has no frame of anything that the structure tells of one.
+  EventWatch watch_of_insertion();
+  std::string name_of(BodyId body) const;
+
+  // One step of the script, the `index`-th. Throws ScenarioError, at its place, when the engine
+  // refuses what it asks for.
+  void play(const Step& step, std::uint32_t index);
+};
+
+// What a verb changes, for whoever wants no frames as well.
+void change(const Insert& insert, Engine& engine);
+void change(const Emit& emit, Engine& engine);
+void change(const Remove& remove, Engine& engine);
+void change(const Move& move, Engine& engine);
+void change(const Sleep& sleep, Engine& engine);
+void change(const Wake& wake, Engine& engine);
+void change(const ApplyForce& force, Engine& engine);
+void change(const ApplyImpulse& impulse, Engine& engine);
+void change(const SolveBy& method, Engine& engine);
+
+// What a verb does, with its frames. One that is not here is one change, shown when it is done.
+void act(const Insert& insert, ScriptRun& run);
+void act(const Emit& emit, ScriptRun& run);
+void act(const Remove& remove, ScriptRun& run);
+void act(const Move& move, ScriptRun& run);
+void act(const Run& verb, ScriptRun& run);
+void act(const Wait& wait, ScriptRun& run);
+void act(const Phases& phases, ScriptRun& run);
+void act(const Rebuild& rebuild, ScriptRun& run);
+void act(const language::Sweep& sweep, ScriptRun& run);
+void act(const Compare& compare, ScriptRun& run);
+void act(const CastRay& ray, ScriptRun& run);
+void act(const Cull& cull, ScriptRun& run);
+void act(const Query& query, ScriptRun& run);
+void act(const TestShapes& test, ScriptRun& run);
+void act(const Separate& of, ScriptRun& run);
+void act(const SearchDistance& of, ScriptRun& run);
+void act(const CompileLevel& compile, ScriptRun& run);
+void act(const Locate& locate, ScriptRun& run);
+void act(const OrderFrom& order, ScriptRun& run);
+void act(const See& see, ScriptRun& run);
+void act(const Pack& pack, ScriptRun& run);
+void act(const AskRoom& ask, ScriptRun& run);
+void act(const DrawScreen& draw, ScriptRun& run);
+
+}  // namespace lantern::run

@@ -1,0 +1,118 @@
+#include "run/step_findings.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include "base/stop.hpp"
+
+namespace lantern::run {
+namespace {
+
+template <int D>
+FrameContact frame_contact(const Contact<D>& contact, const std::vector<ContactEvent>& events) {
+  FrameContact c;
+  c.pair = {contact.a, contact.b};
+  c.normal = solid(contact.manifold.normal);
+  // Events come in the order of their pairs, one a pair.
+  const auto event = std::lower_bound(events.begin(), events.end(), c.pair,
+                                      [](const ContactEvent& e, const Pair& pair) {
+                                        return Pair{e.a, e.b} < pair;
+                                      });
+  if (event != events.end() && Pair{event->a, event->b} == c.pair) {
+    c.begins = event->kind == ContactEvent::Kind::begin;
+    c.crushes = event->crushes;
+  }
+  for (std::size_t i = 0; i < contact.manifold.points().size(); ++i) {
+    const auto& point = contact.manifold.room[i];
+    c.points.push_back({solid(point.position), point.separation, contact.normal_impulses[i]});
+  }
+  return c;
+}
+
+// Of the pairs that the broad phase handed on in the last step, those whose shapes were tested: not
+// both are moved from outside, and no joint ties them together.
+template <int D>
+std::vector<Pair> tested_pairs(const Players<D>& players) {
+  const World<D>& world = players.world();
+  std::vector<Pair> tested;
+  std::set<Pair> joined;
+  for (const auto& [id, joint] : world.joints())
+    if (!joint.collide) joined.insert({std::min(joint.a, joint.b), std::max(joint.a, joint.b)});
+  for (const Pair& pair : world.pairs()) {
+    const Body<D>*a = world.find(pair.a), *b = world.find(pair.b);
+    if (!a || !b || !players.spec_of(pair.a) || !players.spec_of(pair.b)) continue;  // one has left
+    const bool dynamic = a->kind == BodyKind::dynamic_body || b->kind == BodyKind::dynamic_body;
+    if (dynamic && !joined.contains(pair)) tested.push_back(pair);
+  }
+  return tested;
+}
+
+// A number of this name, if there is one.
+template <class V>
+void set(std::vector<std::pair<std::string, V>>& numbers, std::string_view name, V value) {
+  for (auto& [known, number] : numbers)
+    if (known == name) number = value;
+}
+
+}  // namespace
+
+StepFindings::Counts StepFindings::contact_counts() const {
+  std::uint64_t points = 0, impulses = 0, crushes = 0;
+  for (const FrameContact& c : contacts) {
+    points += c.points.size();
+    for (const FrameContact::Point& p : c.points) impulses += p.impulse != 0;
+    crushes += c.crushes;
+  }
+  return {{"contacts", contacts.size()}, {"contact_points", points}, {"impulses", impulses},
+          {"crushes", crushes},          {"begins", begins},         {"ends", ends}};
+}
+
+StepFindings::Counts StepFindings::solver_counts() const {
+  return {{"pairs_tested", work.narrow_pairs},       {"narrow_tests", work.narrow_tests},
+          {"impact_looks", work.impact_looks},       {"impacts_located", work.impacts_located},
+          {"constraint_rows", work.constraint_rows}, {"friction_rows", work.friction_rows}};
+}
+
+StepFindings::Counts StepFindings::motion_counts() const {
+  return {{"force_evaluations", work.force_evaluations}, {"rotations", work.rotations_integrated}};
+}
+
+double StepFindings::penetration() const {
+  double deepest = 0;
+  for (const FrameContact& c : contacts)
+    for (const FrameContact::Point& point : c.points)
+      deepest = std::max(deepest, -point.separation);
+  return deepest;
+}
+
+void StepFindings::put_on(Frame& frame) const {
+  frame.contacts = contacts;
+  frame.tested = tested;
+  for (const Counts& counts : {contact_counts(), solver_counts(), motion_counts()})
+    for (const auto& [name, n] : counts) set(frame.counts, name, static_cast<std::int64_t>(n));
+  set(frame.measures, "penetration", penetration());
+  set(frame.measures, "time_of_impact", time_of_impact);
+}
+
+template <int D>
+StepFindings findings_of(const Players<D>& players, double h) {
+  const World<D>& world = players.world();
+  StepFindings found;
+  for (const Contact<D>& contact : world.contacts()) {
+    stop_if_asked();
+    if (players.spec_of(contact.a) && players.spec_of(contact.b) && world.find(contact.a) &&
+        world.find(contact.b))  // one may have left since the step
+      found.contacts.push_back(frame_contact(contact, world.events()));
+  }
+  found.tested = tested_pairs(players);
+  double first = h;
+  for (const ImpactMoment<D>& moment : world.impacts().moments)
+    first = std::min(first, moment.time);
+  found.time_of_impact = first / h;
+  return found;
+}
+
+template StepFindings findings_of(const Players<2>&, double);
+template StepFindings findings_of(const Players<3>&, double);
+
+}  // namespace lantern::run

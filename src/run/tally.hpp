@@ -1,0 +1,64 @@
+// What one run did, stage by stage, counted while it ran: nothing is guessed from the file.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/work.hpp"
+#include "run/director.hpp"
+
+namespace lantern::run {
+
+struct Amount {
+  std::uint64_t n = 0;
+  std::string name;  // of one: "evaluation"
+  std::string many;  // "evaluations"
+};
+
+struct StageTally {
+  std::string_view stage;  // "world", "motion", "structure", "tree panel", ...
+  std::vector<Amount> amounts;
+  std::string note;  // a fact of the file or of the run: "10.3 s passed"; may be empty
+
+  // Nothing of what is left out ran: all its counters stand at zero.
+  bool used() const;
+};
+
+// Sees all frames of one run, whose director counts into `work`, new for it. Both must outlive it.
+class Tally {
+ public:
+  Tally(const Scenario& scenario, const Work& work) : scenario_(scenario), work_(work) {}
+
+  void see(const Frame& frame);
+  // All stages that there are, in the order of a run.
+  std::vector<StageTally> stages(const DirectorReport& report) const;
+
+ private:
+  using Stages = std::vector<StageTally>;
+  void count_builds(const Frame& frame);
+  void list_motion(const WorldWork& world, Stages& all) const;
+  void list_structures(const WorldWork& world, Stages& all) const;
+  void list_contacts(const WorldWork& world, Stages& all) const;
+  void list_others(const DirectorReport& report, Stages& all) const;
+  void list_pictures(Stages& all) const;
+
+  const Scenario& scenario_;
+  const Work& work_;
+  double seconds_ = 0;  // that passed
+  // The most on one frame.
+  std::uint64_t bodies_ = 0, asleep_ = 0, springs_ = 0, joints_ = 0, textures_ = 0, points_ = 0;
+  std::uint64_t walls_ = 0, sectors_ = 0;  // of the level, once it is compiled
+  std::uint64_t solid_ = 0;                // 3D frames
+  // Frames with what a panel shows, by its place in the list.
+  std::map<std::pair<std::size_t, std::string_view>, std::uint64_t> with_;
+  std::map<StructureKind, std::uint64_t> builds_;
+  std::uint64_t builds_of_several_ = 0;  // kinds, in one step
+  std::uint64_t builds_before_ = 0;      // of the frame that is seen
+};
+
+}  // namespace lantern::run

@@ -1,0 +1,165 @@
+// What the verbs about the structure and what it finds do: `rebuild`, `sweep` and `compare`; `ray`,
+// `cull` and `query`; `test_shapes`, `separate` and `gjk`.
+#include <algorithm>
+#include <set>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "run/event_text.hpp"
+#include "run/running_finding.hpp"
+#include "run/script_run.hpp"
+
+namespace lantern::run {
+namespace {
+
+double begin_of(const FrameBody& body, int axis) {
+  return body.stored_box.value_or(body.box).lo[axis];
+}
+
+// In the order of the sweep.
+std::vector<BodyId> in_order(const Frame& frame) {
+  std::vector<const FrameBody*> bodies;
+  for (const FrameBody& body : frame.bodies) bodies.push_back(&body);
+  std::ranges::sort(bodies, {}, [&](const FrameBody* body) {
+    return std::pair(begin_of(*body, frame.get<FrameStructure>().sweep_axis), body->id);
+  });
+  std::vector<BodyId> order;
+  for (const FrameBody* body : bodies) order.push_back(body->id);
+  return order;
+}
+
+// With what of those that begin later, and before it ends, it was compared.
+std::string text_of(const std::string& name, const std::vector<std::string>& others) {
+  if (others.empty()) return fmt::format("Nobody begins before {} ends: nothing to compare.", name);
+  return fmt::format("Before {} ends, {} begin{}: {} to compare.", name, fmt::join(others, " and "),
+                     others.size() == 1 ? "s" : "",
+                     others.size() == 1 ? "1 pair" : fmt::format("{} pairs", others.size()));
+}
+
+// One frame for each thing that the walk did, of which each knows what was found up to it.
+void replay(const Finding& whole, ScriptRun& run) {
+  using Kind = QueryEvent::Kind;
+  FrameMaker& frames = run.frames;
+  const std::vector<QueryEvent>& walk = whole.walk;
+  RunningFinding running(whole);
+  for (std::size_t i = 0; i < walk.size() && !frames.stopped(); ++i) {
+    const QueryEvent& event = walk[i];
+    const bool of_static = running.is_of_static();
+    running.go_on();
+    const bool hit = i + 1 < walk.size() && walk[i + 1].kind == Kind::hit;
+    if (hit) running.go_on(), ++i;  // told with its test
+    const bool is_test = event.kind == Kind::test;
+    const std::string_view name =
+        is_test ? (hit ? "hit" : "miss") : (event.kind == Kind::visit ? "visit" : "skip");
+    if (!frames.wanted(name)) continue;
+    frames.show_finding(running.so_far());
+    Touched now = running.touched();
+    if (event.kind != Kind::skip && !of_static) now.lit.insert(event.node);
+    frames.emit(now, name,
+                query_text(name, run.engine().label_of(event.node), run.name_of(event.body)),
+                is_test ? std::optional(event.body) : std::nullopt);
+  }
+}
+
+void answer(Finding finding, std::string_view verb, ScriptRun& run) {
+  if (run.frames.by_event()) replay(finding, run);
+  RunningFinding all(finding);
+  for (std::size_t i = 0; i < finding.walk.size(); ++i) all.go_on();
+  run.frames.touched = all.touched();
+  run.frames.show_finding(std::move(finding));
+  run.frames.settle(verb);
+}
+
+std::string own_name(const ScriptRun& run, std::size_t body) {
+  return run.scenario.bodies[body].name;
+}
+
+}  // namespace
+
+void act(const Rebuild& rebuild, ScriptRun& run) {
+  run.engine().rebuild_as(rebuild.structure);
+  run.frames.settle("rebuild");
+}
+
+void act(const Compare& compare, ScriptRun& run) {
+  FrameComparison::Row found = run.engine().compare(compare.bodies, compare.kinds);
+  found.name = compare.row;
+  run.frames.add_row(std::move(found), compare.verdict);
+  run.frames.settle("compare");
+}
+
+void act(const language::Sweep&, ScriptRun& run) {
+  Frame whole = run.frames.picture(run.frames.touched, "sweep");
+  std::vector<Pair> met;
+  run.engine().each_swept([&](BodyId a, BodyId b) { met.push_back({a, b}); });
+  const auto name_of = [&](BodyId id) { return whole.body_of(id)->name; };
+  std::set<Pair> found;
+  std::size_t next = 0;
+  for (const BodyId at : in_order(whole)) {
+    std::vector<std::string> others;
+    for (; next < met.size() && met[next].a == at; ++next) {
+      found.insert({std::min(at, met[next].b), std::max(at, met[next].b)});
+      others.push_back(name_of(met[next].b));
+    }
+    Frame frame = whole;
+    frame.add<FrameStructure>().swept_to = at;
+    std::erase_if(frame.pairs, [&](const FramePair& p) { return !found.contains(p.pair); });
+    for (FramePair& pair : frame.pairs) pair.lit = pair.pair.a == at || pair.pair.b == at;
+    for (auto& [name, number] : frame.counts) {
+      if (name == "pairs" || name == "pair_tests") number = std::ssize(frame.pairs);
+      if (name == "overlaps") number = std::ranges::count_if(frame.pairs, &FramePair::overlaps);
+    }
+    for (FrameBody& body : frame.bodies) body.lit = body.id == at;
+    frame.caption = text_of(name_of(at), others);
+    run.frames.give(std::move(frame), true);
+  }
+  run.frames.settle("sweep");
+}
+
+void act(const CastRay& ray, ScriptRun& run) { answer(run.engine().ask(ray), "ray", run); }
+void act(const Cull& cull, ScriptRun& run) { answer(run.engine().ask(cull), "cull", run); }
+void act(const Query& query, ScriptRun& run) { answer(run.engine().ask(query), "query", run); }
+
+void act(const TestShapes&, ScriptRun& run) {
+  run.frames.narrow.show(run.engine().test_shapes());
+  run.frames.settle("test_shapes");
+}
+
+void act(const Separate& of, ScriptRun& run) {
+  const FrameSeparation whole = run.engine().separate(of.a, of.b);
+  if (run.frames.by_event() && run.frames.wanted("axis"))
+    for (std::size_t n = 1; n <= whole.axes.size() && !run.frames.stopped(); ++n) {
+      FrameSeparation so_far = whole;
+      so_far.axes.resize(n);
+      so_far.answer.reset();
+      const std::string text = axis_text(so_far, own_name(run, of.a), own_name(run, of.b));
+      run.frames.narrow.show(std::move(so_far));
+      run.frames.emit({}, "axis", text);
+    }
+  run.frames.narrow.show(whole);
+  run.frames.settle("separate");
+}
+
+void act(const SearchDistance& of, ScriptRun& run) {
+  const FrameSearch whole = run.engine().search(of.a, of.b);
+  const auto show = [&](std::size_t steps, bool taken) {
+    const std::string_view event = taken ? "simplex" : "support";
+    if (!run.frames.wanted(event) || run.frames.stopped()) return;
+    FrameSearch so_far = whole;
+    so_far.steps.resize(steps);
+    so_far.taken = taken;
+    so_far.answer.reset();
+    const std::string text = search_text(so_far, own_name(run, of.a), own_name(run, of.b));
+    run.frames.narrow.show(std::move(so_far));
+    run.frames.emit({}, event, text);
+  };
+  for (std::size_t n = 1; run.frames.by_event() && n <= whole.steps.size(); ++n) {
+    show(n, false);
+    if (!whole.steps[n - 1].ends) show(n, true);
+  }
+  run.frames.narrow.show(whole);
+  run.frames.settle("gjk");
+}
+
+}  // namespace lantern::run

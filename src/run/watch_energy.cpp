@@ -1,0 +1,192 @@
+// A warning of energy that grows although nothing drives it.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "physics/energy.hpp"
+#include "physics/mass.hpp"
+#include "run/watcher.hpp"
+
+namespace lantern::run {
+namespace {
+
+// Growth above the least since the last drive, as a part of what the motion has had at most. Good
+// integrators let the energy swing with the step by less than this at any step that is of use.
+constexpr double kMostGrowth = 0.2;
+// To lift all bodies by this part of their thickness is the least that counts: what rests is never
+// quite at rest.
+constexpr double kStir = 0.01;
+
+double mass_of(const BodySpec& body, int dimension) {
+  if (body.mass > 0) return body.mass;
+  return dimension == 2 ? physics::mass_of<2>(in_dimension<2>(body.shape), body.density).mass
+                        : physics::mass_of<3>(body.shape, body.density).mass;
+}
+
+class EnergyWatch : public Watcher {
+ public:
+  EnergyWatch(const Scenario& scenario, bool free) : scenario_(scenario), free_(free) {
+    const WorldSpec& world = scenario.world;
+    for (const BodySpec& body : scenario.bodies)
+      if (body.kind == BodyKind::dynamic_body)
+        motion_.floor += kStir * mass_of(body, world.dimension) * glm::length(world.gravity) *
+                         smallest(body.shape, world.dimension);
+  }
+
+  void begin(const Step& step) override {
+    if (const auto* force = std::get_if<ApplyForce>(&step.verb)) {
+      if (force->force == Vec<3>(0.0))
+        pushed_.erase(force->body);
+      else
+        pushed_.insert(force->body);
+    }
+    if (const auto* bodies = entering(step.verb))
+      for (const std::size_t i : *bodies)
+        if (drives(scenario_.bodies[i])) drivers_.insert(i);
+    if (const auto* remove = std::get_if<Remove>(&step.verb))
+      for (const std::size_t i : remove->bodies) {
+        drivers_.erase(i);
+        pushed_.erase(i);
+      }
+    if (const auto* move = std::get_if<Move>(&step.verb)) {
+      if (scenario_.bodies[move->body].kind == BodyKind::kinematic_body &&
+          (move->velocity.value_or(Vec<3>(0.0)) != Vec<3>(0.0) || move->spin.value_or(0) != 0))
+        drivers_.insert(move->body);
+    }
+    const bool changes =
+        entering(step.verb) || std::holds_alternative<Remove>(step.verb) ||
+        std::holds_alternative<Move>(step.verb) || std::holds_alternative<ApplyForce>(step.verb) ||
+        std::holds_alternative<ApplyImpulse>(step.verb) || std::holds_alternative<Sleep>(step.verb);
+    if (changes) motion_.forget();
+  }
+
+  // Free bodies have no energy on their frames, so it is taken from the world.
+  bool sees_worlds() const override { return free_; }
+  void see_world(const Players<2>& players) override { add(players); }
+  void see_world(const Players<3>& players) override { add(players); }
+
+  void see_frame(const Frame& frame) override {
+    frame_ = frame.index;
+    if (free_) return;
+    count(frame.bodies.size());
+    const auto kinetic = frame.measure("kinetic_energy");
+    const auto potential = frame.measure("potential_energy");
+    if (kinetic && potential) add(*kinetic, *potential, frame.time);
+  }
+
+  std::vector<Diagnostic> warnings() const override {
+    if (!grown_) return {};
+    const WorldSpec& world = scenario_.world;
+    return {warning(
+        scenario_, world.place_of({"integrator", "rotation", "time_step"}),
+        fmt::format("energy grows from {:.4g} J at {:.4g} s to {:.4g} J at {:.4g} s (frame {}), "
+                    "and nothing drives it",
+                    grown_->least, grown_->since, grown_->energy, grown_->time, grown_->frame),
+        fmt::format("give [world] {}a time_step below {:.3g} s", gaining(), world.time_step) +
+            if_meant(scenario_, Warning::energy))};
+  }
+
+ private:
+  struct Growth {
+    double least = 0, since = 0, energy = 0, time = 0;
+    std::uint32_t frame = 0;
+  };
+
+  // What has been seen of the motion.
+  struct Motion {
+    static constexpr double kNone = std::numeric_limits<double>::infinity();
+    double floor = 0;
+    double most_kinetic = 0;  // of the whole run
+    double widest = 0;        // of the potential energy, while nothing drives
+    double least = kNone;     // energy since the last drive, and its time
+    double since = 0;
+    double low = kNone, high = -kNone;  // potential energy since then
+    void forget() { least = low = kNone, high = -kNone; }
+    double scale() const { return most_kinetic + widest + floor; }
+  };
+
+  // The least half size: of a flat body's shape, z is 0.
+  static double smallest(const Shape<3>& shape, int dimension) {
+    const Box<3> box = bounding_box(shape, Vec<3>(0.0));
+    double least = box.hi.x;
+    for (int i = 1; i < dimension; ++i) least = std::min(least, box.hi[i]);
+    return least;
+  }
+
+  static bool drives(const BodySpec& body) {
+    return body.brain != Brain::none || (body.kind == BodyKind::kinematic_body &&
+                                         (body.velocity != Vec<3>(0.0) || body.spin != 0));
+  }
+
+  // Methods that are known to gain, if a body moves or turns by one.
+  std::string gaining() const {
+    const WorldSpec& world = scenario_.world;
+    std::string advice;
+    for (const BodySpec& body : scenario_.bodies) {
+      if (body.kind != BodyKind::dynamic_body) continue;
+      if (body.integrator.value_or(world.integrator) == Integrator::explicit_euler)
+        return "an integrator other than \"explicit_euler\", or ";
+      if (body.rotation.value_or(world.rotation) == RotationMethod::explicit_gyroscopic)
+        advice = "a rotation other than \"explicit_gyroscopic\", or ";
+    }
+    return advice;
+  }
+
+  // In the midst of an insertion, or while bodies enter one after another.
+  void count(std::size_t bodies) {
+    if (bodies != bodies_) motion_.forget();
+    bodies_ = bodies;
+  }
+
+  template <int D>
+  void add(const Players<D>& players) {
+    count(players.world().bodies().size());
+    const Energy now =
+        energy(std::span<const Body<D>>(players.world().bodies()), players.world().forces());
+    add(now.kinetic(), now.potential(), players.world().time());
+  }
+
+  void add(double kinetic, double potential, double time) {
+    if (grown_) return;
+    if (!pushed_.empty() || !drivers_.empty()) return motion_.forget();
+    Motion& m = motion_;
+    const double energy = kinetic + potential;
+    m.most_kinetic = std::max(m.most_kinetic, kinetic);
+    m.low = std::min(m.low, potential);
+    m.high = std::max(m.high, potential);
+    m.widest = std::max(m.widest, m.high - m.low);
+    if (energy < m.least) {
+      m.least = energy;
+      m.since = time;
+    } else if (energy - m.least > kMostGrowth * m.scale()) {
+      grown_ = Growth{m.least, m.since, energy, time, frame_};
+    }
+  }
+
+  const Scenario& scenario_;
+  bool free_;                      // no force, no contact
+  std::set<std::size_t> pushed_;   // bodies upon which a force of the script acts
+  std::set<std::size_t> drivers_;  // bodies that move as they like
+  Motion motion_;
+  std::uint32_t frame_ = 0;
+  std::size_t bodies_ = 0;
+  std::optional<Growth> grown_;
+};
+
+}  // namespace
+
+Watching watch_energy(const Scenario& scenario) {
+  const bool forces = scenario.has_physics();
+  // A free body's energy can grow only by the way it turns.
+  const bool turns = scenario.world.dimension == 3 &&
+                     std::any_of(scenario.bodies.begin(), scenario.bodies.end(),
+                                 [](const BodySpec& body) { return body.spin != 0; });
+  if (!scenario.has_body_of(BodyKind::dynamic_body) || (!forces && !turns)) return nullptr;
+  return std::make_unique<EnergyWatch>(scenario, !forces);
+}
+
+}  // namespace lantern::run
