@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "app/commands/command.hpp"
+#include "rooms.hpp"
 #include "spatial/structure_kind.hpp"
 
 namespace lantern::app {

@@ -244,15 +244,6 @@ void notice_settings(const TableReader& file, Draft& draft) {
 // Of structures that the script never has. Those of a user's own may have any, and one that is
 // compared is set as the one that stands.
 void notice_structures(const TableReader& file, Draft& draft) {
-  using enum StructureKind;
-  static const std::pair<const char*, std::vector<StructureKind>> kSettings[] = {
-      {"capacity", {quadtree, octree, kd_tree, lecture_quadtree}},
-      {"max_depth", {quadtree, octree, kd_tree, lecture_quadtree}},
-      {"children", {quadtree, octree}},
-      {"no_progress_stop", {quadtree, octree}},
-      {"cell", {grid}},
-      {"levels", {grid}},
-      {"open", {grid}}};
   const ScenarioSpec& s = draft.scenario;
   for (const Step& step : s.steps)
     if (std::holds_alternative<Compare>(step.verb)) return;
@@ -262,15 +253,15 @@ void notice_structures(const TableReader& file, Draft& draft) {
   for (std::size_t i = 0; i < steps.size(); ++i)
     if (std::holds_alternative<Rebuild>(s.steps[i].verb)) tables.push_back(steps[i]);
   IdleKeys keys;
-  for (const auto& [key, kinds] : kSettings) {
+  for (const Setting setting : kSettings) {
     const auto has = [&](const StructureSpec* one) {
-      return one->kind >= own || std::ranges::find(kinds, one->kind) != kinds.end();
+      return one->kind >= StructureKind::own || traits_of(one->kind).has(setting);
     };
     if (std::ranges::any_of(all, has)) continue;
     for (const TomlValue* table : tables)
-      keys.see(*table, {key},
+      keys.see(*table, {to_string(setting)},
                {"no structure here has it",
-                fmt::format("take kind = \"{}\"", to_string(kinds.front()))});
+                fmt::format("take kind = \"{}\"", to_string(kinds_with(setting).front()))});
   }
   keys.tell(draft);
 }

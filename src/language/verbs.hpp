@@ -1,5 +1,5 @@
 // The script's verbs as values. How one is read from its keys stands in script/verbs_of_*.cpp, and
-// what it does in scenario/verb_*.cpp. A new verb is a struct here, a place in the list below, and
+// what it does in run/verb_*.cpp. A new verb is a struct here, a place in the list below, and
 // these two.
 #pragma once
 

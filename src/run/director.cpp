@@ -60,9 +60,10 @@ void ScriptRun::witness(const Event& event) {
 
 EventWatch ScriptRun::watch_of_insertion() {
   if (!frames.by_event()) return {};
-  const Bits told = traits_of(engine().structure().kind).tells;
-  for (int kind = 0; kind <= static_cast<int>(Event::Kind::leave); ++kind)
-    if ((told >> kind & 1u) != 0 && frames.wanted(event_name(static_cast<Event::Kind>(kind))))
+  const StructureTraits& traits = traits_of(engine().structure().kind);
+  for (int i = 0; i <= static_cast<int>(EventKind::leave); ++i)
+    if (const auto kind = static_cast<EventKind>(i);
+        traits.tells_of(kind) && frames.wanted(event_name(kind)))
       return [this](const Event& event) { witness(event); };
   return {};
 }

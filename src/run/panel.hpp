@@ -5,11 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "frame/frame.hpp"
 #include "language/panel.hpp"
-
-namespace lantern::frame {
-struct Frame;
-}
 
 namespace lantern::run {
 

@@ -268,9 +268,14 @@ TEST(Notices, OfSettingsOfStructuresThatTheScriptNeverHas) {
     }
     expect_quiet(structure(kind + "capacity = 2\nmax_depth = 3\n"));
   }
-  for (const std::string key : {"capacity = 2", "max_depth = 3", "cell = 1", "open = true"})
+  for (const std::string key :
+       {"capacity = 2", "max_depth = 3", "cell = 1", "open = true", "margin = 0"})
     expect_notice(structure("kind = \"none\"\n@" + key + "\n"),
                   "'" + key.substr(0, key.find(' ')) + "' changes nothing", "settings");
+  expect_notice(structure("kind = \"quadtree\"\n@margin = 0\n"),
+                "'margin' changes nothing: no structure here has it", "settings");
+  expect_quiet(structure("kind = \"quadtree\"\nmargin = 0\n",
+                         "[[step]]\ndo = \"rebuild\"\nkind = \"aabb_tree\"\n"));
   expect_notice(
       structure("kind = \"kd_tree\"\n", "[[step]]\ndo = \"rebuild\"\n@children = \"eager\"\n"),
       "'children' changes nothing", "settings");

@@ -232,7 +232,7 @@ void draw_ledger(const Frame& frame, const Staging& staging, const Box<2>& panel
 }  // namespace
 
 // The pair ledger: a triangle with a cell for each pair of bodies, marked by how far the pair came
-// from all pairs to contacts (scenario/pair_state.hpp), and under it or in its free corner how many
+// from all pairs to contacts (frame/pair_state.hpp), and under it or in its free corner how many
 // are in each state; together they are all. Bodies stand on the triangle's edge, in the scenario's
 // order. Of many bodies a density takes the place of the cells.
 PanelView ledger_panel() { return {.name = "ledger", .draw = draw_ledger, .weight = 1.1}; }

@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "draw/body_shapes.hpp"
+#include "draw/keys.hpp"
 #include "draw/number_text.hpp"
 #include "draw/pen.hpp"
 #include "draw/world/world3d_parts.hpp"
