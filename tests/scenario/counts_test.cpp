@@ -26,6 +26,10 @@ void expect_as_ruled(const Scenario& scenario, const std::vector<Frame>& frames)
         EXPECT_EQ(last.number(std::string(count.name)).has_value(),
                   why_not_counted(count, past).empty())
             << count.name << " in step " << i + 1 << " of " << scenario.name;
+    for (const auto& [name, n] : last.counts)
+      EXPECT_NE(find_in(known_counts(), name), nullptr) << name << " has no row";
+    for (const auto& [name, n] : last.measures)
+      EXPECT_NE(find_in(known_measures(), name), nullptr) << name << " has no row";
   }
 }
 
