@@ -180,6 +180,22 @@ TEST(Rooms, NameNoStructureButWhereItIsMeant) {
   EXPECT_GT(named, 0u) << "the search found nothing: is it broken?";
 }
 
+// Whoever has read these files knows Lantern: so many lines can be read in a day.
+TEST(Rooms, HaveASpineThatIsReadInADay) {
+  std::ifstream spine(repository("src/SPINE"));
+  std::size_t lines = 0, files = 0;
+  for (std::string line; std::getline(spine, line);) {
+    const std::string file = line.substr(0, line.find(' '));
+    if (file.empty() || file == "#") continue;
+    const std::string text = read_text(repository("src/" + file));
+    EXPECT_FALSE(text.empty()) << "src/SPINE names " << file;
+    lines += static_cast<std::size_t>(std::ranges::count(text, '\n'));
+    ++files;
+  }
+  EXPECT_GT(files, 20u) << "the search found next to none: is it broken?";
+  EXPECT_LE(lines, 6000u);
+}
+
 // src/SIZE grants each room so many lines: what goes beyond is taken out elsewhere, or a raise of
 // that file says why. What a room no longer needs it does not keep.
 TEST(Rooms, AreAsLargeAsTheyWereGranted) {
