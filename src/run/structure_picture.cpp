@@ -78,6 +78,7 @@ std::string settings_text(const StructureSpec& s, int sweep_axis) {
     return fmt::format(
         "a leaf for each body, {}{}",
         s.margin > 0 ? fmt::format("boxes enlarged by {}", s.margin) : "boxes not enlarged", split);
+  if (!traits.has(Setting::capacity)) return std::string(traits.words) + split;
   const std::string limits = fmt::format("capacity {}, depth limit {}", s.capacity, s.max_depth);
   if (traits.is_own) return fmt::format("{}, {}{}, events inferred", traits.words, limits, split);
   if (traits.is_plain) return "the lecture's own code, " + limits + split;
