@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/check.hpp"
+#include "base/own_name.hpp"
 #include "language/language.hpp"
 #include "language/reference.hpp"
 #include "language/tables/draft.hpp"
@@ -197,13 +198,8 @@ std::vector<Panel> derived_panels(std::span<const Draft* const> drafts) {
 }
 
 void add_panel(PanelKind kind) {
-  const bool written_well = !kind.name.empty() && std::ranges::all_of(kind.name, [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
-  });
-  if (!written_well)
-    throw Refused(fmt::format("panel '{}': a name is of a–z, 0–9 and _", kind.name));
-  if (std::ranges::count(kinds(), kind.name, &PanelKind::name) > 0)
-    throw Refused(fmt::format("panel '{}': there is one of this name already", kind.name));
+  require_own_name("panel", kind.name,
+                   std::ranges::count(kinds(), kind.name, &PanelKind::name) > 0);
   kinds().push_back(std::move(kind));
 }
 

@@ -21,8 +21,9 @@ double begin_of(const FrameBody& body, int axis) {
 std::vector<BodyId> in_order(const Frame& frame) {
   std::vector<const FrameBody*> bodies;
   for (const FrameBody& body : frame.bodies) bodies.push_back(&body);
+  const int axis = frame.get<FrameStructure>().sweep_axis;
   std::ranges::sort(bodies, {}, [&](const FrameBody* body) {
-    return std::pair(begin_of(*body, frame.get<FrameStructure>().sweep_axis), body->id);
+    return std::pair(begin_of(*body, axis), body->id);
   });
   std::vector<BodyId> order;
   for (const FrameBody* body : bodies) order.push_back(body->id);

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/own_name.hpp"
 #include "spatial/own/own_tree.hpp"
 #include "spatial/query.hpp"
 #include "spatial/structure_of.hpp"
@@ -54,23 +55,13 @@ const Own* own(StructureKind kind) {
   return &own_kinds().at(static_cast<std::size_t>(kind) - kFirstOwn);
 }
 
-void require_name(const std::string& name) {
-  const bool written_well = !name.empty() && std::ranges::all_of(name, [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
-  });
-  if (!written_well)
-    throw Refused(fmt::format("structure '{}': a name is of a–z, 0–9 and _", name));
-  if (structure_named(name))
-    throw Refused(fmt::format("structure '{}': there is one of this name already", name));
-}
-
 }  // namespace
 
 // --- kinds ---
 
 void know_own_structures(std::vector<OwnKind> kinds) {
   for (OwnKind& kind : kinds) {
-    require_name(kind.name);
+    require_own_name("structure", kind.name, structure_named(kind.name).has_value());
     if (kind.words.empty()) kind.words = kind.name;
     Own& own = own_kinds().emplace_back(Own{std::move(kind), {}});
     own.traits = {.words = own.kind.words,

@@ -34,8 +34,13 @@ using CellsOfSlot = std::map<std::uint32_t, std::vector<const FrameNode*>>;
 class GridView {
  public:
   GridView(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
-      : frame_(frame), panel_(panel), list_(list), labels_(labels), bodies_(by_id(frame.bodies)) {
-    levels_.resize(frame.get<FrameStructure>().grid_levels.size());
+      : frame_(frame),
+        structure_(frame.get<FrameStructure>()),
+        panel_(panel),
+        list_(list),
+        labels_(labels),
+        bodies_(by_id(frame.bodies)) {
+    levels_.resize(structure_.grid_levels.size());
     std::vector<std::size_t> level(frame.nodes.size());
     for (std::size_t i = 1; i < frame.nodes.size(); ++i) {
       const FrameNode& node = frame.nodes[i];
@@ -44,23 +49,21 @@ class GridView {
       if (node.slot == kGridLarge)
         large_ = &node;
       else
-        levels_[level[i]]
-               [frame.get<FrameStructure>().hashed ? frame.nodes[node.parent].slot : node.slot]
-                   .push_back(&node);
+        levels_[level[i]][structure_.hashed ? frame.nodes[node.parent].slot : node.slot].push_back(
+            &node);
     }
   }
 
   void draw() {
     if (large_) draw_large();
     double rows = 0;
-    for (const GridExtent& extent : frame_.get<FrameStructure>().grid_levels)
+    for (const GridExtent& extent : structure_.grid_levels)
       rows += static_cast<double>(extent.rows);
     const auto levels = static_cast<double>(levels_.size());
     const double room = panel_.size().y - levels * (kGridHeading + kGridBetween);
     double y = panel_.lo.y;
     for (std::size_t i = 0; i < levels_.size(); ++i) {
-      const double share =
-          static_cast<double>(frame_.get<FrameStructure>().grid_levels[i].rows) / rows;
+      const double share = static_cast<double>(structure_.grid_levels[i].rows) / rows;
       const Box<2> place{{panel_.lo.x, y}, {panel_.hi.x, y + kGridHeading + share * room}};
       y = draw_level(i, place) + kGridBetween;
     }
@@ -70,13 +73,13 @@ class GridView {
   std::string heading_of(const GridExtent& extent) const {
     const auto all = number_text(static_cast<double>(extent.columns * extent.rows));
     const std::string size = levels_.size() > 1 ? fmt::format("cells of {:g}: ", extent.side) : "";
-    return size + (frame_.get<FrameStructure>().hashed ? fmt::format("a table of {} buckets", all)
-                                                       : fmt::format("one array of {} cells", all));
+    return size + (structure_.hashed ? fmt::format("a table of {} buckets", all)
+                                     : fmt::format("one array of {} cells", all));
   }
 
   // Where it ends.
   double draw_level(std::size_t level, const Box<2>& place) {
-    const GridExtent& extent = frame_.get<FrameStructure>().grid_levels[level];
+    const GridExtent& extent = structure_.grid_levels[level];
     const TextStyle style{kLabel, Weight::semibold, Role::ink};
     labels_.add(shortened(heading_of(extent), place.size().x, style),
                 {{place.lo.x, place.lo.y + 0.8 * style.size}, 0}, style, panel_);
@@ -207,6 +210,7 @@ class GridView {
   }
 
   const Frame& frame_;
+  const FrameStructure& structure_;
   Box<2> panel_;
   DrawList& list_;
   Labels& labels_;
