@@ -50,6 +50,12 @@ std::vector<std::string> all_files() {
   return names;
 }
 
+std::string test_name_of_file(const testing::TestParamInfo<std::string>& file) {
+  std::string name = file.param;
+  std::ranges::replace(name, '/', '_');
+  return name;
+}
+
 const Frame& at(const std::vector<Frame>& frames, const std::string& event) {
   const auto found = std::find_if(frames.begin(), frames.end(),
                                   [&](const Frame& frame) { return frame.event == event; });

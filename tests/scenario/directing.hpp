@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "run/director.hpp"
 
 namespace lantern::run {
@@ -19,6 +21,9 @@ std::vector<Frame> frames_of(const std::string& name, Pace pace = Pace::step);
 Scenario shipped(const std::string& name);
 std::vector<std::string> all_scenarios();
 std::vector<std::string> all_files();  // scenarios and problems, by names for `shipped`
+
+// What a test of one of `all_files` is called.
+std::string test_name_of_file(const testing::TestParamInfo<std::string>& file);
 
 // The first frame of this event, the node of this label, the body of this name; the test fails if
 // there is none.

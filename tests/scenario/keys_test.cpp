@@ -46,7 +46,7 @@ const std::string kMeasured =
 const std::string kPlot = "plot = \"a\"\n";
 const std::string kTitle = "title = \"x\"\n";
 
-std::map<std::string, Surroundings> surroundings() {
+std::map<std::string, Surroundings> make_surroundings() {
   const std::string world = kTitle + kWorld;
   const std::string scene = world + kTree + kRed;
   const std::string pink = "[[body]]\nname = \"pink\"\nradius = 1\nposition = [9, 1]\n";
@@ -188,9 +188,14 @@ std::map<std::string, Surroundings> surroundings() {
 
 // The scenario with `key = value`, and without the keys of `without`. The value is marked with @
 // for each of `marks`, counted from its first letter.
+const std::map<std::string, Surroundings>& surroundings() {
+  static const std::map<std::string, Surroundings> all = make_surroundings();
+  return all;
+}
+
 std::string with(const std::string& table, const std::string& key, const std::string& value,
                  const std::vector<std::string>& without = {}) {
-  const Surroundings s = surroundings().at(table);
+  const Surroundings& s = surroundings().at(table);
   std::string text = s.before;
   bool done = false;
   for (const auto& [k, v] : s.lines) {
@@ -203,7 +208,7 @@ std::string with(const std::string& table, const std::string& key, const std::st
 }
 
 std::string without_key(const std::string& table, const std::string& key) {
-  const Surroundings s = surroundings().at(table);
+  const Surroundings& s = surroundings().at(table);
   std::string text = s.before;
   for (const auto& [k, v] : s.lines)
     if (k != key) text += k + " = " + v + "\n";

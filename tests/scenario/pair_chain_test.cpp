@@ -44,36 +44,35 @@ struct Expected {
 class Chain {
  public:
   Chain(const Scenario& scenario, const Frame& frame) : frame_(frame) {
-    for (const BodySpec& spec : scenario.bodies) spec_of_[spec.name] = &spec;
-    for (const FrameBody& body : frame.bodies) by_id_[body.id] = &body;
+    std::map<std::string_view, const BodySpec*> spec_of;
+    for (const BodySpec& spec : scenario.bodies) spec_of[spec.name] = &spec;
+    for (const FrameBody& body : frame.bodies) {
+      if (body.id >= known_.size()) known_.resize(body.id + 1);
+      const BodySpec& spec = *spec_of.at(body.name);
+      known_[body.id] = {&body, spec.kind, stirs(body, spec)};
+    }
     for (const LinkSpec& link : scenario.links)
       if (link.kind != LinkSpec::Kind::spring && link.b)
         joined_.insert(std::minmax(scenario.bodies[link.a].name, scenario.bodies[*link.b].name));
   }
 
-  const FrameBody& body(BodyId id) const { return *by_id_.at(id); }
-  bool knows(BodyId id) const { return by_id_.contains(id); }
+  const FrameBody& body(BodyId id) const { return *known_.at(id).body; }
 
   // Moves now.
-  bool stirs(BodyId id) const {
-    const FrameBody& b = body(id);
-    if (b.is_static) return false;
-    if (kind(id) == BodyKind::dynamic_body) return !b.asleep;
-    return b.velocity != Vec<3>(0.0) || spec_of_.at(b.name)->spin != 0;
-  }
+  bool stirs(BodyId id) const { return known_.at(id).stirs; }
 
   // Does the narrow phase look at such a pair at all?
   bool is_tested(const Pair& pair) const {
-    const bool dynamic =
-        kind(pair.a) == BodyKind::dynamic_body || kind(pair.b) == BodyKind::dynamic_body;
+    const bool dynamic = known_.at(pair.a).kind == BodyKind::dynamic_body ||
+                         known_.at(pair.b).kind == BodyKind::dynamic_body;
     return dynamic && !joined_.contains(std::minmax(body(pair.a).name, body(pair.b).name));
   }
 
   Box<3> stored(BodyId id) const { return body(id).stored_box.value_or(body(id).box); }
 
   Expected expected() const {
-    std::map<Pair, std::int64_t> met;
-    const auto meet = [&](BodyId a, BodyId b) { ++met[{std::min(a, b), std::max(a, b)}]; };
+    std::vector<Pair> met;  // as often as they meet
+    const auto meet = [&](BodyId a, BodyId b) { met.push_back({std::min(a, b), std::max(a, b)}); };
     std::set<BodyId> of_static;
     for (const FrameNode& node : frame_.nodes)
       if (node.of_static) of_static.insert(node.bodies.begin(), node.bodies.end());
@@ -101,7 +100,17 @@ class Chain {
   }
 
  private:
-  BodyKind kind(BodyId id) const { return spec_of_.at(body(id).name)->kind; }
+  struct Known {
+    const FrameBody* body = nullptr;
+    BodyKind kind{};
+    bool stirs = false;
+  };
+
+  static bool stirs(const FrameBody& body, const BodySpec& spec) {
+    if (body.is_static) return false;
+    if (spec.kind == BodyKind::dynamic_body) return !body.asleep;
+    return body.velocity != Vec<3>(0.0) || spec.spin != 0;
+  }
 
   // A cell at the rim of a quadtree or octree reaches outward without end.
   bool reaches(const Box<3>& box, const FrameNode& leaf) const {
@@ -112,15 +121,14 @@ class Chain {
     return overlap(box, endless_at_rim(leaf.box, root->box, 0));
   }
 
-  Expected summed(const std::map<Pair, std::int64_t>& met) const {
-    Expected all;
-    if (frame_.structure == StructureKind::sort_and_sweep) return swept(met);
+  Expected summed(std::vector<Pair>& met) const {
     if (frame_.structure == StructureKind::grid) return of_grid();
-    std::int64_t times = 0;
-    for (const auto& [pair, n] : met) {
-      times += n;
-      add(all, pair);
-    }
+    const auto times = static_cast<std::int64_t>(met.size());
+    std::ranges::sort(met);
+    met.erase(std::unique(met.begin(), met.end()), met.end());
+    if (frame_.structure == StructureKind::sort_and_sweep) return swept(met);
+    Expected all;
+    for (const Pair& pair : met) add(all, pair);
     all.met = {times};
     return all;
   }
@@ -142,13 +150,13 @@ class Chain {
   }
 
   // The sweep compares those that overlap on one axis.
-  Expected swept(const std::map<Pair, std::int64_t>& met) const {
+  Expected swept(const std::vector<Pair>& met) const {
     Expected best;
     for (int axis = 0; axis < frame_.dimension; ++axis) {
       Expected all;
-      for (const auto& entry : met) {
-        const Box<3> a = stored(entry.first.a), b = stored(entry.first.b);
-        if (a.lo[axis] <= b.hi[axis] && b.lo[axis] <= a.hi[axis]) add(all, entry.first);
+      for (const Pair& pair : met) {
+        const Box<3> a = stored(pair.a), b = stored(pair.b);
+        if (a.lo[axis] <= b.hi[axis] && b.lo[axis] <= a.hi[axis]) add(all, pair);
       }
       all.met = {std::int64_t(all.pairs.size())};
       std::set<Pair> shown;
@@ -166,8 +174,7 @@ class Chain {
   }
 
   const Frame& frame_;
-  std::map<std::string, const BodySpec*> spec_of_;
-  std::map<BodyId, const FrameBody*> by_id_;
+  std::vector<Known> known_;  // by id
   std::set<std::pair<std::string, std::string>> joined_;
 };
 
@@ -265,13 +272,7 @@ TEST_P(EveryPairChain, OfEachFrameIsThatOfItsNodes) {
   }
 }
 
-std::string name_of_test(const testing::TestParamInfo<std::string>& info) {
-  std::string name = info.param;
-  std::ranges::replace(name, '/', '_');
-  return name;
-}
-
-INSTANTIATE_TEST_SUITE_P(Files, EveryPairChain, testing::ValuesIn(all_files()), name_of_test);
+INSTANTIATE_TEST_SUITE_P(Files, EveryPairChain, testing::ValuesIn(all_files()), test_name_of_file);
 
 }  // namespace
 }  // namespace lantern::run
