@@ -9,6 +9,7 @@
 #include <sstream>
 #include <string>
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
@@ -195,5 +196,17 @@ int Child::finish() {
   listen();
   return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
 }
+
+Library::Library(std::initializer_list<const char*> names) {
+  for (const char* name : names) {
+    name_ = name;
+    handle_ = ::dlopen(name, RTLD_NOW | RTLD_LOCAL);
+    if (handle_) return;
+    const char* why = ::dlerror();
+    problem_ = why ? why : "it cannot be loaded";
+  }
+}
+
+void* Library::symbol(const char* name) const { return handle_ ? ::dlsym(handle_, name) : nullptr; }
 
 }  // namespace lantern

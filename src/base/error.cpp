@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "base/printable.hpp"
-#include "base/utf8.hpp"
 
 namespace lantern {
 namespace {

@@ -1,5 +1,3 @@
-#include "base/streams.hpp"
-
 #include <atomic>
 #include <cerrno>
 #include <cstring>
@@ -15,6 +13,7 @@
 #include <unistd.h>
 
 #include "base/error.hpp"
+#include "base/file.hpp"
 #include "base/stop.hpp"
 
 namespace lantern {

@@ -7,6 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+
 namespace lantern {
 namespace {
 
@@ -66,6 +70,16 @@ std::string with_suggestion(std::string message, std::string_view name,
                             std::span<const std::string_view> candidates, std::size_t most) {
   const std::string hint = suggestion(name, candidates, most);
   return hint.empty() ? message : std::move(message) + "; " + hint;
+}
+
+void require_own_name(std::string_view thing, std::string_view name, bool is_taken) {
+  const bool written_well = !name.empty() && std::ranges::all_of(name, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  });
+  if (!written_well)
+    throw Refused(fmt::format("{} '{}': a name is of a–z, 0–9 and _", thing, name));
+  if (is_taken)
+    throw Refused(fmt::format("{} '{}': there is one of this name already", thing, name));
 }
 
 }  // namespace lantern

@@ -1,4 +1,4 @@
-// Planes in 3D, lines in 2D: the dividers of a binary space partition.
+// Planes in 3D, lines in 2D: the dividers of a binary space partition; and directed segments.
 #pragma once
 
 #include "geometry/box.hpp"
@@ -57,6 +57,32 @@ Reach reach(const Box<D>& box, const Plane<D>& plane) {
     most += std::max(a, b);
   }
   return {least <= plane.offset, most >= plane.offset};
+}
+
+// All points a + t (b - a) with t in [0, 1]; the ends may coincide.
+//
+//        left: in front of the line
+//     a ---------------> b
+//        right: behind it
+template <int D>
+struct Segment {
+  Vec<D> a{0.0};
+  Vec<D> b{0.0};
+
+  Vec<D> at(double t) const { return a + (b - a) * t; }  // t from 0 to 1
+  Vec<D> middle() const { return at(0.5); }
+  bool operator==(const Segment&) const = default;
+};
+
+template <int D>
+double length(const Segment<D>& s) {
+  return glm::length(s.b - s.a);
+}
+
+// The line through a segment that is not a point: its normal has unit length and points left.
+inline Plane<2> line_of(const Segment<2>& s) {
+  const Vec<2> along = (s.b - s.a) / length(s);
+  return Plane<2>::through(s.a, {-along.y, along.x});
 }
 
 }  // namespace lantern::geometry

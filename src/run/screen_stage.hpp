@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "atlas/binder.hpp"
+#include "atlas/atlas.hpp"
 #include "frame/frame.hpp"
 
 namespace lantern::run {

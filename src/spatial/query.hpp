@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "geometry/frustum.hpp"
 #include "geometry/ray.hpp"
 #include "spatial/structure.hpp"
 

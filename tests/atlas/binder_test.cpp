@@ -1,6 +1,4 @@
 // Draws that are sorted by image paint the same picture, and bind less often.
-#include "atlas/binder.hpp"
-
 #include <cstdint>
 #include <map>
 #include <set>
@@ -9,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "atlas/atlas.hpp"
 #include "base/random.hpp"
 
 namespace lantern::atlas {

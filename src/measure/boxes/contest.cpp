@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
-#include "base/counted.hpp"
+#include "base/number.hpp"
 #include "base/stop.hpp"
 #include "measure/broad_phase_cost.hpp"
 #include "measure/peer_modules.hpp"
 #include "measure/peers.hpp"
-#include "spatial/pair_order.hpp"
+#include "spatial/box_table.hpp"
 #include "spatial/query.hpp"
 
 namespace lantern::measure {

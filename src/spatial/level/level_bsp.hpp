@@ -25,8 +25,8 @@
 #include <vector>
 
 #include "base/stop.hpp"
+#include "geometry/plane.hpp"
 #include "geometry/polygon.hpp"
-#include "geometry/segment.hpp"
 #include "spatial/structure.hpp"
 
 namespace lantern::spatial {
