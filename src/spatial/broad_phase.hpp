@@ -10,12 +10,38 @@
 #include <string>
 #include <vector>
 
-#include "spatial/pair_order.hpp"
+#include "spatial/box_table.hpp"
 #include "spatial/pair_search.hpp"
 #include "spatial/query.hpp"
-#include "spatial/structure_choice.hpp"
+#include "spatial/structure.hpp"
 
 namespace lantern::spatial {
+
+// Which structure for which bodies: `kind = "auto"`.
+template <int D>
+struct StructureChoice {
+  StructureKind kind = StructureKind::brute_force;
+  StructureConfig<D> config;  // as given, but for what was chosen
+  // "a grid of 2 levels: 1% of 10000 bodies are more than 8 times as large as the median": the
+  // numbers are counted from the bodies.
+  std::string why;
+};
+
+enum class Use {
+  pairs,      // all pairs of bodies whose boxes overlap
+  questions,  // what a ray, a box, a ball meets
+};
+
+// The kind and the settings that are likely to serve these bodies soonest. Depends on the boxes
+// alone; looks at each body once, and at a sample of some thousand pairs.
+template <int D>
+StructureChoice<D> choose_structure(std::span<const Item<D>> items,
+                                    const StructureConfig<D>& config, Use use = Use::pairs);
+
+extern template StructureChoice<2> choose_structure(std::span<const Item<2>>,
+                                                    const StructureConfig<2>&, Use);
+extern template StructureChoice<3> choose_structure(std::span<const Item<3>>,
+                                                    const StructureConfig<3>&, Use);
 
 template <int D>
 struct BroadPhaseConfig : StructureConfig<D> {
@@ -146,7 +172,11 @@ class BroadPhase {
     std::vector<Item<D>> items = {};  // their ids are their places
     std::vector<BodyId> names = {};
     std::vector<ProxyState> states = {};
-    void clear();
+    void clear() {
+      items.clear();
+      names.clear();
+      states.clear();
+    }
     std::size_t places() const { return items.capacity() + names.capacity() + states.capacity(); }
   };
   // A structure and its bodies.
@@ -178,17 +208,14 @@ class BroadPhase {
 
   Store made(std::uint64_t BroadPhaseCounters::*builds);
   void make_anew(Store& store);
-  bool suits(const Store& store, Use use) const;
   void choose(Store& store, Use use);
   template <class F>
   void all_or_nothing(F&& change);
   void take(std::span<const Proxy<D>> proxies);
-  std::span<const Proxy<D>> checked(std::span<const Proxy<D>> proxies, bool& same_bodies);
   void move(std::span<const Proxy<D>> proxies);
   void replace(std::span<const Proxy<D>> proxies);
   void forget();
   void build(Store& store, Use use = Use::pairs, const Watch& watch = {});
-  bool mended(Store& store, const Watch& watch);
   void put(Store& store, const Proxy<D>& proxy, const Watch& watch);
   static Watch naming(const Store& store, const Watch& watch);
   template <class F>
@@ -196,10 +223,8 @@ class BroadPhase {
   void empty(Store& store);
   void find_pairs();
   void pair_static();
-  void name_by_rank();
   void require_room(BodyId number, std::size_t pairs) const;
   [[noreturn]] void refuse_more(BodyId number) const;
-  std::uint64_t structure_allocations() const;
   std::size_t own_places() const;
 
   Config config_;
@@ -222,5 +247,36 @@ class BroadPhase {
 
 extern template class BroadPhase<2>;
 extern template class BroadPhase<3>;
+
+// What a kind of structure does for the same bodies, counted: for whoever compares kinds. A unit is
+// one comparison of a box, with a node, a plane, a bin of a cut or another box; a row of a grid's
+// cells that is looked up, and a body that is put into its cell, count as one, too. No time is
+// measured: what counts and clocks say may differ, but counts are the same on every machine.
+struct StructureWork {
+  std::uint64_t build = 0;     // to build the structures of all bodies for the first time
+  std::uint64_t renew = 0;     // in the step that follows, to mend them or build anew what moves
+  std::uint64_t pair = 0;      // in the same step, to find the pairs
+  std::uint64_t pairs = 0;     // bodies that were compared with each other, each pair once
+  std::uint64_t overlaps = 0;  // of these, whose boxes overlap: every kind finds the same
+
+  std::uint64_t step() const { return renew + pair; }
+
+  static decltype(auto) fields(const auto& r, auto&& v) {
+    return v("build", r.build)("renew", r.renew)("pair", r.pair)("pairs", r.pairs)("overlaps",
+                                                                                   r.overlaps);
+  }
+};
+
+// The broad phase of these settings, with bodies as they are before a step and after it: the same
+// ids. What never moves has a structure of its own, which is built once. The pairs of what nobody
+// looks at come from vector instructions that compare more boxes than this in less time; counted is
+// the plain way, which frames show. Throws Refused as BroadPhase does, and beyond `most` pairs.
+template <int D>
+StructureWork structure_work(BroadPhaseConfig<D> config, std::span<const Proxy<D>> before,
+                             std::span<const Proxy<D>> after, std::uint64_t most);
+
+// Whether all that the kind does is counted: not of `none` and `automatic`, of the lecture's own
+// code, and of structures that a program was given.
+bool counts_its_work(StructureKind kind);
 
 }  // namespace lantern::spatial

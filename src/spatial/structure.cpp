@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "base/own_name.hpp"
-#include "spatial/own/own_tree.hpp"
+#include "base/suggest.hpp"
+#include "spatial/own_structure.hpp"
 #include "spatial/query.hpp"
 #include "spatial/structure_of.hpp"
 

@@ -1,5 +1,3 @@
-#include "spatial/structure_choice.hpp"
-
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"

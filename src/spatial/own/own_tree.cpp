@@ -1,5 +1,3 @@
-#include "spatial/own/own_tree.hpp"
-
 #include <algorithm>
 #include <exception>
 #include <utility>
@@ -8,6 +6,7 @@
 
 #include "base/stop.hpp"
 #include "spatial/own/own_view.hpp"
+#include "spatial/own_structure.hpp"
 #include "spatial/structure_of.hpp"
 
 namespace lantern::spatial {
