@@ -132,13 +132,12 @@ struct FloatRay {
 struct BlockBits {
   std::uint32_t maybe = 0, surely = 0;
 };
-BlockBits reached_in_block(const BoxTable<2>& table, std::uint32_t first, const AabbNode<2>& asked);
-BlockBits reached_in_block(const BoxTable<3>& table, std::uint32_t first, const AabbNode<3>& asked);
+template <int D>
+BlockBits reached_in_block(const BoxTable<D>& table, std::uint32_t first, const AabbNode<D>& asked);
 
 // The same of those that the ray may meet before `limit`.
-std::uint32_t met_in_block(const BoxTable<2>& table, std::uint32_t first, const FloatRay<2>& ray,
-                           float limit);
-std::uint32_t met_in_block(const BoxTable<3>& table, std::uint32_t first, const FloatRay<3>& ray,
+template <int D>
+std::uint32_t met_in_block(const BoxTable<D>& table, std::uint32_t first, const FloatRay<D>& ray,
                            float limit);
 
 // --- ways ---
