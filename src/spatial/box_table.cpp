@@ -50,17 +50,16 @@ namespace {
 
 // Room is made for the next run at least; a run that does not fit waits for more.
 template <int D>
-void scan_part(const BoxTable<D>& queries, const BoxTable<D>& table, std::span<const Item<D>> exact,
-               std::span<const ScanRun> runs, FoundPairs& found) {
-  while (!runs.empty()) {
+void scan_part(ScanTask<D> task, FoundPairs& found) {
+  while (!task.runs.empty()) {
     stop_if_asked();
-    const std::size_t next = runs.front().to - runs.front().from;
-    found.reserve(found.size() + next + BoxTable<D>::kPadding, queries.id(runs.front().query));
-    const ScanTask<D> task{queries, table, exact, runs};
+    const ScanRun& next = task.runs.front();
+    found.reserve(found.size() + (next.to - next.from) + BoxTable<D>::kPadding,
+                  task.queries.id(next.query));
     const ScanDone done = scan_runs(task, {found.first().data(), found.second().data()},
                                     found.size(), found.reserved() - BoxTable<D>::kPadding);
     found.resize(done.pairs);
-    runs = runs.subspan(done.runs);
+    task.runs = task.runs.subspan(done.runs);
   }
 }
 
@@ -70,13 +69,13 @@ std::uint64_t work_of(const ScanRun& run) { return 16 + (run.to - run.from); }
 }  // namespace
 
 template <int D>
-void scan(const BoxTable<D>& queries, const BoxTable<D>& table, std::span<const Item<D>> exact,
-          std::span<const ScanRun> runs, FoundPairs& found) {
+void scan(const ScanTask<D>& task, FoundPairs& found) {
+  const std::span<const ScanRun> runs = task.runs;
   constexpr std::uint64_t kWorthAThread = 1 << 20;  // to start one costs some of this
   std::uint64_t work = 0;
   if (found.threads() > 1)
     for (const ScanRun& run : runs) work += work_of(run);
-  if (work < kWorthAThread) return scan_part(queries, table, exact, runs, found);
+  if (work < kWorthAThread) return scan_part(task, found);
   std::vector<std::size_t> begins{0};  // of each part, of as much work as the others
   std::uint64_t sum = 0;
   for (std::size_t i = 0; i < runs.size(); ++i) {
@@ -90,18 +89,17 @@ void scan(const BoxTable<D>& queries, const BoxTable<D>& table, std::span<const 
     part.may_grow_ = found.may_grow_;
   }
   in_parallel(found.threads(), [&](unsigned i) {
-    scan_part(queries, table, exact, runs.subspan(begins[i], begins[i + 1] - begins[i]),
-              i == 0 ? found : found.parts_[i - 1]);
+    ScanTask<D> part = task;
+    part.runs = runs.subspan(begins[i], begins[i + 1] - begins[i]);
+    scan_part(part, i == 0 ? found : found.parts_[i - 1]);
   });
   for (const FoundPairs& part : found.parts_) found.append(part);
 }
 
 template class BoxTable<2>;
 template class BoxTable<3>;
-template void scan(const BoxTable<2>&, const BoxTable<2>&, std::span<const Item<2>>,
-                   std::span<const ScanRun>, FoundPairs&);
-template void scan(const BoxTable<3>&, const BoxTable<3>&, std::span<const Item<3>>,
-                   std::span<const ScanRun>, FoundPairs&);
+template void scan(const ScanTask<2>&, FoundPairs&);
+template void scan(const ScanTask<3>&, FoundPairs&);
 
 namespace {
 

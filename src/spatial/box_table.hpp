@@ -67,6 +67,14 @@ struct ScanRun {
   std::uint32_t to = 0;
 };
 
+template <int D>
+struct ScanTask {
+  const BoxTable<D>& queries;
+  const BoxTable<D>& table;
+  std::span<const Item<D>> exact;
+  std::span<const ScanRun> runs;
+};
+
 // Pairs of bodies by their ids, in two lists side by side.
 class FoundPairs {
  public:
@@ -102,9 +110,7 @@ class FoundPairs {
 
  private:
   template <int D>
-  friend void scan(const BoxTable<D>& queries, const BoxTable<D>& table,
-                   std::span<const Item<D>> exact, std::span<const ScanRun> runs,
-                   FoundPairs& found);
+  friend void scan(const ScanTask<D>& task, FoundPairs& found);
   template <int D>
   friend class RunScanner;
 
@@ -120,8 +126,7 @@ class FoundPairs {
 // Adds (id of the query, id of the place) for each place of each run whose box overlaps the
 // query's, in the order of runs and places. `exact[id]` is the body with that id, in both tables.
 template <int D>
-void scan(const BoxTable<D>& queries, const BoxTable<D>& table, std::span<const Item<D>> exact,
-          std::span<const ScanRun> runs, FoundPairs& found);
+void scan(const ScanTask<D>& task, FoundPairs& found);
 
 // Collects runs of one table against itself or another, and scans them some thousands at a time.
 template <int D>
@@ -142,7 +147,7 @@ class RunScanner {
   }
   // To be called after the last run.
   void finish() {
-    scan<D>(queries_, table_, exact_, std::span(found_.runs_).first(count_), found_);
+    scan<D>({queries_, table_, exact_, std::span(found_.runs_).first(count_)}, found_);
     count_ = 0;
   }
   // Boxes with boxes, so far.
@@ -159,14 +164,6 @@ class RunScanner {
 
 // --- the inner loop of all candidate pairs (box_vectors.cpp) ---
 
-template <int D>
-struct ScanTask {
-  const BoxTable<D>& queries;
-  const BoxTable<D>& table;
-  std::span<const Item<D>> exact;
-  std::span<const ScanRun> runs;
-};
-
 struct ScanRoom {
   BodyId* first;
   BodyId* second;
@@ -179,9 +176,8 @@ struct ScanDone {
 
 // Writes behind `begin` pairs, and ends before a run that might find more than up to `end`. What
 // lies up to BoxTable::kPadding places behind the last pair is overwritten.
-ScanDone scan_runs(const ScanTask<2>& task, const ScanRoom& room, std::size_t begin,
-                   std::size_t end);
-ScanDone scan_runs(const ScanTask<3>& task, const ScanRoom& room, std::size_t begin,
+template <int D>
+ScanDone scan_runs(const ScanTask<D>& task, const ScanRoom& room, std::size_t begin,
                    std::size_t end);
 
 // --- how a float is rounded ---

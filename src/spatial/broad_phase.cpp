@@ -209,7 +209,6 @@ void BroadPhase<D>::choose(Store& store, Use use) {
   store.chosen_use = use;
   store.chosen_for = bodies;
   store.tests = store.chosen_tests = 0;
-  store.why = std::move(choice.why);
   store.only_moved = false;
   store.kind = choice.kind;
   store.settings = std::move(choice.config);

@@ -128,10 +128,9 @@ class BroadPhase {
   void insert(std::span<const Proxy<D>> proxies, const Watch& watch = {});
   void insert(const Proxy<D>& proxy, const Watch& watch) { insert(std::span(&proxy, 1), watch); }
 
-  // Of the dynamic structure: as configured or, of `automatic`, what it is now, and why.
+  // Of the dynamic structure: as configured or, of `automatic`, what it is now.
   StructureKind kind() const { return dynamic_.kind; }
   const StructureConfig<D>& settings() const { return dynamic_.settings; }
-  const std::string& why() const { return dynamic_.why; }
 
   // What an update would find in the structures as they stand, bodies with `awake(id)` moving. At
   // most `most` pairs of each kind: throws Refused beyond.
@@ -185,7 +184,6 @@ class BroadPhase {
     std::uint64_t BroadPhaseCounters::*builds;
     StructureKind kind;
     StructureConfig<D> settings;  // the depth at most as configured
-    std::string why = {};         // it was chosen
     Use chosen_use = Use::pairs;
     std::size_t chosen_for = 0;             // so many bodies, and
     double chosen_tests = 0;                // so many comparisons a body in the first update after

@@ -10,12 +10,10 @@
 
 #include "base/stop.hpp"
 #include "spatial/box_table.hpp"
+#include "spatial/pairs.hpp"
 #include "spatial/structure.hpp"
 
 namespace lantern::spatial {
-
-// n(n-1)/2
-constexpr std::uint64_t all_pairs(std::uint64_t n) { return n < 2 ? 0 : n * (n - 1) / 2; }
 
 // What is known of a body beside its box.
 struct ProxyState {

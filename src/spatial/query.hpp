@@ -170,9 +170,23 @@ struct VolumeQuery : QueryOf<D> {
   std::vector<BodyId>* found;
 };
 
-// Hits come about in order from what goes front to back: then they are put in order by moving each
-// a little; else, after too many moves, by sorting them.
-void sort_nearly_sorted(std::vector<RayHit>& hits);
+// What is nearly in order is put in order by moving each a little; else, after `most` moves, by
+// sorting it. How many moves it took.
+template <class T, class Before>
+std::size_t sort_nearly_sorted(std::vector<T>& list, std::size_t most, const Before& before) {
+  std::size_t moves = 0;
+  for (std::size_t i = 1; i < list.size(); ++i) {
+    const T one = list[i];
+    std::size_t hole = i;
+    for (; hole > 0 && moves < most && before(one, list[hole - 1]); --hole, ++moves)
+      list[hole] = list[hole - 1];
+    list[hole] = one;
+    if (moves < most) continue;
+    std::sort(list.begin(), list.end(), before);
+    break;
+  }
+  return moves;
+}
 
 template <int D>
 void require_valid(const Box<D>& box) {
@@ -209,7 +223,8 @@ void raycast_all_into(AllHits& all, const std::type_identity_t<StructureView<D>>
   RayQuery<D> query{{of, box_of, told}, ray, hit, &all.hits, {}};
   of.structure->ask(query);
   all.counts = query.counts;
-  sort_nearly_sorted(all.hits);
+  // They come about in order from what goes front to back.
+  sort_nearly_sorted(all.hits, 16 * all.hits.size(), RayHit::before);
 }
 
 template <int D>

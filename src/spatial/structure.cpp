@@ -10,7 +10,6 @@
 #include "base/error.hpp"
 #include "base/suggest.hpp"
 #include "spatial/own_structure.hpp"
-#include "spatial/query.hpp"
 #include "spatial/structure_of.hpp"
 
 namespace lantern::spatial {
@@ -163,17 +162,5 @@ std::string text_of(const OwnFault& fault, const std::function<std::string(BodyI
 StructureFault::StructureFault(OwnFault fault)
     : std::runtime_error(text_of(fault, [](BodyId id) { return fmt::format("body {}", id); })),
       fault_(std::move(fault)) {}
-
-void sort_nearly_sorted(std::vector<RayHit>& hits) {
-  std::size_t moves = 16 * hits.size();
-  for (std::size_t i = 1; i < hits.size(); ++i) {
-    const RayHit hit = hits[i];
-    std::size_t hole = i;
-    for (; hole > 0 && moves > 0 && RayHit::before(hit, hits[hole - 1]); --hole, --moves)
-      hits[hole] = hits[hole - 1];
-    hits[hole] = hit;
-    if (moves == 0) return std::sort(hits.begin(), hits.end(), RayHit::before);
-  }
-}
 
 }  // namespace lantern::spatial

@@ -84,6 +84,11 @@ struct Tour {
   Vec<D> toward{0.0};         // siblings are met as a ray along it meets them; zero: in their order
   std::uint32_t next_id = 0;  // of the next node
 
+  // The next node, but for what is in it.
+  NodeView<D> view(NodeHandle handle, std::uint32_t parent, std::uint32_t slot, std::uint32_t depth,
+                   bool leaf, const Box<D>& box) {
+    return {handle, next_id++, parent, slot, depth, leaf, box};
+  }
   // The ids in ascending order: as they are if they lie so already, else a sorted copy.
   std::span<const BodyId> ascending(std::span<const BodyId> found) {
     if (std::is_sorted(found.begin(), found.end())) return found;

@@ -1,10 +1,9 @@
 // Who sees whom in a level, against lines of sight at random and against each sight's own witness.
-#include "spatial/level/level_visibility.hpp"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
+#include "spatial/level/level_bsp.hpp"
 #include "spatial/level_oracles.hpp"
 #include "spatial/levels.hpp"
 

@@ -203,7 +203,8 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
     Arrangement all;
     for (std::size_t level = 0; level < levels_; ++level) {
       const auto count = [&](std::size_t axis) {
-        return open_ ? table_.buckets(level, axis) : rasters_[level].cells(static_cast<int>(axis));
+        return open_ ? static_cast<std::uint64_t>(table_.level(level).buckets(axis))
+                     : rasters_[level].cells(static_cast<int>(axis));
       };
       all.levels.push_back(
           {rasters_[level].side(), count(0), count(1) * (D == 3 ? count(D - 1) : 1)});

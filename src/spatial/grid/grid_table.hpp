@@ -30,13 +30,9 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
-#include <limits>
 #include <span>
 #include <vector>
 
-#include "base/stop.hpp"
-#include "geometry/box.hpp"
 #include "geometry/not_finite.hpp"
 #include "spatial/box_table.hpp"
 #include "spatial/structure_of.hpp"
@@ -239,13 +235,7 @@ class GridTable : CountsAllocations {
     if (first_large_ < table_.size()) f(first_large_, static_cast<std::uint32_t>(table_.size()));
   }
 
-  std::uint32_t bucket(std::size_t level, const GridCell<D>& cell) const {
-    return levels_[level].bucket(cell);
-  }
-  // Of buckets on an axis of a level.
-  std::uint64_t buckets(std::size_t level, std::size_t axis) const {
-    return static_cast<std::uint64_t>(levels_[level].buckets(axis));
-  }
+  const GridLevel<D>& level(std::size_t level) const { return levels_[level]; }
   const BoxTable<D>& table() const { return table_; }
   std::uint64_t allocations() const { return allocations_; }
 
@@ -258,11 +248,8 @@ class GridTable : CountsAllocations {
       ++allocations_;
       levels_.resize(rasters.size());
     }
-    for (std::size_t i = 0; i < rasters.size(); ++i) {
-      levels_[i] = {};
-      levels_[i].raster = rasters[i];
-      levels_[i].corners = {Vec<D>(kInfinity), Vec<D>(-kInfinity)};
-    }
+    for (std::size_t i = 0; i < rasters.size(); ++i)
+      levels_[i] = {.raster = rasters[i], .corners = {Vec<D>(kInfinity), Vec<D>(-kInfinity)}};
   }
 
   template <class T>
@@ -414,12 +401,9 @@ class GridTable : CountsAllocations {
       return std::max<std::int64_t>(from[axis] - level.reach, 0);
     };
     const std::int64_t x0 = before(0);
-    if constexpr (D == 2) {
-      for (std::int64_t y = from[1] + 1; y <= to[1]; ++y)
-        row_runs(level, level.row(y, 0), x0, to[0], tell);
-    } else {
-      for (std::int64_t y = from[1] + 1; y <= to[1]; ++y)
-        row_runs(level, level.row(y, from[2]), x0, to[0], tell);
+    for (std::int64_t y = from[1] + 1; y <= to[1]; ++y)
+      row_runs(level, level.row(y, D == 3 ? from[D - 1] : 0), x0, to[0], tell);
+    if constexpr (D == 3) {
       for (std::int64_t z = from[2] + 1; z <= to[2]; ++z)
         for (std::int64_t y = before(1); y <= to[1]; ++y)
           row_runs(level, level.row(y, z), x0, to[0], tell);

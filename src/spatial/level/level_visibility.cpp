@@ -1,5 +1,3 @@
-#include "spatial/level/level_visibility.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -8,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/stop.hpp"
+#include "spatial/level/level_bsp.hpp"
 
 namespace lantern::spatial {
 

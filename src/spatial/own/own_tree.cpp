@@ -128,16 +128,10 @@ class OwnFlat final : public StructureOf<OwnFlat, 2> {
     tour.ids.clear();
     for (const BodyId place : view_.bodies(node)) tour.ids.push_back(ids_[place]);
     std::sort(tour.ids.begin(), tour.ids.end());
-    const NodeView<2> view{.handle = node.handle,
-                           .id = tour.next_id++,
-                           .parent = parent,
-                           .slot = node.slot,
-                           .depth = node.depth,
-                           .leaf = node.leaf,
-                           .box = node.box,
-                           .slack = view_.slack(),
-                           .bodies = tour.ids};
-    if (!f(view)) return;
+    NodeView<2> view = tour.view(node.handle, parent, node.slot, node.depth, node.leaf, node.box);
+    view.slack = view_.slack();
+    view.bodies = tour.ids;
+    if (!f(std::as_const(view))) return;
     for (const std::uint32_t child : children_of(index, tour.toward))
       visit_from(child, view.id, tour, f);
   }

@@ -68,7 +68,7 @@ class OwnView::Reader {
     run_own([&] { tree.visit(sink); },
             [&](const std::string& words) {
               if (thrown_) std::rethrow_exception(thrown_);
-              refuse(fmt::format("visit threw: {}", words));
+              refuse("visit threw: {}", words);
             });
     if (thrown_) std::rethrow_exception(thrown_);
     if (nodes_.empty()) refuse("visit told no node; it must tell the root at least");
@@ -77,8 +77,10 @@ class OwnView::Reader {
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& text) const {
-    throw StructureFault({fmt::format("structure '{}': {}", rules_.name, text)});
+  template <class... Args>
+  [[noreturn]] void refuse(fmt::format_string<const Args&...> text, const Args&... args) const {
+    throw StructureFault(
+        {fmt::format("structure '{}': {}", rules_.name, fmt::format(text, args...))});
   }
 
   void take(const OwnNode& told) {
@@ -93,19 +95,18 @@ class OwnView::Reader {
     for (int i = 0; i < 2; ++i)
       if (!std::isfinite(told.box.lo[i]) || !std::isfinite(told.box.hi[i]) ||
           told.box.lo[i] > told.box.hi[i])
-        refuse(fmt::format(
-            "the box of {} goes from {} to {} on axis {}; both must be finite and in this order",
-            where(), told.box.lo[i], told.box.hi[i], "xy"[i]));
+        refuse("the box of {} goes from {} to {} on axis {}; both must be finite and in this order",
+               where(), told.box.lo[i], told.box.hi[i], "xy"[i]);
     if (told.depth > rules_.max_depth)
       refuse(
-          fmt::format("{} lies at depth {}, the limit is {}; does the tree lead back into itself, "
-                      "or not stop at max_depth?",
-                      where(), told.depth, rules_.max_depth));
+          "{} lies at depth {}, the limit is {}; does the tree lead back into itself, "
+          "or not stop at max_depth?",
+          where(), told.depth, rules_.max_depth);
     if (parent != kNone && children_[parent] == kMostChildren)
-      refuse(fmt::format("{} has more than {} children; does visit come to an end?",
-                         view_.place_of(parent), kMostChildren));
+      refuse("{} has more than {} children; does visit come to an end?", view_.place_of(parent),
+             kMostChildren);
     if (nodes_.size() >= rules_.most_entries)
-      refuse(fmt::format("more than {} nodes; does visit come to an end?", rules_.most_entries));
+      refuse("more than {} nodes; does visit come to an end?", rules_.most_entries);
     close_to(told.depth);
     Node node{.box = told.box, .parent = parent, .depth = told.depth, .leaf = told.leaf};
     if (parent != kNone) node.slot = children_[parent]++;
@@ -120,23 +121,22 @@ class OwnView::Reader {
     if (nodes_.empty()) {
       if (told.depth != 0)
         refuse(
-            fmt::format("the first node that visit tells has depth {}; it must be the root, at "
-                        "depth 0",
-                        told.depth));
+            "the first node that visit tells has depth {}; it must be the root, at "
+            "depth 0",
+            told.depth);
       return kNone;
     }
     if (told.depth == 0)
-      refuse(fmt::format("visit tells a second root after {}; is the tree visited twice?",
-                         view_.place_of(way_.back())));
+      refuse("visit tells a second root after {}; is the tree visited twice?",
+             view_.place_of(way_.back()));
     if (told.depth > way_.size())
       refuse(
-          fmt::format("after {}, at depth {}, comes a node of depth {}; it can be {} at most, for "
-                      "a child",
-                      view_.place_of(way_.back()), way_.size() - 1, told.depth, way_.size()));
+          "after {}, at depth {}, comes a node of depth {}; it can be {} at most, for "
+          "a child",
+          view_.place_of(way_.back()), way_.size() - 1, told.depth, way_.size());
     const std::uint32_t parent = way_[told.depth - 1];
     if (nodes_[parent].leaf)
-      refuse(
-          fmt::format("{} is told as a leaf, but a child of it follows", view_.place_of(parent)));
+      refuse("{} is told as a leaf, but a child of it follows", view_.place_of(parent));
     return parent;
   }
 
@@ -146,7 +146,7 @@ class OwnView::Reader {
     node.first = static_cast<std::uint32_t>(all.size());
     const std::uint32_t place = way_.back();
     if (all.size() + told.bodies.size() > rules_.most_entries)
-      refuse(fmt::format("the leaves list more than {} bodies in all", rules_.most_entries));
+      refuse("the leaves list more than {} bodies in all", rules_.most_entries);
     for (const BodyId id : told.bodies) {
       if (id < all_bodies_)
         all.push_back(id);

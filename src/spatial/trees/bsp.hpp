@@ -143,16 +143,10 @@ class Bsp final : public StructureOf<Bsp<D>, D> {
   void visit_from(NodeHandle handle, std::uint32_t parent, Tour<D>& tour, F& f) const {
     stop_if_asked();
     const Node& node = nodes_[handle];
-    const NodeView<D> view{.handle = handle,
-                           .id = tour.next_id++,
-                           .parent = parent,
-                           .slot = node.slot,
-                           .depth = node.depth,
-                           .leaf = node.is_leaf(),
-                           .box = bounds_,
-                           .plane = node.is_leaf() ? nullptr : &planes_[node.plane].plane,
-                           .bodies = tour.ascending(contents_.values(node.contents))};
-    if (!f(view) || view.leaf) return;
+    NodeView<D> view = tour.view(handle, parent, node.slot, node.depth, node.is_leaf(), bounds_);
+    if (!view.leaf) view.plane = &planes_[node.plane].plane;
+    view.bodies = tour.ascending(contents_.values(node.contents));
+    if (!f(std::as_const(view)) || view.leaf) return;
     double along = 0;  // a ray along the plane's normal comes from behind
     for (int i = 0; i < D; ++i) along += tested_[node.plane].normal[i] * tour.toward[i];
     const NodeHandle first = along < 0 ? 1 : 0;

@@ -340,13 +340,7 @@ class KdTree final : public StructureOf<KdTree<D>, D>, CountsAllocations {
                   Tour<D>& tour, F& f) const {
     stop_if_asked();
     const Node& node = nodes_[handle];
-    NodeView<D> view{.handle = handle,
-                     .id = tour.next_id++,
-                     .parent = parent,
-                     .slot = slot,
-                     .depth = depth,
-                     .leaf = node.is_leaf(),
-                     .box = node.box};
+    NodeView<D> view = tour.view(handle, parent, slot, depth, node.is_leaf(), node.box);
     Plane<D> plane;
     if (!view.leaf) {
       plane.normal[node.axis] = 1;

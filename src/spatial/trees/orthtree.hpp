@@ -340,13 +340,7 @@ class Orthtree final : public StructureOf<Orthtree<D>, D>, CountsAllocations {
     stop_if_asked();
     const Node& node = nodes_[at.node];
     Tour<D>& tour = way.tour;
-    NodeView<D> view{.handle = at.node,
-                     .id = tour.next_id++,
-                     .parent = parent,
-                     .slot = slot,
-                     .depth = at.depth,
-                     .leaf = node.is_leaf(),
-                     .box = at.bounds};
+    NodeView<D> view = tour.view(at.node, parent, slot, at.depth, node.is_leaf(), at.bounds);
     tour.ids.clear();
     if (view.leaf) {
       add_ids(node, tour.ids);
