@@ -1,8 +1,6 @@
 #include "atlas/atlas.hpp"
 
-#include <algorithm>
 #include <numeric>
-#include <utility>
 
 #include <fmt/format.h>
 

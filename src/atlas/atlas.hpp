@@ -25,7 +25,6 @@
 #include <optional>
 #include <span>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "atlas/packer.hpp"

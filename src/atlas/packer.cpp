@@ -1,7 +1,6 @@
 #include "atlas/packer.hpp"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <utility>
 

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <ctime>
 #include <sstream>
-#include <string>
 
 #include <dlfcn.h>
 #include <fcntl.h>

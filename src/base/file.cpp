@@ -7,7 +7,6 @@
 #include <cstring>
 #include <system_error>
 #include <thread>
-#include <utility>
 
 #include <dirent.h>
 #include <fcntl.h>

@@ -1,8 +1,5 @@
 #include "spatial/box_table.hpp"
 
-#include <algorithm>
-#include <bit>
-#include <limits>
 #include <utility>
 
 #include "base/parallel.hpp"

@@ -14,10 +14,6 @@
 #include <array>
 #include <bit>
 #include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <vector>
 
 #include "spatial/structure.hpp"
 

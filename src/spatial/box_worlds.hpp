@@ -2,10 +2,6 @@
 // them.
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "spatial/broad_phase.hpp"
 
 namespace lantern::spatial {

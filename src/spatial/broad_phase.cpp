@@ -1,16 +1,8 @@
 #include "spatial/broad_phase.hpp"
 
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <optional>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "base/error.hpp"
 #include "base/memory.hpp"
-#include "base/stop.hpp"
 #include "spatial/pairs.hpp"
 
 namespace lantern::spatial {

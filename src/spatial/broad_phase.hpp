@@ -1,15 +1,6 @@
 // The broad phase: which boxes overlap. One interface, many structures, the same pairs.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
 #include "spatial/box_table.hpp"
 #include "spatial/pair_search.hpp"
 #include "spatial/query.hpp"

@@ -25,13 +25,7 @@
 #pragma once
 
 #include <concepts>
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <span>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "spatial/structure.hpp"
 

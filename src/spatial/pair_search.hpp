@@ -2,12 +2,6 @@
 // structure. Compiled into each structure; see structure_of.hpp.
 #pragma once
 
-#include <algorithm>
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <vector>
-
 #include "base/stop.hpp"
 #include "spatial/box_table.hpp"
 #include "spatial/pairs.hpp"

@@ -1,9 +1,6 @@
 // Candidate pairs: two bodies that share a leaf.
 #pragma once
 
-#include <algorithm>
-#include <vector>
-
 #include <fmt/format.h>
 
 #include "base/error.hpp"

@@ -6,13 +6,8 @@
 // the last bit, as if each body of the scene had been asked.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <limits>
-#include <optional>
 #include <variant>
-#include <vector>
 
 #include "base/error.hpp"
 #include "geometry/ray.hpp"

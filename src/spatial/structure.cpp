@@ -1,22 +1,13 @@
 // The list of structures, ours and those that a program was given, and what they have in common.
 #include "spatial/structure.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <deque>
 
-#include <fmt/format.h>
-
-#include "base/error.hpp"
 #include "base/suggest.hpp"
 #include "spatial/own_structure.hpp"
 #include "spatial/structure_of.hpp"
 
 namespace lantern::spatial {
-
-#define LANTERN_KIND(name) extern const StructureEntry name##_entry;
-LANTERN_STRUCTURES(LANTERN_KIND)
-#undef LANTERN_KIND
 
 namespace {
 

@@ -1,18 +1,8 @@
 #include "spatial/structure_trial.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <exception>
-#include <memory>
-
-#include <fmt/format.h>
-
 #include "base/clock.hpp"
 #include "base/json_writer.hpp"
 #include "base/random.hpp"
-#include "base/stop.hpp"
-#include "base/timing.hpp"
 #include "geometry/random_vec.hpp"
 #include "spatial/box_worlds.hpp"
 #include "spatial/broad_phase.hpp"

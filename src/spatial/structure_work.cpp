@@ -1,13 +1,6 @@
 // What is told of structures beside the pairs: the way to them, their work, and which to choose.
-#include <algorithm>
-#include <cmath>
-#include <optional>
 #include <unordered_map>
-#include <vector>
 
-#include <fmt/format.h>
-
-#include "base/stop.hpp"
 #include "geometry/shape.hpp"
 #include "spatial/broad_phase.hpp"
 #include "spatial/pairs.hpp"

@@ -26,14 +26,6 @@
 // Detection", 2004, 7.2.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include "geometry/not_finite.hpp"
 #include "spatial/box_table.hpp"
 #include "spatial/structure_of.hpp"
 

@@ -1,12 +1,10 @@
 #include "spatial/level/level_bsp.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "base/stop.hpp"
 
 namespace lantern::spatial {
 
@@ -35,27 +33,12 @@ std::optional<LevelBsp::Place> LevelBsp::locate(const Vec<2>& point) const {
   return place;
 }
 
-std::vector<BspPlane<2>> LevelBsp::planes() const {
-  std::vector<BspPlane<2>> planes;
-  std::vector<std::uint32_t> position(nodes_.size(), kNone);  // of a node's plane
-  for (NodeHandle i = 0; i < nodes_.size(); ++i) {
-    const LevelNode& node = nodes_[i];
-    if (node.is_leaf()) continue;
-    position[i] = static_cast<std::uint32_t>(planes.size());
-    planes.push_back(
-        {node.plane, node.parent == kNone ? kNone : position[node.parent], node.front});
-  }
-  return planes;
-}
-
 LevelCounters LevelBsp::counters() const {
-  LevelCounters c{.walls = walls_.size(),
-                  .nodes = nodes_.size(),
-                  .sectors = sectors_.size(),
-                  .pieces = pieces_.size(),
-                  .cuts = cuts_,
-                  .candidates = candidates_,
-                  .side_tests = side_tests_};
+  LevelCounters c = counted_;
+  c.walls = walls_.size();
+  c.nodes = nodes_.size();
+  c.sectors = sectors_.size();
+  c.pieces = pieces_.size();
   for (const LevelNode& node : nodes_) {
     c.depth = std::max<std::uint64_t>(c.depth, node.depth);
     c.chosen_score += node.chosen.score;
@@ -141,7 +124,7 @@ class LevelCompiler {
 
   // Where a piece lies of the line of a wall.
   Side side_of(const WallPiece& piece, std::uint32_t wall) {
-    ++level_.side_tests_;
+    ++level_.counted_.side_tests;
     if (piece.wall == wall) return Side::on;
     const int a = level_.grid_.side(level_.lines_[wall], piece.line.a);
     const int b = level_.grid_.side(level_.lines_[wall], piece.line.b);
@@ -162,7 +145,7 @@ class LevelCompiler {
     stop_if_asked();
     LineChoice line;
     line.wall = level_.pieces_[node.pieces[at]].wall;
-    ++level_.candidates_;
+    ++level_.counted_.candidates;
     for (std::size_t i = 0; i < node.pieces.size(); ++i) {
       const WallPiece& piece = level_.pieces_[node.pieces[i]];
       const Side side = side_of(piece, line.wall);
@@ -277,7 +260,7 @@ class LevelCompiler {
     std::vector<std::uint32_t>& far = starts_in_front ? back : front;
     add_piece(far, rest);
     if (rest.node != kNone) level_.nodes_[rest.node].pieces.push_back(far.back());
-    ++level_.cuts_;
+    ++level_.counted_.cuts;
     LevelEvent event{LevelEvent::Kind::cut, handle, {}, at, kNone};
     event.line.wall = whole.wall;
     cuts_.push_back(event);

@@ -16,16 +16,7 @@
 // exactly one sector; a two-sided wall has one piece for each side.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "base/stop.hpp"
-#include "geometry/plane.hpp"
 #include "spatial/structure.hpp"
 
 namespace lantern::spatial {
@@ -223,9 +214,6 @@ class LevelBsp {
     visit_from(0, kNone, next_id, f);
   }
 
-  // The dividing lines, for a Bsp<2> of bodies over the same bounds.
-  std::vector<BspPlane<2>> planes() const;
-
  private:
   friend class LevelCompiler;
   LevelBsp(std::span<const Wall> walls, const Box<2>& bounds);
@@ -266,9 +254,7 @@ class LevelBsp {
   std::vector<WallPiece> pieces_;
   std::vector<LevelNode> nodes_;
   std::vector<LevelSector> sectors_;
-  std::uint64_t cuts_ = 0;
-  std::uint64_t candidates_ = 0;
-  std::uint64_t side_tests_ = 0;
+  LevelCounters counted_;  // cuts, candidates and tests
 };
 
 // Compiles a level. No walls give a single sector. Throws Refused for walls and bounds as

@@ -1,15 +1,71 @@
-#include <algorithm>
 #include <exception>
-#include <utility>
 
-#include <fmt/format.h>
-
-#include "base/stop.hpp"
 #include "spatial/own/own_view.hpp"
 #include "spatial/own_structure.hpp"
 #include "spatial/structure_of.hpp"
 
 namespace lantern::spatial {
+
+// --- one view and the one before ---
+
+// Nodes at the same place in the tree are the same node to who looks; others take what is free.
+void OwnView::keep_handles(const OwnView& before) {
+  std::vector<bool> taken(nodes_.size());
+  std::vector<Node*> fresh;
+  for (Node& node : nodes_) {
+    if (node.parent == kNone) {
+      node.before = 0;
+    } else if (const std::uint32_t above = nodes_[node.parent].before; above != kNone) {
+      before.each_child(above, [&](std::uint32_t c) {
+        if (before.nodes_[c].slot == node.slot) node.before = c;
+      });
+    }
+    if (node.before == kNone || before.nodes_[node.before].handle >= nodes_.size()) {
+      fresh.push_back(&node);
+      continue;
+    }
+    node.handle = before.nodes_[node.before].handle;
+    taken[node.handle] = true;
+  }
+  NodeHandle free = 0;
+  for (Node* node : fresh) {
+    while (taken[free]) ++free;
+    node->handle = free++;
+  }
+}
+
+Counters OwnView::counters() const {
+  Counters c{.nodes = nodes_.size(), .entries = bodies_.size()};
+  for (const Node& node : nodes_) {
+    ++(node.leaf ? c.leaves : c.splits);
+    c.depth = std::max<std::uint64_t>(c.depth, node.depth);
+  }
+  return c;
+}
+
+std::vector<Event> OwnView::events_since(const OwnView& before, BodyId body,
+                                         const OwnRules& rules) const {
+  std::vector<Event> events;
+  const auto tell = [&](Event::Kind kind, const Node& node, std::uint32_t count) {
+    events.push_back({kind, node.handle, body, count, count > 0 ? rules.capacity : 0});
+  };
+  const auto holds = [&](const OwnView& view, const Node& node) {
+    return std::ranges::binary_search(view.bodies(node), body);
+  };
+  for (const Node& node : nodes_) {
+    const Node* old = node.before == kNone ? nullptr : &before.nodes_[node.before];
+    if (!old) tell(Event::Kind::make_child, node, 0);
+    if (old && old->leaf && !node.leaf) tell(Event::Kind::split, node, old->count + 1);
+    if (!node.leaf || !holds(*this, node) || (old && old->leaf && holds(before, *old))) continue;
+    tell(Event::Kind::store, node, node.count);
+    if (node.count > rules.capacity && node.depth == rules.max_depth)
+      tell(Event::Kind::depth_limit, node, node.count);
+  }
+  return events;
+}
+
+// --- the structure ---
+
 namespace {
 
 Box<2> clamped(Box<2> box, const Box<2>& to) {

@@ -1,11 +1,6 @@
 // How an AABB tree is built of all its bodies at once, follows them, and finds which overlap.
 #include "spatial/trees/aabb_tree.hpp"
 
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <limits>
-
 namespace lantern::spatial {
 namespace {
 
@@ -436,7 +431,6 @@ void AabbTree<D>::pair_between(const AabbSpot& of_a, const AabbSpot& of_b, const
 template class AabbTree<2>;
 template class AabbTree<3>;
 
-extern const StructureEntry aabb_tree_entry;
 const StructureEntry aabb_tree_entry{{.words = "AABB tree",
                                       .settings = bits_of({Setting::margin, Setting::following}),
                                       .meets_in_leaves = false,

@@ -26,13 +26,6 @@
 // Boxes are kept in float, rounded outward; who is handed a body compares the true box.
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <type_traits>
-#include <utility>
-
-#include <fmt/format.h>
-
 #include "spatial/structure_of.hpp"
 #include "spatial/trees/aabb_walk.hpp"
 

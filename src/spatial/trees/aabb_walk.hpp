@@ -1,13 +1,8 @@
 // The nodes of an AABB tree, and the ways of boxes and rays through it, for when nobody watches.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <span>
 #include <utility>
 
 #include "geometry/ray.hpp"

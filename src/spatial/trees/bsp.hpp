@@ -10,11 +10,6 @@
 // between the least and the greatest height of both boxes. Whatever side it falls on, both reach.
 #pragma once
 
-#include <cmath>
-#include <utility>
-
-#include <fmt/format.h>
-
 #include "spatial/structure_of.hpp"
 #include "spatial/trees/leaf_array.hpp"
 

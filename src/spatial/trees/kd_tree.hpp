@@ -16,18 +16,7 @@
 // the items.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <optional>
-#include <span>
 #include <tuple>
-#include <utility>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "spatial/structure_of.hpp"
 

@@ -10,13 +10,9 @@
 // plus the blocks left behind by leaves that grew.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <bit>
-#include <cstdint>
 #include <limits>
-#include <span>
-#include <vector>
 
 #include <fmt/format.h>
 

@@ -21,11 +21,7 @@
 // bound on any axis.
 #pragma once
 
-#include <array>
 #include <numeric>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "spatial/structure_of.hpp"
 #include "spatial/trees/halving.hpp"

@@ -13,10 +13,6 @@
 // sort takes over. The order does not depend on which of the two made it.
 #pragma once
 
-#include <bit>
-#include <optional>
-#include <utility>
-
 #include "geometry/shape.hpp"
 #include "spatial/structure_of.hpp"
 
