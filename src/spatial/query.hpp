@@ -208,11 +208,11 @@ NearestHit raycast_nearest(const std::type_identity_t<StructureView<D>>& of, con
   return {query.nearest, query.counts};
 }
 
-// All hits, into `all`, whose memory is used again; else as above.
+// All hits; else as above. The memory of `all` is used again.
 template <int D>
-void raycast_all_into(AllHits& all, const std::type_identity_t<StructureView<D>>& of,
-                      const Ray<D>& ray, std::type_identity_t<BoxOf<D>> box_of = {}, HitAt hit = {},
-                      QueryWatch told = {}) {
+AllHits raycast_all(const std::type_identity_t<StructureView<D>>& of, const Ray<D>& ray,
+                    std::type_identity_t<BoxOf<D>> box_of = {}, HitAt hit = {},
+                    QueryWatch told = {}, AllHits all = {}) {
   require_valid(ray);
   all.hits.clear();
   RayQuery<D> query{{of, box_of, told}, ray, hit, &all.hits, {}};
@@ -220,37 +220,22 @@ void raycast_all_into(AllHits& all, const std::type_identity_t<StructureView<D>>
   all.counts = query.counts;
   // They come about in order from what goes front to back.
   sort_nearly_sorted(all.hits, 16 * all.hits.size(), RayHit::before);
-}
-
-template <int D>
-AllHits raycast_all(const std::type_identity_t<StructureView<D>>& of, const Ray<D>& ray,
-                    std::type_identity_t<BoxOf<D>> box_of = {}, HitAt hit = {},
-                    QueryWatch told = {}) {
-  AllHits all;
-  raycast_all_into(all, of, ray, box_of, hit, told);
   return all;
 }
 
-// The bodies whose boxes overlap the volume: a Box, a Ball or a Frustum, into `found`, whose memory
-// is used again. Throws Refused for a box that is not valid, a centre that is not finite and a
-// radius that is negative or not finite.
+// The bodies whose boxes overlap the volume: a Box, a Ball or a Frustum. Throws Refused for a box
+// that is not valid, a centre that is not finite and a radius that is negative or not finite. The
+// memory of `found` is used again.
 template <int D, template <int> class Volume>
-void overlap_query_into(Found& found, const std::type_identity_t<StructureView<D>>& of,
-                        const Volume<D>& volume, std::type_identity_t<BoxOf<D>> box_of = {},
-                        QueryWatch told = {}) {
+Found overlap_query(const std::type_identity_t<StructureView<D>>& of, const Volume<D>& volume,
+                    std::type_identity_t<BoxOf<D>> box_of = {}, QueryWatch told = {},
+                    Found found = {}) {
   require_valid(volume);
   found.ids.clear();
   VolumeQuery<D> query{{of, box_of, told}, &volume, &found.ids};
   of.structure->ask(query);
   found.counts = query.counts;
   std::sort(found.ids.begin(), found.ids.end());
-}
-
-template <int D, template <int> class Volume>
-Found overlap_query(const std::type_identity_t<StructureView<D>>& of, const Volume<D>& volume,
-                    std::type_identity_t<BoxOf<D>> box_of = {}, QueryWatch told = {}) {
-  Found found;
-  overlap_query_into(found, of, volume, box_of, told);
   return found;
 }
 
