@@ -92,15 +92,6 @@ std::vector<std::uint32_t> Atlas::free_leaves() const {
   return leaves;
 }
 
-Packing Atlas::plan(std::span<const std::uint32_t> leaves, std::span<const TextureSize> sizes,
-                    bool turn, std::size_t trials) const {
-  std::vector<Rect> rects;
-  for (const std::uint32_t leaf : leaves) rects.push_back(nodes_[leaf].rect);
-  Packing packing = Packer(sizes, turn).pack_most(rects, trials);
-  leaf_tests_ += packing.leaf_tests;
-  return packing;
-}
-
 namespace {
 
 // Do they share a pixel?

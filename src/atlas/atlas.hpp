@@ -141,8 +141,6 @@ class Atlas {
   std::uint32_t cut(std::uint32_t leaf, int width, int height);  // gives the half that fits
   // The first half is so many pixels wide, or high; its handle is given, the other's is the next.
   std::uint32_t cut_at(std::uint32_t leaf, bool vertically, int pixels);
-  Packing plan(std::span<const std::uint32_t> leaves, std::span<const TextureSize> sizes, bool turn,
-               std::size_t trials) const;
   std::vector<std::uint32_t> free_leaves() const;  // in order of descent
   void gather_free(std::uint32_t node);            // of it and all above
   void add_leaf(const Rect& rect, std::uint32_t parent);
@@ -198,7 +196,10 @@ std::vector<std::optional<TexturePlace>> Atlas::insert_all(std::span<const Textu
                                                            Observer&& observer) {
   using Kind = PackStep::Kind;
   std::vector<std::uint32_t> open = free_leaves();  // the next one last
-  const Packing packing = plan(open, sizes, turn, trials);
+  std::vector<Rect> rects;
+  for (const std::uint32_t leaf : open) rects.push_back(nodes_[leaf].rect);
+  const Packing packing = Packer(sizes, turn).pack_most(rects, trials);
+  leaf_tests_ += packing.leaf_tests;
   std::reverse(open.begin(), open.end());
   std::vector<std::optional<TexturePlace>> places(sizes.size());
   auto stored = packing.steps.begin();  // next

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <ctime>
 #include <sstream>
+#include <utility>
 
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -85,11 +86,6 @@ struct Streams {
   void close_all() {
     for (int* number : {&input[0], &input[1], &words[0], &words[1], &nowhere}) close_once(*number);
   }
-  static int taken(int& number) {
-    const int kept = number;
-    number = -1;
-    return kept;
-  }
 };
 
 // What the new process does until it is the other program: nothing that takes memory or a lock.
@@ -129,8 +125,8 @@ Child::Child(const std::vector<std::string>& words, std::optional<int> handed_on
     throw IoError(
         fmt::format("cannot run '{}': {}", printable(words.front()), std::strerror(errno)));
   ::setpgid(process_, process_);  // whoever is first
-  input_ = Streams::taken(streams.input[1]);
-  words_ = Streams::taken(streams.words[0]);
+  input_ = std::exchange(streams.input[1], -1);
+  words_ = std::exchange(streams.words[0], -1);
   ::fcntl(input_, F_SETFL, O_NONBLOCK);
   ::fcntl(words_, F_SETFL, O_NONBLOCK);
   ::fcntl(input_, F_SETPIPE_SZ, kPipeBytes);  // as much as the system allows

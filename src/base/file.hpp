@@ -65,7 +65,6 @@ class Folder {
   Folder(int descriptor, std::filesystem::path path);
   friend struct FilePlace;
   static Folder of_file(const std::filesystem::path& file);  // in which it stands
-  std::optional<Folder> opened(std::string_view name) const;
 
   std::shared_ptr<const int> descriptor_;
   std::filesystem::path path_;

@@ -58,12 +58,7 @@ std::string suggestion(std::string_view name, std::span<const std::string_view> 
                        std::size_t most) {
   if (const auto near = nearest_name(name, candidates)) return "did you mean '" + *near + "'?";
   if (candidates.empty() || candidates.size() > most) return {};
-  std::string text = "known here: ";
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (i > 0) text += ", ";
-    text += candidates[i];
-  }
-  return text;
+  return fmt::format("known here: {}", fmt::join(candidates, ", "));
 }
 
 std::string with_suggestion(std::string message, std::string_view name,

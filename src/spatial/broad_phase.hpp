@@ -121,7 +121,6 @@ class BroadPhase {
 
   // Of the dynamic structure: as configured or, of `automatic`, what it is now.
   StructureKind kind() const { return dynamic_.kind; }
-  const StructureConfig<D>& settings() const { return dynamic_.settings; }
 
   // What an update would find in the structures as they stand, bodies with `awake(id)` moving. At
   // most `most` pairs of each kind: throws Refused beyond.

@@ -305,26 +305,16 @@ struct VisibilityConfig {
   std::uint64_t most_tests = std::uint64_t{1} << 24;  // of a portal against a view
 };
 
-class LevelVisibility {
- public:
-  std::uint32_t sectors() const { return sectors_; }
-  std::span<const Portal> portals() const { return portals_; }
-  std::span<const Sight> sights() const { return sights_; }  // of each pair that sees each other
-  // Sectors below this one are done: all that they see is known.
-  std::uint32_t done() const { return done_; }
-  // Each sector sees itself.
-  bool sees(std::uint32_t a, std::uint32_t b) const { return sees_[a * sectors_ + b] != 0; }
-  // How often a portal was held against the view through others.
-  std::uint64_t portals_tested() const { return portals_tested_; }
+struct LevelVisibility {
+  std::uint32_t sectors = 0;
+  std::uint32_t done = 0;  // sectors below this one are: all that they see is known
+  std::vector<Portal> portals;
+  std::vector<Sight> sights;         // of each pair that sees each other
+  std::uint64_t portals_tested = 0;  // how often a portal was held against the view through others
+  std::vector<char> seen = {};       // row by row
 
- private:
-  friend class SightFinder;
-  std::uint32_t sectors_ = 0;
-  std::uint32_t done_ = 0;
-  std::vector<Portal> portals_;
-  std::vector<Sight> sights_;
-  std::vector<char> sees_;  // row by row
-  std::uint64_t portals_tested_ = 0;
+  // Each sector sees itself.
+  bool sees(std::uint32_t a, std::uint32_t b) const { return seen[a * sectors + b] != 0; }
 };
 
 // Told when the portals are known, before any sector is done, and then after each sector.

@@ -83,9 +83,7 @@ class OwnFlat final : public StructureOf<OwnFlat, 2> {
   static constexpr Zones kZones = Zones::rounded_rim;
 
   OwnFlat(const StructureConfig<2>& config, const OwnKind& kind)
-      : kind_(kind),
-        rules_{kind.name, config.bounds, config.capacity, config.max_depth, config.most_entries},
-        view_(config.bounds) {
+      : kind_(kind), rules_{config, kind.name}, view_(config.bounds) {
     clear();
   }
 
