@@ -44,12 +44,6 @@ void Atlas::add_leaf(const Rect& rect, std::uint32_t parent) {
   leaf.free_height = rect.height;
 }
 
-std::uint32_t Atlas::cut(std::uint32_t leaf, int width, int height) {
-  const Rect& rect = nodes_[leaf].rect;
-  const bool vertically = rect.width - width > rect.height - height;
-  return cut_at(leaf, vertically, vertically ? width : height);
-}
-
 std::uint32_t Atlas::cut_at(std::uint32_t leaf, bool vertically, int pixels) {
   const auto [x, y, wide, high] = nodes_[leaf].rect;
   const auto first = static_cast<std::uint32_t>(nodes_.size());
@@ -120,15 +114,15 @@ std::vector<std::size_t> sorted_by_image(const std::vector<ScreenElement>& eleme
 }
 
 bool Binder::bind(std::uint32_t image) {
-  if (bound_ == image) return false;
-  bound_ = image;
-  ++bindings_;
+  if (bound == image) return false;
+  bound = image;
+  ++bindings;
   return true;
 }
 
 void Binder::draw() {
-  LANTERN_CHECK(bound_.has_value(), ==, true);
-  ++draws_;
+  LANTERN_CHECK(bound.has_value(), ==, true);
+  ++draws;
 }
 
 }  // namespace lantern::atlas

@@ -19,6 +19,19 @@
 
 namespace lantern::spatial {
 
+namespace detail {
+
+// So many floats further: the order of floats is that of their bits, of negative ones turned.
+inline float stepped(float x, int by) {
+  const auto turned = [](std::int32_t bits) {
+    return bits < 0 ? static_cast<std::int32_t>(0x8000'0000u - static_cast<std::uint32_t>(bits))
+                    : bits;
+  };
+  return std::bit_cast<float>(turned(turned(std::bit_cast<std::int32_t>(x)) + by));
+}
+
+}  // namespace detail
+
 template <int D>
 class BoxTable {
  public:
@@ -46,8 +59,14 @@ class BoxTable {
   std::size_t places() const { return ids_.capacity(); }
 
   // The greatest float that is not above x, and the least that is not below it.
-  static float rounded_down(double x);
-  static float rounded_up(double x);
+  static float rounded_down(double x) {
+    const auto nearest = static_cast<float>(x);
+    return detail::stepped(nearest, nearest > x ? -1 : 0);
+  }
+  static float rounded_up(double x) {
+    const auto nearest = static_cast<float>(x);
+    return detail::stepped(nearest, nearest < x ? 1 : 0);
+  }
 
  private:
   std::size_t size_ = 0;
@@ -175,33 +194,6 @@ struct ScanDone {
 template <int D>
 ScanDone scan_runs(const ScanTask<D>& task, const ScanRoom& room, std::size_t begin,
                    std::size_t end);
-
-// --- how a float is rounded ---
-
-namespace detail {
-
-// So many floats further: the order of floats is that of their bits, of negative ones turned.
-inline float stepped(float x, int by) {
-  const auto turned = [](std::int32_t bits) {
-    return bits < 0 ? static_cast<std::int32_t>(0x8000'0000u - static_cast<std::uint32_t>(bits))
-                    : bits;
-  };
-  return std::bit_cast<float>(turned(turned(std::bit_cast<std::int32_t>(x)) + by));
-}
-
-}  // namespace detail
-
-template <int D>
-float BoxTable<D>::rounded_down(double x) {
-  const auto nearest = static_cast<float>(x);
-  return detail::stepped(nearest, nearest > x ? -1 : 0);
-}
-
-template <int D>
-float BoxTable<D>::rounded_up(double x) {
-  const auto nearest = static_cast<float>(x);
-  return detail::stepped(nearest, nearest < x ? 1 : 0);
-}
 
 // Pairs in order of their lower, then their higher number, without comparing them with each other:
 // counted into one row for each lower number; short rows are put in order by insertion, long ones

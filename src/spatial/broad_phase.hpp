@@ -29,11 +29,6 @@ template <int D>
 StructureChoice<D> choose_structure(std::span<const Item<D>> items,
                                     const StructureConfig<D>& config, Use use = Use::pairs);
 
-extern template StructureChoice<2> choose_structure(std::span<const Item<2>>,
-                                                    const StructureConfig<2>&, Use);
-extern template StructureChoice<3> choose_structure(std::span<const Item<3>>,
-                                                    const StructureConfig<3>&, Use);
-
 template <int D>
 struct BroadPhaseConfig : StructureConfig<D> {
   StructureKind kind = D == 3 ? StructureKind::octree : StructureKind::quadtree;

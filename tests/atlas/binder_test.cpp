@@ -39,19 +39,19 @@ std::uint64_t bindings_of(const Elements& elements, const std::vector<std::size_
     binder.bind(elements[i].image);
     binder.draw();
   }
-  EXPECT_EQ(binder.draws(), elements.size());
-  return binder.bindings();
+  EXPECT_EQ(binder.draws, elements.size());
+  return binder.bindings;
 }
 
 TEST(Binder, BindsWhenTheImageChangesAndNotBefore) {
   Binder binder;
-  EXPECT_FALSE(binder.bound());
+  EXPECT_FALSE(binder.bound);
   EXPECT_TRUE(binder.bind(7));
   EXPECT_FALSE(binder.bind(7));
   EXPECT_TRUE(binder.bind(0));
   EXPECT_TRUE(binder.bind(7));
-  EXPECT_EQ(binder.bindings(), 3u);
-  EXPECT_EQ(binder.draws(), 0u);
+  EXPECT_EQ(binder.bindings, 3u);
+  EXPECT_EQ(binder.draws, 0u);
 }
 
 TEST(Binder, SortedDrawsPaintTheSamePicture) {
