@@ -6,9 +6,8 @@
 //     |     |  +--+--+  |      start:  0 1 3 | 3 4 5 5     start[4], and so on
 //     +-----+--|--+--|--+      bodies: a b e | c d
 //     | a   | b|  |e |  |
-//     |     |  +--+--+  |      What b can meet lies in its own row from b on, in the rows above
-//     from
-//     +-----+-----+-----+      one cell to its left: a run of places in each row.
+//     |     |  +--+--+  |      What b can meet lies in its own row from b on, in the rows above it
+//     +-----+-----+-----+      from one cell to its left: a run of places in each row.
 //
 // No body is larger than a cell of its level (in a grid of several levels, the finest whose cells
 // are as large as it is), so that a cell's bodies reach the next one or two cells at most. Those

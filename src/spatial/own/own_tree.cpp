@@ -68,12 +68,8 @@ std::vector<Event> OwnView::events_since(const OwnView& before, BodyId body,
 
 namespace {
 
-Box<2> clamped(Box<2> box, const Box<2>& to) {
-  for (int i = 0; i < 2; ++i) {
-    box.lo[i] = std::clamp(box.lo[i], to.lo[i], to.hi[i]);
-    box.hi[i] = std::clamp(box.hi[i], to.lo[i], to.hi[i]);
-  }
-  return box;
+Box<2> clamped(const Box<2>& box, const Box<2>& to) {
+  return {glm::clamp(box.lo, to.lo, to.hi), glm::clamp(box.hi, to.lo, to.hi)};
 }
 
 // What it holds is read from its OwnView; the tree itself is only called to insert, to clear, and

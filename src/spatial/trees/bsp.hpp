@@ -84,8 +84,7 @@ class Bsp final : public StructureOf<Bsp<D>, D> {
     const auto refuse = [&](const char* why) {
       throw Refused(fmt::format("BSP: plane {} {}", index, why));
     };
-    for (int i = 0; i < D; ++i)
-      if (!std::isfinite(p.plane.normal[i])) refuse("has a normal that is not finite");
+    if (!is_finite(p.plane.normal)) refuse("has a normal that is not finite");
     if (p.plane.normal == Vec<D>(0.0)) refuse("has a normal of zero length");
     if (!std::isfinite(p.plane.offset)) refuse("has an offset that is not finite");
     if (index == 0 && p.parent != kNone) refuse("is the first, so it cannot have a parent");

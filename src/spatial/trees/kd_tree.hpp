@@ -24,9 +24,8 @@ namespace lantern::spatial {
 
 // Where a kD-tree cuts a node, so that it fits the objects.
 //
-//   1. Axes are tried in the order of the spread of the bodies' centres, the largest first (of
-//   equal
-//      ones, x before y before z).
+//   1. Axes are tried by the spread of the bodies' centres, the largest first (of equal ones, x
+//      before y before z).
 //   2. On an axis, the plane goes through the upper face nearest below or at the median of the
 //      centres, or the nearest above it: the one that leaves fewer bodies on its fuller side, then
 //      the one that cuts fewer bodies, then the lower one. It must leave something out on each side
@@ -34,7 +33,6 @@ namespace lantern::spatial {
 //   3. If no axis has such a plane, all upper faces of all axes are compared in the same way.
 //   4. If that fails, too, there is no cut: either all boxes share a point, so that no plane parts
 //      any pair (no progress), or every plane would copy more than it parts.
-
 struct KdCut {
   int axis = 0;
   double plane = 0;
@@ -69,9 +67,7 @@ class KdCuts : CountsAllocations {
     return best;
   }
 
-  // Comparisons of a body with a plane since they were forgotten.
-  std::uint64_t tests() const { return tests_; }
-  void forget_tests() { tests_ = 0; }
+  std::uint64_t tests = 0;  // comparisons of a body with a plane
   std::uint64_t allocations() const { return allocations_; }
 
  private:
@@ -132,7 +128,7 @@ class KdCuts : CountsAllocations {
       back += cut.behind(items_[i].box);
       front += cut.in_front(items_[i].box);
     }
-    tests_ += chosen_.size();
+    tests += chosen_.size();
     return judged(axis, plane, back, front);
   }
 
@@ -146,7 +142,7 @@ class KdCuts : CountsAllocations {
     }
     std::sort(lower_.begin(), lower_.end());
     std::sort(upper_.begin(), upper_.end());
-    tests_ += upper_.size();
+    tests += upper_.size();
     std::optional<KdCut> best;
     std::size_t back = 0;
     for (std::size_t i = 0; i < upper_.size(); ++i) {
@@ -160,7 +156,6 @@ class KdCuts : CountsAllocations {
   std::span<const Item<D>> items_;
   std::span<const std::uint32_t> chosen_;
   std::vector<double> lower_, upper_;  // faces, or centres
-  std::uint64_t tests_ = 0;
 };
 
 template <int D>
@@ -191,7 +186,7 @@ class KdTree final : public StructureOf<KdTree<D>, D>, CountsAllocations {
     stored_.clear();
     work_.clear();
     deepest_ = box_tests_ = 0;
-    cuts_.forget_tests();
+    cuts_.tests = 0;
     for (const Item<D>& item : items) append(items_, item);
     std::sort(items_.begin(), items_.end(),
               [](const Item<D>& a, const Item<D>& b) { return a.id < b.id; });
@@ -232,7 +227,7 @@ class KdTree final : public StructureOf<KdTree<D>, D>, CountsAllocations {
             .leaves = (nodes_.size() + 1) / 2,
             .depth = deepest_,
             .entries = stored_.size(),
-            .box_tests = box_tests_ + cuts_.tests(),
+            .box_tests = box_tests_ + cuts_.tests,
             .splits = nodes_.size() / 2,
             .allocations = allocations_ + cuts_.allocations(),
             .nodes_reused = std::min(most_nodes_before_, nodes_.size()),
