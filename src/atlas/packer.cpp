@@ -33,12 +33,7 @@ constexpr std::array<Trial, 6> kTrials{{{Split::even, false},
                                         {Split::even, true},
                                         {Split::uneven, true},
                                         {Split::none, true}}};
-constexpr std::array<Trial, 6> kThinTrials{{{Split::none, false},
-                                            {Split::none, true},
-                                            {Split::even, false},
-                                            {Split::uneven, false},
-                                            {Split::even, true},
-                                            {Split::uneven, true}}};
+constexpr std::array<std::size_t, 6> kThinOrder{2, 5, 0, 1, 3, 4};  // in which they are tried
 using Hold = Holding::Hold;
 // Lying ones first: most of them have a height in common.
 constexpr std::array<Hold, 3> kTurnedHolds{Hold::lying, Hold::as_given, Hold::standing};
@@ -222,7 +217,8 @@ bool Packer::try_one(std::size_t number, std::span<const Rect> leaves, std::int6
   const Hold hold = turn_ ? kTurnedHolds[number / kTrials.size()] : Hold::as_given;
   const bool columns = hold == Hold::standing || (hold == Hold::as_given && are_high_);
   const bool thin = kThin * stock({hold, columns}).classes().size() > textures_.size();
-  const Trial& trial = (thin ? kThinTrials : kTrials)[number % kTrials.size()];
+  const std::size_t place = number % kTrials.size();
+  const Trial& trial = kTrials[thin ? kThinOrder[place] : place];
   const Holding holding{hold, columns != trial.across};
   Stock& textures = stock(holding);
   textures.refill();
