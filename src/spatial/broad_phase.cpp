@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "base/memory.hpp"
-#include "spatial/pairs.hpp"
+#include "spatial/pair_search.hpp"
 
 namespace lantern::spatial {
 namespace {
@@ -14,10 +14,23 @@ std::uint64_t most_entries(std::uint64_t room) { return 4096 + 64 * room; }
 }  // namespace
 
 template <int D>
+struct BroadPhase<D>::Search : PairSearch<D> {  // by bodies' places, later named by their ranks
+  PairOrder order;
+};
+
+template <int D>
+BroadPhase<D>::~BroadPhase() = default;
+template <int D>
+BroadPhase<D>::BroadPhase(BroadPhase&&) noexcept = default;
+template <int D>
+BroadPhase<D>& BroadPhase<D>::operator=(BroadPhase&&) noexcept = default;
+
+template <int D>
 BroadPhase<D>::BroadPhase(const Config& config)
     : config_(config),
       static_(made(&BroadPhaseCounters::static_builds)),
-      dynamic_(made(&BroadPhaseCounters::dynamic_builds)) {}
+      dynamic_(made(&BroadPhaseCounters::dynamic_builds)),
+      search_(std::make_unique<Search>()) {}
 
 template <int D>
 auto BroadPhase<D>::made(std::uint64_t BroadPhaseCounters::*builds) -> Store {
@@ -290,26 +303,26 @@ void BroadPhase<D>::find_pairs() {
   counters_.pair_tests = counters_.nodes_visited = 0;
   counters_.nodes_skipped_asleep = counters_.nodes_reused = 0;
   pairs_.clear();
-  search_.begin(dynamic_.items, dynamic_.states);
-  if (search_.stirring() > 0) {
+  search_->begin(dynamic_.items, dynamic_.states);
+  if (search_->stirring() > 0) {
     if (!dynamic_.stands) build(dynamic_);
     for (Store* store : stores()) store->structure->sort();
-    search_.found.set_threads(config_.threads);
+    search_->found.set_threads(config_.threads);
     found_names_ = dynamic_.names;
-    search_.found.ask_before_growing(
+    search_->found.ask_before_growing(
         [this](BodyId body, std::size_t pairs) { require_room(body, pairs); });
-    dynamic_.structure->pair(search_);
-    counters_.pair_tests = search_.tests;
-    counters_.nodes_visited = search_.nodes_visited;
-    counters_.nodes_skipped_asleep = search_.nodes_skipped;
+    dynamic_.structure->pair(*search_);
+    counters_.pair_tests = search_->tests;
+    counters_.nodes_visited = search_->nodes_visited;
+    counters_.nodes_skipped_asleep = search_->nodes_skipped;
     counters_.nodes_reused = dynamic_.structure->work().nodes_reused;
     dynamic_.tests =
-        static_cast<double>(counters_.pair_tests) / static_cast<double>(search_.stirring());
+        static_cast<double>(counters_.pair_tests) / static_cast<double>(search_->stirring());
     if (dynamic_.chosen_tests == 0) dynamic_.chosen_tests = dynamic_.tests;
     pair_static();
-    const FoundPairs& found = search_.found;
+    const FoundPairs& found = search_->found;
     if (found.size() > config_.most_pairs) refuse_more(found.first()[config_.most_pairs]);
-    order_.order(search_.found, found_names_, pairs_);
+    search_->order.order(search_->found, found_names_, pairs_);
   } else if (!dynamic_.stands) {
     empty(dynamic_);
   }
@@ -321,8 +334,8 @@ template <int D>
 void BroadPhase<D>::pair_static() {
   if (static_.items.empty()) return;
   // What was found among dynamic bodies is named by their ranks among all from now on.
-  for (BodyId& place : search_.found.first()) place = dynamic_.ranks[place];
-  for (BodyId& place : search_.found.second()) place = dynamic_.ranks[place];
+  for (BodyId& place : search_->found.first()) place = dynamic_.ranks[place];
+  for (BodyId& place : search_->found.second()) place = dynamic_.ranks[place];
   found_names_ = all_names_;
   for (std::size_t i = 0; i < dynamic_.items.size(); ++i) {
     stop_if_asked();
@@ -333,7 +346,7 @@ void BroadPhase<D>::pair_static() {
     counters_.pair_tests += ids_.size();
     for (const BodyId j : ids_)
       if (overlap(box, static_.items[j].box))
-        search_.found.add(dynamic_.ranks[i], static_.ranks[j]);
+        search_->found.add(dynamic_.ranks[i], static_.ranks[j]);
   }
 }
 
@@ -344,9 +357,9 @@ void BroadPhase<D>::require_room(BodyId number, std::size_t pairs) const {
   const BodyId body = found_names_[number];
   require_memory(pairs * (3 * sizeof(BodyId) + sizeof(Pair)),
                  fmt::format("body {}: with it {} or more pairs of boxes that overlap", body,
-                             search_.found.size()),
+                             search_->found.size()),
                  "take fewer bodies, or part them");
-  if (search_.found.size() > config_.most_pairs) refuse_more(number);
+  if (search_->found.size() > config_.most_pairs) refuse_more(number);
 }
 
 template <int D>
@@ -407,8 +420,8 @@ template <int D>
 std::size_t BroadPhase<D>::own_places() const {
   const auto of_store = [](const Store& s) { return s.places() + s.ranks.capacity(); };
   return pairs_.capacity() + sorted_.capacity() + all_names_.capacity() + ids_.capacity() +
-         of_store(static_) + of_store(dynamic_) + fresh_.places() + search_.places() +
-         order_.places();
+         of_store(static_) + of_store(dynamic_) + fresh_.places() + search_->places() +
+         search_->order.places();
 }
 
 template class BroadPhase<2>;

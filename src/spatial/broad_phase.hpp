@@ -1,9 +1,6 @@
 // The broad phase: which boxes overlap. One interface, many structures, the same pairs.
 #pragma once
 
-#include "spatial/box_table.hpp"
-#include "spatial/pair_search.hpp"
-#include "spatial/query.hpp"
 #include "spatial/structure.hpp"
 
 namespace lantern::spatial {
@@ -91,6 +88,9 @@ class BroadPhase {
 
   // Throws Refused for what the structures refuse.
   explicit BroadPhase(const Config& config);
+  ~BroadPhase();
+  BroadPhase(BroadPhase&&) noexcept;
+  BroadPhase& operator=(BroadPhase&&) noexcept;
 
   // Finds the pairs. Proxies may come in any order. Nothing is done if they are those of the last
   // update; nothing is built for bodies of which none is awake. Throws Refused, naming the body,
@@ -223,9 +223,9 @@ class BroadPhase {
   std::vector<BodyId> all_names_;  // by rank, if there are static bodies
   Bodies fresh_;                   // of a store whose bodies are others now
   std::vector<BodyId> ids_;
-  PairSearch<D> search_;  // finds them by their places, later named by their ranks
   std::span<const BodyId> found_names_;
-  PairOrder order_;
+  struct Search;
+  std::unique_ptr<Search> search_;
 };
 
 extern template class BroadPhase<2>;

@@ -9,14 +9,6 @@
 
 namespace lantern::spatial {
 
-// What is known of a body beside its box.
-struct ProxyState {
-  bool is_static = false;
-  bool awake = true;
-  bool operator==(const ProxyState&) const = default;
-  bool stirs() const { return awake && !is_static; }
-};
-
 // Which nodes are awake (the lecture, "Sleeping Objects"): those below which an awake body lies.
 class AwakeNodes {
  public:
