@@ -56,8 +56,9 @@ class Child {
   std::string said_;
 };
 
-// A shared library that is loaded, not linked. Its symbols stay private to it. Once loaded it stays until the program ends: Mesa leaves threads
-// and thread-local destructors behind, which must not lose their code.
+// A shared library that is loaded, not linked. Its symbols stay private to it. Once loaded it stays
+// until the program ends: Mesa leaves threads and thread-local destructors behind, which must not
+// lose their code.
 class Library {
  public:
   // Loads the first of these file names that is there.

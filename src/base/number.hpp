@@ -40,8 +40,8 @@ std::string counted(std::integral auto number, std::string_view noun,
                         : fmt::format("{} {}", number, plural);
 }
 
-// As a book prints long numbers: the digits of `number` with `gap` before each three from the right: 12345 is "12 345". Numbers of
-// up to four digits stay whole.
+// As a book prints long numbers: the digits of `number` with `gap` before each three from the
+// right: 12345 is "12 345". Numbers of up to four digits stay whole.
 std::string grouped(std::integral auto number, std::string_view gap = "\u2009") {
   std::string text = fmt::format("{}", number);
   const std::size_t sign = text.starts_with('-') ? 1 : 0;

@@ -1,6 +1,6 @@
-// Texts letter by letter; and those from outside (files, names, arguments, libraries) on their way to
-// a terminal, which would obey what stands in them (recolour, retitle, delete, turn around), to JSON
-// and to HTML.
+// Texts letter by letter; and those from outside (files, names, arguments, libraries) on their way
+// to a terminal, which would obey what stands in them (recolour, retitle, delete, turn around), to
+// JSON and to HTML.
 #pragma once
 
 #include <cstddef>
