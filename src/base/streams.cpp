@@ -1,5 +1,6 @@
 #include <atomic>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <mutex>
 #include <optional>
@@ -12,8 +13,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/check.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/printable.hpp"
 #include "base/stop.hpp"
 
 namespace lantern {
@@ -173,6 +176,11 @@ void write_stderr(std::string_view bytes) noexcept {
     if (n < 0 && errno != EINTR) return;
     if (n > 0) bytes.remove_prefix(static_cast<std::size_t>(n));
   }
+}
+
+void detail::stop_broken(const std::string& text) {
+  write_stderr(printable(text) + "\n");
+  std::abort();
 }
 
 }  // namespace lantern
