@@ -39,19 +39,11 @@ std::size_t distance(std::string_view a, std::string_view b) {
 std::optional<std::string> nearest_name(std::string_view name,
                                         std::span<const std::string_view> candidates) {
   constexpr std::size_t kLongest = 64;  // a longer word is no slip of the hand
-  if (name.size() > kLongest) return std::nullopt;
-  std::optional<std::string> best;
-  std::size_t best_distance = 0;
-  for (const std::string_view candidate : candidates) {
-    const std::size_t d = distance(name, candidate);
-    if (!best || d < best_distance) {
-      best = std::string(candidate);
-      best_distance = d;
-    }
-  }
-  if (!best) return std::nullopt;
-  const std::size_t allowed = best->size() >= 4 ? std::max<std::size_t>(2, best->size() / 3) : 1;
-  return best_distance <= allowed ? best : std::nullopt;
+  if (name.size() > kLongest || candidates.empty()) return std::nullopt;
+  const auto slips = [&](std::string_view candidate) { return distance(name, candidate); };
+  const std::string_view best = *std::ranges::min_element(candidates, {}, slips);
+  const std::size_t allowed = best.size() >= 4 ? std::max<std::size_t>(2, best.size() / 3) : 1;
+  return slips(best) <= allowed ? std::optional<std::string>(best) : std::nullopt;
 }
 
 std::string suggestion(std::string_view name, std::span<const std::string_view> candidates,

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/stop.hpp"
-#include "spatial/trees/halving.hpp"
+#include "spatial/trees/node_parts.hpp"
 
 namespace lantern::spatial {
 namespace {

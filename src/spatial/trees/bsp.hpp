@@ -11,7 +11,7 @@
 #pragma once
 
 #include "spatial/structure_of.hpp"
-#include "spatial/trees/leaf_array.hpp"
+#include "spatial/trees/node_parts.hpp"
 
 namespace lantern::spatial {
 

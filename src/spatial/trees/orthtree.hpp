@@ -1,6 +1,6 @@
 // The lecture's quadtree, and with one more axis its octree: a node that holds too much is halved
-// on every axis (see halving.hpp), and its contents go to each child that they reach. The tree is
-// built as it is taught, one Insert after another.
+// on every axis (see node_parts.hpp), and its contents go to each child that they reach. The tree
+// is built as it is taught, one Insert after another.
 //
 // A body is compared with the middles of nodes only, never with their rims, so nothing is dropped:
 // cells at the rim reach outward without end, and a body outside the root's bounds lies in the
@@ -24,8 +24,7 @@
 #include <numeric>
 
 #include "spatial/structure_of.hpp"
-#include "spatial/trees/halving.hpp"
-#include "spatial/trees/leaf_array.hpp"
+#include "spatial/trees/node_parts.hpp"
 
 namespace lantern::spatial {
 
