@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "base/library.hpp"
+#include "base/child.hpp"
 #include "embedded/version.hpp"
 
 namespace lantern::app {

@@ -10,8 +10,8 @@
 #include <unistd.h>
 
 #include "app/terminal.hpp"
-#include "base/grouped.hpp"
 #include "base/memory.hpp"
+#include "base/number.hpp"
 
 namespace lantern::app {
 

@@ -4,7 +4,7 @@
 
 #include "app/folders/kept_files.hpp"
 #include "app/terminal.hpp"
-#include "base/counted.hpp"
+#include "base/number.hpp"
 
 namespace lantern::app {
 

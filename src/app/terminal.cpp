@@ -10,7 +10,6 @@
 
 #include "base/file.hpp"
 #include "base/printable.hpp"
-#include "base/utf8.hpp"
 
 namespace lantern::app {
 namespace {

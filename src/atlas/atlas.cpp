@@ -1,9 +1,10 @@
 #include "atlas/atlas.hpp"
 
-#include <algorithm>
+#include <numeric>
 
 #include <fmt/format.h>
 
+#include "base/check.hpp"
 #include "base/error.hpp"
 
 namespace lantern::atlas {
@@ -41,12 +42,6 @@ void Atlas::add_leaf(const Rect& rect, std::uint32_t parent) {
   leaf.parent = parent;
   leaf.free_width = rect.width;
   leaf.free_height = rect.height;
-}
-
-std::uint32_t Atlas::cut(std::uint32_t leaf, int width, int height) {
-  const Rect& rect = nodes_[leaf].rect;
-  const bool vertically = rect.width - width > rect.height - height;
-  return cut_at(leaf, vertically, vertically ? width : height);
 }
 
 std::uint32_t Atlas::cut_at(std::uint32_t leaf, bool vertically, int pixels) {
@@ -91,13 +86,43 @@ std::vector<std::uint32_t> Atlas::free_leaves() const {
   return leaves;
 }
 
-Packing Atlas::plan(std::span<const std::uint32_t> leaves, std::span<const TextureSize> sizes,
-                    bool turn, std::size_t trials) const {
-  std::vector<Rect> rects;
-  for (const std::uint32_t leaf : leaves) rects.push_back(nodes_[leaf].rect);
-  Packing packing = Packer(sizes, turn).pack_most(rects, trials);
-  leaf_tests_ += packing.leaf_tests;
-  return packing;
+namespace {
+
+// Do they share a pixel?
+bool share_pixels(const Rect& a, const Rect& b) {
+  return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
+}
+
+std::vector<std::size_t> layers_of(const std::vector<ScreenElement>& elements) {
+  std::vector<std::size_t> layers(elements.size());
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    for (std::size_t under = 0; under < i; ++under)
+      if (share_pixels(elements[i].place, elements[under].place))
+        layers[i] = std::max(layers[i], layers[under] + 1);
+  return layers;
+}
+
+}  // namespace
+
+std::vector<std::size_t> sorted_by_image(const std::vector<ScreenElement>& elements) {
+  const std::vector<std::size_t> layers = layers_of(elements);
+  std::vector<std::size_t> order(elements.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {},
+                           [&](std::size_t i) { return std::pair(layers[i], elements[i].image); });
+  return order;
+}
+
+bool Binder::bind(std::uint32_t image) {
+  if (bound == image) return false;
+  bound = image;
+  ++bindings;
+  return true;
+}
+
+void Binder::draw() {
+  LANTERN_CHECK(bound.has_value(), ==, true);
+  ++draws;
 }
 
 }  // namespace lantern::atlas

@@ -25,11 +25,9 @@
 #include <optional>
 #include <span>
 #include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "atlas/packer.hpp"
-#include "atlas/rect.hpp"
 #include "base/stop.hpp"
 
 namespace lantern::atlas {
@@ -86,7 +84,9 @@ class Atlas {
     }
     while (nodes_[leaf].rect.width != width || nodes_[leaf].rect.height != height) {
       observer(AtlasEvent{AtlasEvent::Kind::cut, leaf, id});
-      leaf = cut(leaf, width, height);
+      const Rect& rect = nodes_[leaf].rect;
+      const bool vertically = rect.width - width > rect.height - height;
+      leaf = cut_at(leaf, vertically, vertically ? width : height);
     }
     take(leaf, id);
     observer(AtlasEvent{AtlasEvent::Kind::store, leaf, id});
@@ -103,7 +103,47 @@ class Atlas {
                                                       std::span<const TextureSize> sizes,
                                                       bool turn = false,
                                                       std::size_t trials = SIZE_MAX,
-                                                      Observer&& observer = {});
+                                                      Observer&& observer = {}) {
+    using Kind = PackStep::Kind;
+    std::vector<std::uint32_t> open = free_leaves();  // the next one last
+    std::vector<Rect> rects;
+    for (const std::uint32_t leaf : open) rects.push_back(nodes_[leaf].rect);
+    const Packing packing = Packer(sizes, turn).pack_most(rects, trials);
+    leaf_tests_ += packing.leaf_tests;
+    std::reverse(open.begin(), open.end());
+    std::vector<std::optional<TexturePlace>> places(sizes.size());
+    auto stored = packing.steps.begin();  // next
+    for (auto step = packing.steps.begin(); step != packing.steps.end(); ++step) {
+      stop_if_asked();
+      const std::uint32_t leaf = open.back();
+      open.pop_back();
+      for (stored = std::max(stored, step); stored != packing.steps.end(); ++stored)
+        if (stored->kind == Kind::store) break;
+      if (step->kind == Kind::store) {
+        take(leaf, ids[step->value]);
+        places[step->value] = TexturePlace{nodes_[leaf].rect, step->turned};
+        observer(AtlasEvent{AtlasEvent::Kind::store, leaf, ids[step->value], step->turned});
+      } else if (step->kind == Kind::leave) {
+        gather_free(nodes_[leaf].parent);
+      } else {
+        observer(AtlasEvent{AtlasEvent::Kind::cut, leaf, ids[stored->value], stored->turned});
+        const std::uint32_t half =
+            cut_at(leaf, step->kind == Kind::cut_beside, static_cast<int>(step->value));
+        open.push_back(half + 1);
+        open.push_back(half);
+      }
+    }
+    // A trial holds all of them in one way: what it left may have room if held in the other.
+    for (std::size_t i = 0; i < sizes.size(); ++i) {
+      if (places[i]) continue;
+      const auto [width, height] = sizes[i];
+      const bool turned = turn && !has_room(width, height) && has_room(height, width);
+      const auto rect = turned ? insert(ids[i], height, width, observer)
+                               : insert(ids[i], width, height, observer);
+      if (rect) places[i] = TexturePlace{*rect, turned};
+    }
+    return places;
+  }
 
   // Is there a free leaf of at least this size?
   bool has_room(int width, int height) const {
@@ -111,9 +151,32 @@ class Atlas {
   }
 
   // f(AtlasNodeView) -> bool: parents before children, the fitted half before the rest; false skips
-  // the branch.
+  // the branch. Without recursion: many narrow textures make a tree as deep as the atlas is wide.
   template <class F>
-  void visit(F&& f) const;
+  void visit(F&& f) const {
+    std::vector<std::uint32_t> ids;  // of the inner nodes on the way from the root
+    std::uint32_t next_id = 0;
+    for (std::uint32_t handle = 0; handle != kNoNode;) {
+      stop_if_asked();
+      const Node& node = nodes_[handle];
+      const AtlasNodeView view{.handle = handle,
+                               .id = next_id++,
+                               .parent = ids.empty() ? kNoNode : ids.back(),
+                               .slot = is_second(handle),
+                               .depth = static_cast<std::uint32_t>(ids.size()),
+                               .rect = node.rect,
+                               .leaf = node.is_leaf(),
+                               .cut_vertically = node.cut_vertically,
+                               .texture = node.texture};
+      if (f(view) && !view.leaf) {
+        ids.push_back(view.id);
+        handle = node.first_child;
+        continue;
+      }
+      for (; is_second(handle); handle = nodes_[handle].parent) ids.pop_back();
+      handle = handle == 0 ? kNoNode : handle + 1;
+    }
+  }
 
   int width() const { return nodes_[0].rect.width; }
   int height() const { return nodes_[0].rect.height; }
@@ -140,11 +203,8 @@ class Atlas {
   static void require_size(TextureId id, int width, int height);
   bool is_second(std::uint32_t node) const;              // of its parent's two
   std::uint32_t after_branch(std::uint32_t node) const;  // in order of descent; kNoNode at the end
-  std::uint32_t cut(std::uint32_t leaf, int width, int height);  // gives the half that fits
   // The first half is so many pixels wide, or high; its handle is given, the other's is the next.
   std::uint32_t cut_at(std::uint32_t leaf, bool vertically, int pixels);
-  Packing plan(std::span<const std::uint32_t> leaves, std::span<const TextureSize> sizes, bool turn,
-               std::size_t trials) const;
   std::vector<std::uint32_t> free_leaves() const;  // in order of descent
   void gather_free(std::uint32_t node);            // of it and all above
   void add_leaf(const Rect& rect, std::uint32_t parent);
@@ -193,74 +253,30 @@ class Atlas {
   mutable std::uint64_t leaf_tests_ = 0;
 };
 
-template <class Observer>
-std::vector<std::optional<TexturePlace>> Atlas::insert_all(std::span<const TextureId> ids,
-                                                           std::span<const TextureSize> sizes,
-                                                           bool turn, std::size_t trials,
-                                                           Observer&& observer) {
-  using Kind = PackStep::Kind;
-  std::vector<std::uint32_t> open = free_leaves();  // the next one last
-  const Packing packing = plan(open, sizes, turn, trials);
-  std::reverse(open.begin(), open.end());
-  std::vector<std::optional<TexturePlace>> places(sizes.size());
-  auto stored = packing.steps.begin();  // next
-  for (auto step = packing.steps.begin(); step != packing.steps.end(); ++step) {
-    stop_if_asked();
-    const std::uint32_t leaf = open.back();
-    open.pop_back();
-    for (stored = std::max(stored, step); stored != packing.steps.end(); ++stored)
-      if (stored->kind == Kind::store) break;
-    if (step->kind == Kind::store) {
-      take(leaf, ids[step->value]);
-      places[step->value] = TexturePlace{nodes_[leaf].rect, step->turned};
-      observer(AtlasEvent{AtlasEvent::Kind::store, leaf, ids[step->value], step->turned});
-    } else if (step->kind == Kind::leave) {
-      gather_free(nodes_[leaf].parent);
-    } else {
-      observer(AtlasEvent{AtlasEvent::Kind::cut, leaf, ids[stored->value], stored->turned});
-      const std::uint32_t half =
-          cut_at(leaf, step->kind == Kind::cut_beside, static_cast<int>(step->value));
-      open.push_back(half + 1);
-      open.push_back(half);
-    }
-  }
-  // A trial holds all of them in one way: what it left may have room if held in the other.
-  for (std::size_t i = 0; i < sizes.size(); ++i) {
-    if (places[i]) continue;
-    const auto [width, height] = sizes[i];
-    const bool turned = turn && !has_room(width, height) && has_room(height, width);
-    const auto rect =
-        turned ? insert(ids[i], height, width, observer) : insert(ids[i], width, height, observer);
-    if (rect) places[i] = TexturePlace{*rect, turned};
-  }
-  return places;
-}
+// What a screen costs that is drawn from textures: each draw needs its image bound, and binding
+// another one is what takes time.
 
-// Without recursion: many narrow textures make a tree as deep as the atlas is wide.
-template <class F>
-void Atlas::visit(F&& f) const {
-  std::vector<std::uint32_t> ids;  // of the inner nodes on the way from the root
-  std::uint32_t next_id = 0;
-  for (std::uint32_t handle = 0; handle != kNoNode;) {
-    stop_if_asked();
-    const Node& node = nodes_[handle];
-    const AtlasNodeView view{.handle = handle,
-                             .id = next_id++,
-                             .parent = ids.empty() ? kNoNode : ids.back(),
-                             .slot = is_second(handle),
-                             .depth = static_cast<std::uint32_t>(ids.size()),
-                             .rect = node.rect,
-                             .leaf = node.is_leaf(),
-                             .cut_vertically = node.cut_vertically,
-                             .texture = node.texture};
-    if (f(view) && !view.leaf) {
-      ids.push_back(view.id);
-      handle = node.first_child;
-      continue;
-    }
-    for (; is_second(handle); handle = nodes_[handle].parent) ids.pop_back();
-    handle = handle == 0 ? kNoNode : handle + 1;
-  }
-}
+// A rectangle of a screen, in its pixels, that shows an image.
+struct ScreenElement {
+  std::uint32_t image = 0;
+  Rect place;
+};
+
+// Indices of the elements, sorted by image as far as that shows: an element's layer is one above
+// the highest of those earlier ones that it covers a part of, and each layer is sorted by itself,
+// equal images in their order. What lies over another element is still drawn after it.
+std::vector<std::size_t> sorted_by_image(const std::vector<ScreenElement>& elements);
+
+// One unit that holds one image, none at first.
+struct Binder {
+  std::optional<std::uint32_t> bound = {};
+  std::uint64_t bindings = 0;
+  std::uint64_t draws = 0;
+
+  // Before a draw from this image; true if another one, or none, was bound.
+  bool bind(std::uint32_t image);
+  // One draw from the image that is bound; there must be one.
+  void draw();
+};
 
 }  // namespace lantern::atlas

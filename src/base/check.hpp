@@ -2,22 +2,20 @@
 // values.
 #pragma once
 
-#include <cstdlib>
+#include <string>
 
 #include <fmt/format.h>
 
-#include "base/file.hpp"
-#include "base/printable.hpp"
-
 namespace lantern::detail {
+
+// Says it on standard error, and aborts.
+[[noreturn]] void stop_broken(const std::string& text);
 
 template <class A, class B>
 [[noreturn]] void check_failed(const char* file, int line, const char* text, const A& a,
                                const B& b) {
-  write_stderr(printable(fmt::format("{}:{}: broken invariant: {} (left {}, right {})", file, line,
-                                     text, a, b)) +
-               "\n");
-  std::abort();
+  stop_broken(
+      fmt::format("{}:{}: broken invariant: {} (left {}, right {})", file, line, text, a, b));
 }
 
 }  // namespace lantern::detail

@@ -7,8 +7,9 @@
 #include <cstring>
 #include <ctime>
 #include <sstream>
-#include <string>
+#include <utility>
 
+#include <dlfcn.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
@@ -85,11 +86,6 @@ struct Streams {
   void close_all() {
     for (int* number : {&input[0], &input[1], &words[0], &words[1], &nowhere}) close_once(*number);
   }
-  static int taken(int& number) {
-    const int kept = number;
-    number = -1;
-    return kept;
-  }
 };
 
 // What the new process does until it is the other program: nothing that takes memory or a lock.
@@ -129,8 +125,8 @@ Child::Child(const std::vector<std::string>& words, std::optional<int> handed_on
     throw IoError(
         fmt::format("cannot run '{}': {}", printable(words.front()), std::strerror(errno)));
   ::setpgid(process_, process_);  // whoever is first
-  input_ = Streams::taken(streams.input[1]);
-  words_ = Streams::taken(streams.words[0]);
+  input_ = std::exchange(streams.input[1], -1);
+  words_ = std::exchange(streams.words[0], -1);
   ::fcntl(input_, F_SETFL, O_NONBLOCK);
   ::fcntl(words_, F_SETFL, O_NONBLOCK);
   ::fcntl(input_, F_SETPIPE_SZ, kPipeBytes);  // as much as the system allows
@@ -195,5 +191,17 @@ int Child::finish() {
   listen();
   return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
 }
+
+Library::Library(std::initializer_list<const char*> names) {
+  for (const char* name : names) {
+    name_ = name;
+    handle_ = ::dlopen(name, RTLD_NOW | RTLD_LOCAL);
+    if (handle_) return;
+    const char* why = ::dlerror();
+    problem_ = why ? why : "it cannot be loaded";
+  }
+}
+
+void* Library::symbol(const char* name) const { return handle_ ? ::dlsym(handle_, name) : nullptr; }
 
 }  // namespace lantern

@@ -1,7 +1,9 @@
-// Other programs: found, run beside this one, and fed through their standard input.
+// Other programs: found, run beside this one, and fed through their standard input; and libraries
+// that are loaded while this one runs.
 #pragma once
 
 #include <filesystem>
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -52,6 +54,32 @@ class Child {
   int input_ = -1, words_ = -1;
   int status_ = 0;  // once it was
   std::string said_;
+};
+
+// A shared library that is loaded, not linked. Its symbols stay private to it. Once loaded it stays
+// until the program ends: Mesa leaves threads and thread-local destructors behind, which must not
+// lose their code.
+class Library {
+ public:
+  // Loads the first of these file names that is there.
+  explicit Library(std::initializer_list<const char*> names);
+
+  bool loaded() const { return handle_ != nullptr; }
+  const std::string& name() const { return name_; }        // of the one loaded, or tried last
+  const std::string& problem() const { return problem_; }  // why none could be loaded
+  void* symbol(const char* name) const;                    // null if there is none
+
+  // The function `name`, as the type of `function`; false if there is none.
+  template <class Function>
+  bool find(Function& function, const char* name) const {
+    function = reinterpret_cast<Function>(symbol(name));
+    return function != nullptr;
+  }
+
+ private:
+  void* handle_ = nullptr;
+  std::string name_;
+  std::string problem_;
 };
 
 }  // namespace lantern

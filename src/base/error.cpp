@@ -1,13 +1,11 @@
 #include "base/error.hpp"
 
 #include <algorithm>
-#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/printable.hpp"
-#include "base/utf8.hpp"
 
 namespace lantern {
 namespace {

@@ -7,7 +7,6 @@
 #include <cstring>
 #include <system_error>
 #include <thread>
-#include <utility>
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -125,7 +124,7 @@ Folder Folder::of_file(const std::filesystem::path& file) {
   return {number, file.parent_path()};
 }
 
-std::optional<Folder> Folder::opened(std::string_view name) const {
+std::optional<Folder> Folder::find(std::string_view name) const {
   const std::string one(name);
   const int number =
       ::openat(descriptor(), entry(one), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
@@ -140,15 +139,13 @@ std::optional<Folder> Folder::opened(std::string_view name) const {
 }
 
 Folder Folder::inside(std::string_view name) const {
-  if (auto there = opened(name)) return *there;
+  if (auto there = find(name)) return *there;
   if (::mkdirat(descriptor(), std::string(name).c_str(), 0777) != 0 && errno != EEXIST)
     throw IoError(
         fmt::format("cannot make the folder '{}': {}", shown(path(name)), std::strerror(errno)));
-  if (auto made = opened(name)) return *made;
+  if (auto made = find(name)) return *made;
   fail("open", path(name), ENOENT);
 }
-
-std::optional<Folder> Folder::find(std::string_view name) const { return opened(name); }
 
 bool Folder::is(const Folder& other) const {
   struct stat here {

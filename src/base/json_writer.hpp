@@ -12,12 +12,9 @@
 #include <fmt/format.h>
 
 #include "base/check.hpp"
+#include "base/printable.hpp"
 
 namespace lantern {
-
-// `text` with quotes, as a JSON string. Bytes that are no UTF-8 become U+FFFD; what a terminal
-// would obey is written as an escape, since JSON is printed, too.
-std::string json_string(std::string_view text);
 
 class JsonWriter {
  public:

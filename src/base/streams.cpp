@@ -1,7 +1,6 @@
-#include "base/streams.hpp"
-
 #include <atomic>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <mutex>
 #include <optional>
@@ -14,7 +13,10 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/check.hpp"
 #include "base/error.hpp"
+#include "base/file.hpp"
+#include "base/printable.hpp"
 #include "base/stop.hpp"
 
 namespace lantern {
@@ -39,23 +41,14 @@ std::optional<FileNumber> number_of(int descriptor) {
 
 // Is a standard stream written to a file that this run reads, by whatever way it came to read it?
 // From then on nothing is written there.
-class WrittenStream {
- public:
-  WrittenStream(int descriptor, const char* name) : descriptor_(descriptor), name_(name) {}
-  bool close_if(const FileNumber& file) {
-    const bool is_it = number_of(descriptor_) == file;
-    if (is_it) is_read_ = true;
-    return is_it;
-  }
-  bool is_read() const { return is_read_; }
-  void require_free() const {
-    if (is_read_) throw IoError(fmt::format("{} is written to a file that this run reads", name_));
-  }
+struct WrittenStream {
+  int descriptor;
+  const char* name;
+  std::atomic<bool> is_read = false;
 
- private:
-  int descriptor_;
-  const char* name_;
-  std::atomic<bool> is_read_ = false;
+  void require_free() const {
+    if (is_read) throw IoError(fmt::format("{} is written to a file that this run reads", name));
+  }
 };
 
 WrittenStream output_stream{STDOUT_FILENO, "standard output"};
@@ -106,7 +99,7 @@ void see_read(int descriptor) {
   const auto number = number_of(descriptor);
   bool is_written = false;
   for (WrittenStream* stream : {&output_stream, &error_stream})
-    is_written |= number && stream->close_if(*number);
+    if (number && number_of(stream->descriptor) == number) is_written = stream->is_read = true;
   if (!is_written) return;
   output_stream.require_free();
   error_stream.require_free();
@@ -156,7 +149,7 @@ std::string read_stdin(std::size_t most_bytes) {
 
 bool is_input(const std::filesystem::path& path) { return inputs().has(path); }
 
-bool output_is_input() { return output_stream.is_read(); }
+bool output_is_input() { return output_stream.is_read; }
 
 void hold_standard_streams() noexcept {
   int number;
@@ -177,12 +170,17 @@ void write_stdout(std::string_view bytes) {
 }
 
 void write_stderr(std::string_view bytes) noexcept {
-  if (error_stream.is_read()) return;
+  if (error_stream.is_read) return;
   while (!bytes.empty()) {
     const ssize_t n = ::write(STDERR_FILENO, bytes.data(), bytes.size());
     if (n < 0 && errno != EINTR) return;
     if (n > 0) bytes.remove_prefix(static_cast<std::size_t>(n));
   }
+}
+
+void detail::stop_broken(const std::string& text) {
+  write_stderr(printable(text) + "\n");
+  std::abort();
 }
 
 }  // namespace lantern

@@ -7,6 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+
 namespace lantern {
 namespace {
 
@@ -35,37 +39,34 @@ std::size_t distance(std::string_view a, std::string_view b) {
 std::optional<std::string> nearest_name(std::string_view name,
                                         std::span<const std::string_view> candidates) {
   constexpr std::size_t kLongest = 64;  // a longer word is no slip of the hand
-  if (name.size() > kLongest) return std::nullopt;
-  std::optional<std::string> best;
-  std::size_t best_distance = 0;
-  for (const std::string_view candidate : candidates) {
-    const std::size_t d = distance(name, candidate);
-    if (!best || d < best_distance) {
-      best = std::string(candidate);
-      best_distance = d;
-    }
-  }
-  if (!best) return std::nullopt;
-  const std::size_t allowed = best->size() >= 4 ? std::max<std::size_t>(2, best->size() / 3) : 1;
-  return best_distance <= allowed ? best : std::nullopt;
+  if (name.size() > kLongest || candidates.empty()) return std::nullopt;
+  const auto slips = [&](std::string_view candidate) { return distance(name, candidate); };
+  const std::string_view best = *std::ranges::min_element(candidates, {}, slips);
+  const std::size_t allowed = best.size() >= 4 ? std::max<std::size_t>(2, best.size() / 3) : 1;
+  return slips(best) <= allowed ? std::optional<std::string>(best) : std::nullopt;
 }
 
 std::string suggestion(std::string_view name, std::span<const std::string_view> candidates,
                        std::size_t most) {
   if (const auto near = nearest_name(name, candidates)) return "did you mean '" + *near + "'?";
   if (candidates.empty() || candidates.size() > most) return {};
-  std::string text = "known here: ";
-  for (std::size_t i = 0; i < candidates.size(); ++i) {
-    if (i > 0) text += ", ";
-    text += candidates[i];
-  }
-  return text;
+  return fmt::format("known here: {}", fmt::join(candidates, ", "));
 }
 
 std::string with_suggestion(std::string message, std::string_view name,
                             std::span<const std::string_view> candidates, std::size_t most) {
   const std::string hint = suggestion(name, candidates, most);
   return hint.empty() ? message : std::move(message) + "; " + hint;
+}
+
+void require_own_name(std::string_view thing, std::string_view name, bool is_taken) {
+  const bool written_well = !name.empty() && std::ranges::all_of(name, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+  });
+  if (!written_well)
+    throw Refused(fmt::format("{} '{}': a name is of a–z, 0–9 and _", thing, name));
+  if (is_taken)
+    throw Refused(fmt::format("{} '{}': there is one of this name already", thing, name));
 }
 
 }  // namespace lantern

@@ -23,4 +23,8 @@ std::string suggestion(std::string_view name, std::span<const std::string_view> 
 std::string with_suggestion(std::string message, std::string_view name,
                             std::span<const std::string_view> candidates, std::size_t most = 12);
 
+// Throws Refused if the name of a thing that a program adds of its own, a "panel", is not of a–z,
+// 0–9 and _, or if it is taken.
+void require_own_name(std::string_view thing, std::string_view name, bool is_taken);
+
 }  // namespace lantern

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "geometry/flat.hpp"
-#include "geometry/polygon.hpp"
+#include "geometry/plane.hpp"
 
 namespace lantern::draw {
 namespace {

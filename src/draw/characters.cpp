@@ -6,7 +6,7 @@
 #include "draw/body_shapes.hpp"
 #include "draw/draw_list.hpp"
 #include "draw/pen.hpp"
-#include "geometry/polygon.hpp"
+#include "geometry/plane.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -11,7 +11,7 @@
 #include <stb/stb_truetype.h>
 
 #include "base/check.hpp"
-#include "base/utf8.hpp"
+#include "base/printable.hpp"
 #include "embedded/font.hpp"
 
 namespace lantern::draw {

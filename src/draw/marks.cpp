@@ -8,7 +8,7 @@
 #include "draw/keys.hpp"
 #include "draw/pen.hpp"
 #include "draw/world/world3d_parts.hpp"
-#include "geometry/polygon.hpp"
+#include "geometry/plane.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "base/grouped.hpp"
+#include "base/number.hpp"
 
 namespace lantern::draw {
 namespace {

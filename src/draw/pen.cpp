@@ -8,7 +8,7 @@
 
 #include "draw/draw_list.hpp"
 #include "geometry/not_finite.hpp"
-#include "geometry/polygon.hpp"
+#include "geometry/plane.hpp"
 #include "geometry/ray.hpp"
 
 namespace lantern::draw {

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "base/grouped.hpp"
+#include "base/number.hpp"
 #include "draw/count_words.hpp"
 #include "draw/font.hpp"
 #include "draw/panel.hpp"

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "geometry/box.hpp"
-#include "spatial/structure_work.hpp"
+#include "spatial/broad_phase_config.hpp"
 
 namespace lantern::frame {
 

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "frame/frame.hpp"
-#include "geometry/angle.hpp"
+#include "geometry/vec.hpp"
 
 namespace lantern::frame {
 namespace {

@@ -15,7 +15,7 @@
 #include "frame/comparison.hpp"
 #include "frame/parts.hpp"
 #include "geometry/flat.hpp"
-#include "geometry/polygon.hpp"
+#include "geometry/plane.hpp"
 #include "language/code_text.hpp"
 #include "language/scenario.hpp"
 #include "physics/gjk.hpp"

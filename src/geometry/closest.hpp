@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/segment.hpp"
+#include "geometry/plane.hpp"
 
 namespace lantern::geometry {
 

@@ -2,8 +2,6 @@
 // thing lies in the plane z = 0 and has no extent along z.
 #pragma once
 
-#include <type_traits>
-
 #include "geometry/plane.hpp"
 #include "geometry/shape.hpp"
 
@@ -39,16 +37,13 @@ template <int To, int From>
 Shape<To> in_dimension(const Shape<From>& shape) {
   const auto vec = [](const Vec<From>& v) { return in_dimension<To>(solid(v)); };
   return std::visit(
-      [&](const auto& s) -> Shape<To> {
-        using S = std::decay_t<decltype(s)>;
-        if constexpr (std::is_same_v<S, AxisBox<From>>)
-          return AxisBox<To>{vec(s.half_size)};
-        else if constexpr (std::is_same_v<S, OrientedBox<From>>)
-          return OrientedBox<To>{vec(s.half_size)};
-        else if constexpr (std::is_same_v<S, HalfSpace<From>>)
-          return HalfSpace<To>{vec(s.normal)};
-        else
-          return s;
+      EachShape{
+          [&](const AxisBox<From>& s) -> Shape<To> { return AxisBox<To>{vec(s.half_size)}; },
+          [&](const OrientedBox<From>& s) -> Shape<To> {
+            return OrientedBox<To>{vec(s.half_size)};
+          },
+          [&](const HalfSpace<From>& s) -> Shape<To> { return HalfSpace<To>{vec(s.normal)}; },
+          [](const auto& s) -> Shape<To> { return s; },
       },
       shape);
 }

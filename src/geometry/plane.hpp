@@ -1,5 +1,8 @@
-// Planes in 3D, lines in 2D: the dividers of a binary space partition.
+// Planes in 3D, lines in 2D: the dividers of a binary space partition; directed segments; and the
+// convex polygons into which lines cut the plane.
 #pragma once
+
+#include <vector>
 
 #include "geometry/box.hpp"
 
@@ -57,6 +60,58 @@ Reach reach(const Box<D>& box, const Plane<D>& plane) {
     most += std::max(a, b);
   }
   return {least <= plane.offset, most >= plane.offset};
+}
+
+// All points a + t (b - a) with t in [0, 1]; the ends may coincide.
+//
+//        left: in front of the line
+//     a ---------------> b
+//        right: behind it
+template <int D>
+struct Segment {
+  Vec<D> a{0.0};
+  Vec<D> b{0.0};
+
+  Vec<D> at(double t) const { return a + (b - a) * t; }  // t from 0 to 1
+  Vec<D> middle() const { return at(0.5); }
+  bool operator==(const Segment&) const = default;
+};
+
+template <int D>
+double length(const Segment<D>& s) {
+  return glm::length(s.b - s.a);
+}
+
+// The line through a segment that is not a point: its normal has unit length and points left.
+inline Plane<2> line_of(const Segment<2>& s) {
+  const Vec<2> along = (s.b - s.a) / length(s);
+  return Plane<2>::through(s.a, {-along.y, along.x});
+}
+
+// Corners in counter-clockwise order; fewer than three corners mean an empty region.
+using Polygon = std::vector<Vec<2>>;
+
+// The corners of a box, from its lower left.
+inline Polygon polygon_of(const Box<2>& box) {
+  return {box.lo, {box.hi.x, box.lo.y}, box.hi, {box.lo.x, box.hi.y}};
+}
+
+// The part of a convex polygon on one side of a line (Sutherland and Hodgman 1974).
+inline Polygon clipped(const Polygon& polygon, const Plane<2>& line, bool keep_front) {
+  const auto height_within = [&](const Vec<2>& p) {
+    return keep_front ? height(p, line) : -height(p, line);
+  };
+  Polygon kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vec<2>& from = polygon[i];
+    const Vec<2>& to = polygon[(i + 1) % polygon.size()];
+    const double a = height_within(from);
+    const double b = height_within(to);
+    if (a >= 0) kept.push_back(from);
+    if ((a > 0 && b < 0) || (a < 0 && b > 0)) kept.push_back(from + (to - from) * (a / (a - b)));
+  }
+  if (kept.size() < 3) kept.clear();
+  return kept;
 }
 
 }  // namespace lantern::geometry

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <numbers>
+
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -11,5 +13,7 @@ namespace lantern::geometry {
 // A point or direction of D dimensions, in double. Index 0 is x, 1 is y (up), 2 is z.
 template <int D>
 using Vec = glm::vec<D, double>;
+
+inline constexpr double kDegree = std::numbers::pi / 180;  // in radians
 
 }  // namespace lantern::geometry

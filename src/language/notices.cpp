@@ -11,8 +11,8 @@
 
 #include <fmt/format.h>
 
-#include "base/counted.hpp"
-#include "geometry/angle.hpp"
+#include "base/number.hpp"
+#include "geometry/vec.hpp"
 #include "language/counts.hpp"
 #include "language/keys/key.hpp"
 #include "language/tables/draft.hpp"

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/check.hpp"
-#include "base/own_name.hpp"
+#include "base/suggest.hpp"
 #include "language/language.hpp"
 #include "language/reference.hpp"
 #include "language/tables/draft.hpp"

@@ -12,6 +12,7 @@
 
 #include "geometry/ray.hpp"
 #include "spatial/broad_phase.hpp"
+#include "spatial/query.hpp"
 
 namespace lantern::measure {
 

@@ -13,6 +13,7 @@
 #include "base/timing.hpp"
 #include "measure/bench.hpp"
 #include "measure/boxes/worlds.hpp"
+#include "spatial/pairs.hpp"
 
 namespace lantern::measure {
 

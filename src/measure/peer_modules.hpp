@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "base/library.hpp"
+#include "base/child.hpp"
 
 namespace lantern::measure {
 

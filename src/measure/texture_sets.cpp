@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "base/counted.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/number.hpp"
 #include "base/random.hpp"
 #include "base/suggest.hpp"
 #include "language/text/problems.hpp"

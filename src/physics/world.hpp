@@ -18,6 +18,7 @@
 #include "physics/integrate/integrator.hpp"
 #include "physics/joint.hpp"
 #include "physics/world_config.hpp"
+#include "spatial/broad_phase.hpp"
 
 namespace lantern::physics {
 

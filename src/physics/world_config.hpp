@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "physics/methods.hpp"
-#include "spatial/broad_phase.hpp"
+#include "spatial/broad_phase_config.hpp"
 
 namespace lantern::physics {
 

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "base/markup.hpp"
+#include "base/printable.hpp"
 #include "publish/packed.hpp"
 
 namespace lantern::publish {

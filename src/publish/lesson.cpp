@@ -8,7 +8,7 @@
 
 #include "base/check.hpp"
 #include "base/json_writer.hpp"
-#include "base/markup.hpp"
+#include "base/printable.hpp"
 #include "draw/theme.hpp"
 #include "embedded/lesson_files.hpp"
 #include "publish/packed.hpp"

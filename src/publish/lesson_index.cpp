@@ -9,7 +9,7 @@
 
 #include "base/error.hpp"
 #include "base/file.hpp"
-#include "base/markup.hpp"
+#include "base/printable.hpp"
 #include "embedded/lesson_files.hpp"
 #include "publish/lesson.hpp"
 #include "publish/packed.hpp"

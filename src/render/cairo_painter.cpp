@@ -12,10 +12,10 @@
 
 #include <fmt/format.h>
 
+#include "base/child.hpp"
 #include "base/error.hpp"
-#include "base/library.hpp"
+#include "base/printable.hpp"
 #include "base/stop.hpp"
-#include "base/utf8.hpp"
 #include "draw/font.hpp"
 #include "render/canvas.hpp"
 

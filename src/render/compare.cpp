@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include "base/counted.hpp"
 #include "base/hash.hpp"
+#include "base/number.hpp"
 
 namespace lantern::render {
 namespace {

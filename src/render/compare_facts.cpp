@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/check.hpp"
-#include "base/utf8.hpp"
+#include "base/printable.hpp"
 #include "render/compare.hpp"
 
 namespace lantern::render {

@@ -15,8 +15,8 @@
 #include <sys/mman.h>
 #include <sys/resource.h>
 
+#include "base/child.hpp"
 #include "base/error.hpp"
-#include "base/library.hpp"
 #include "base/memory.hpp"
 #include "render/gl.hpp"
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "base/markup.hpp"
+#include "base/printable.hpp"
 #include "base/stop.hpp"
 #include "draw/font.hpp"
 #include "render/canvas.hpp"

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "base/counted.hpp"
+#include "base/number.hpp"
 #include "draw/page.hpp"
 #include "report/benches.hpp"
 #include "run/director.hpp"

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "base/counted.hpp"
+#include "base/number.hpp"
 #include "base/suggest.hpp"
 #include "report/benches.hpp"
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/check.hpp"
-#include "base/markup.hpp"
+#include "base/printable.hpp"
 #include "report/document.hpp"
 #include "report/web_plot.hpp"
 

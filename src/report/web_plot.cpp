@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "base/markup.hpp"
+#include "base/printable.hpp"
 #include "draw/labels.hpp"
 #include "draw/plot_marks.hpp"
 #include "draw/theme.hpp"

@@ -109,7 +109,7 @@ void LevelStage::see(const std::optional<Vec<2>>& eye, const Watch& watch) {
   if (!visibility_) {
     const auto observer = [&](const LevelVisibility& so_far) {
       seen_ = &so_far;
-      viewer_ = so_far.done() == 0 ? kNone : so_far.done() - 1;
+      viewer_ = so_far.done == 0 ? kNone : so_far.done - 1;
       watch({viewer_ == kNone ? "portals" : "row", told(so_far)});
     };
     try {
@@ -131,14 +131,13 @@ void LevelStage::see(const std::optional<Vec<2>>& eye, const Watch& watch) {
 std::string LevelStage::told(const LevelVisibility& seen) const {
   if (viewer_ == kNone)
     return fmt::format("{} between the sectors: what is no wall can be looked through.",
-                       counted(seen.portals().size(), "portal"));
+                       counted(seen.portals.size(), "portal"));
   std::uint32_t others = 0;
-  for (std::uint32_t s = 0; s < seen.sectors(); ++s)
-    others += s != viewer_ && seen.sees(viewer_, s);
+  for (std::uint32_t s = 0; s < seen.sectors; ++s) others += s != viewer_ && seen.sees(viewer_, s);
   return fmt::format(
       "Sector {} looks through one portal after another, as long as one straight line passes all. "
       "It sees {} of {}.",
-      viewer_ + 1, others, counted(seen.sectors() - 1, "other"));
+      viewer_ + 1, others, counted(seen.sectors - 1, "other"));
 }
 
 StructureSpec LevelStage::structure() const {

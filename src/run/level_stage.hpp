@@ -9,7 +9,6 @@
 
 #include "frame/frame.hpp"
 #include "spatial/level/level_bsp.hpp"
-#include "spatial/level/level_visibility.hpp"
 
 namespace lantern::run {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "atlas/binder.hpp"
+#include "atlas/atlas.hpp"
 #include "frame/frame.hpp"
 
 namespace lantern::run {
@@ -25,7 +25,7 @@ class ScreenStage {
   void end();
 
   std::size_t texture_of(std::size_t element) const { return elements_[element].image; }
-  std::uint64_t bindings() const { return binder_.bindings(); }
+  std::uint64_t bindings() const { return binder_.bindings; }
   void picture(Frame& frame) const;
 
  private:

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/stop.hpp"
+#include "spatial/pair_search.hpp"
 #include "spatial/pairs.hpp"
 
 namespace lantern::run {

@@ -14,14 +14,23 @@
 #include <array>
 #include <bit>
 #include <cstddef>
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <vector>
 
 #include "spatial/structure.hpp"
 
 namespace lantern::spatial {
+
+namespace detail {
+
+// So many floats further: the order of floats is that of their bits, of negative ones turned.
+inline float stepped(float x, int by) {
+  const auto turned = [](std::int32_t bits) {
+    return bits < 0 ? static_cast<std::int32_t>(0x8000'0000u - static_cast<std::uint32_t>(bits))
+                    : bits;
+  };
+  return std::bit_cast<float>(turned(turned(std::bit_cast<std::int32_t>(x)) + by));
+}
+
+}  // namespace detail
 
 template <int D>
 class BoxTable {
@@ -50,8 +59,14 @@ class BoxTable {
   std::size_t places() const { return ids_.capacity(); }
 
   // The greatest float that is not above x, and the least that is not below it.
-  static float rounded_down(double x);
-  static float rounded_up(double x);
+  static float rounded_down(double x) {
+    const auto nearest = static_cast<float>(x);
+    return detail::stepped(nearest, nearest > x ? -1 : 0);
+  }
+  static float rounded_up(double x) {
+    const auto nearest = static_cast<float>(x);
+    return detail::stepped(nearest, nearest < x ? 1 : 0);
+  }
 
  private:
   std::size_t size_ = 0;
@@ -65,6 +80,14 @@ struct ScanRun {
   std::uint32_t query = 0;
   std::uint32_t from = 0;
   std::uint32_t to = 0;
+};
+
+template <int D>
+struct ScanTask {
+  const BoxTable<D>& queries;
+  const BoxTable<D>& table;
+  std::span<const Item<D>> exact;
+  std::span<const ScanRun> runs;
 };
 
 // Pairs of bodies by their ids, in two lists side by side.
@@ -102,9 +125,7 @@ class FoundPairs {
 
  private:
   template <int D>
-  friend void scan(const BoxTable<D>& queries, const BoxTable<D>& table,
-                   std::span<const Item<D>> exact, std::span<const ScanRun> runs,
-                   FoundPairs& found);
+  friend void scan(const ScanTask<D>& task, FoundPairs& found);
   template <int D>
   friend class RunScanner;
 
@@ -120,8 +141,7 @@ class FoundPairs {
 // Adds (id of the query, id of the place) for each place of each run whose box overlaps the
 // query's, in the order of runs and places. `exact[id]` is the body with that id, in both tables.
 template <int D>
-void scan(const BoxTable<D>& queries, const BoxTable<D>& table, std::span<const Item<D>> exact,
-          std::span<const ScanRun> runs, FoundPairs& found);
+void scan(const ScanTask<D>& task, FoundPairs& found);
 
 // Collects runs of one table against itself or another, and scans them some thousands at a time.
 template <int D>
@@ -142,7 +162,7 @@ class RunScanner {
   }
   // To be called after the last run.
   void finish() {
-    scan<D>(queries_, table_, exact_, std::span(found_.runs_).first(count_), found_);
+    scan<D>({queries_, table_, exact_, std::span(found_.runs_).first(count_)}, found_);
     count_ = 0;
   }
   // Boxes with boxes, so far.
@@ -159,14 +179,6 @@ class RunScanner {
 
 // --- the inner loop of all candidate pairs (box_vectors.cpp) ---
 
-template <int D>
-struct ScanTask {
-  const BoxTable<D>& queries;
-  const BoxTable<D>& table;
-  std::span<const Item<D>> exact;
-  std::span<const ScanRun> runs;
-};
-
 struct ScanRoom {
   BodyId* first;
   BodyId* second;
@@ -179,36 +191,42 @@ struct ScanDone {
 
 // Writes behind `begin` pairs, and ends before a run that might find more than up to `end`. What
 // lies up to BoxTable::kPadding places behind the last pair is overwritten.
-ScanDone scan_runs(const ScanTask<2>& task, const ScanRoom& room, std::size_t begin,
+template <int D>
+ScanDone scan_runs(const ScanTask<D>& task, const ScanRoom& room, std::size_t begin,
                    std::size_t end);
-ScanDone scan_runs(const ScanTask<3>& task, const ScanRoom& room, std::size_t begin,
-                   std::size_t end);
 
-// --- how a float is rounded ---
+// Pairs in order of their lower, then their higher number, without comparing them with each other:
+// counted into one row for each lower number; short rows are put in order by insertion, long ones
+// by a bit for each number. To put millions of pairs in order by comparisons takes longer than to
+// find them.
+class PairOrder {
+ public:
+  // The pairs, each once, with `names[number]` for each number, instead of what `ordered` held. The
+  // names ascend. `found` may name a pair in both ways, and more than once; it is used as scratch,
+  // and by as many threads as may scan for it.
+  void order(FoundPairs& found, std::span<const BodyId> names, std::vector<Pair>& ordered);
 
-namespace detail {
+  // Places for which there is memory.
+  std::size_t places() const;
 
-// So many floats further: the order of floats is that of their bits, of negative ones turned.
-inline float stepped(float x, int by) {
-  const auto turned = [](std::int32_t bits) {
-    return bits < 0 ? static_cast<std::int32_t>(0x8000'0000u - static_cast<std::uint32_t>(bits))
-                    : bits;
+ private:
+  // What one thread works on: some of the pairs that were found, later some of the rows.
+  struct Part {
+    std::vector<std::uint32_t> begin;  // of each row in partners_: where its own pairs go
+    std::vector<std::uint64_t> bits;   // all zero between rows
+    std::uint32_t first_row = 0, end_row = 0;
+    std::size_t ordered = 0;  // how many pairs of its rows there are, each once
   };
-  return std::bit_cast<float>(turned(turned(std::bit_cast<std::int32_t>(x)) + by));
-}
 
-}  // namespace detail
+  void fill_rows(FoundPairs& found);
+  void share_rows(std::size_t pairs);
+  void order_rows(Part& part, std::span<const BodyId> names, Pair* ordered);
+  static std::span<std::uint32_t> in_order(std::span<std::uint32_t> row, Part& part);
+  static std::span<std::uint32_t> by_bits(std::span<std::uint32_t> row, Part& part);
 
-template <int D>
-float BoxTable<D>::rounded_down(double x) {
-  const auto nearest = static_cast<float>(x);
-  return detail::stepped(nearest, nearest > x ? -1 : 0);
-}
-
-template <int D>
-float BoxTable<D>::rounded_up(double x) {
-  const auto nearest = static_cast<float>(x);
-  return detail::stepped(nearest, nearest < x ? 1 : 0);
-}
+  std::vector<Part> parts_;
+  std::vector<std::uint32_t> end_;       // of each row
+  std::vector<std::uint32_t> partners_;  // the higher numbers, row by row
+};
 
 }  // namespace lantern::spatial

@@ -4,9 +4,52 @@
 #define HWY_TARGET_INCLUDE "spatial/box_vectors.cpp"
 #include "spatial/trees/aabb_walk.hpp"
 
-// clang-format off: before Highway's own
-#include "spatial/vector_target.hpp"
-// clang-format on
+// Highway without its library: that is loaded before main() and measures a clock for milliseconds,
+// whether boxes are scanned or not. All that is needed of it is which of the functions compiled for
+// several kinds of processor suits this one.
+#ifndef LANTERN_BEST
+#define HWY_IS_DEBUG_BUILD 0  // what Highway asserts of itself would need the library
+#ifdef __x86_64__
+#define HWY_DISABLE_PCLMUL_AES  // not used here, so that a processor without them may take SSE4
+#else
+#define HWY_COMPILE_ONLY_STATIC  // elsewhere: what every such processor has
+#endif
+#include <hwy/targets.h>
+
+// LANTERN_BEST(FUNCTION): points to the one of the target that suits this processor best.
+#if (HWY_TARGETS & (HWY_TARGETS - 1)) == 0
+#define LANTERN_BEST(FUNCTION) (&HWY_STATIC_DISPATCH(FUNCTION))
+#else
+#define LANTERN_BEST(FUNCTION)                                         \
+  lantern::spatial::best_of<decltype(&HWY_STATIC_DISPATCH(FUNCTION))>( \
+      {nullptr, HWY_CHOOSE_TARGET_LIST(FUNCTION), HWY_CHOOSE_FALLBACK(FUNCTION)})
+
+namespace lantern::spatial {
+
+template <class Function>
+Function best_of(std::initializer_list<Function> functions) {
+  // What stands for a level beside these, such as LZCNT, every such processor has; both GCC and
+  // Clang know these names.
+  const bool sse4 = __builtin_cpu_supports("sse4.1") && __builtin_cpu_supports("sse4.2") &&
+                    __builtin_cpu_supports("popcnt");
+  const bool avx2 = sse4 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+                    __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
+  const bool avx3 = avx2 && __builtin_cpu_supports("avx512f") &&
+                    __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq") &&
+                    __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512cd");
+  std::int64_t targets = 0;
+  if (__builtin_cpu_supports("ssse3")) targets |= HWY_SSSE3;
+  if (sse4) targets |= HWY_SSE4;
+  if (avx2) targets |= HWY_AVX2;
+  if (avx3) targets |= HWY_AVX3;
+  hwy::ChosenTarget chosen;
+  chosen.Update(targets);
+  return functions.begin()[chosen.GetIndex()];
+}
+
+}  // namespace lantern::spatial
+#endif
+#endif
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -93,15 +136,6 @@ ScanDone ScanRuns(const ScanTask<D>& task, const ScanRoom& room, std::size_t pai
   return {done, pairs};
 }
 
-ScanDone ScanRuns2(const ScanTask<2>& task, const ScanRoom& room, std::size_t begin,
-                   std::size_t end) {
-  return ScanRuns(task, room, begin, end);
-}
-ScanDone ScanRuns3(const ScanTask<3>& task, const ScanRoom& room, std::size_t begin,
-                   std::size_t end) {
-  return ScanRuns(task, room, begin, end);
-}
-
 // --- boxes and rays in a block of an AABB tree ---
 
 using Lanes = hn::CappedTag<float, kAabbBlock>;
@@ -163,58 +197,37 @@ std::uint32_t Met(const BoxTable<D>& table, std::uint32_t first, const FloatRay<
   });
 }
 
-BlockBits Reached2(const BoxTable<2>& table, std::uint32_t first, const AabbNode<2>& asked) {
-  return Reached(table, first, asked);
-}
-BlockBits Reached3(const BoxTable<3>& table, std::uint32_t first, const AabbNode<3>& asked) {
-  return Reached(table, first, asked);
-}
-std::uint32_t Met2(const BoxTable<2>& table, std::uint32_t first, const FloatRay<2>& ray,
-                   float limit) {
-  return Met(table, first, ray, limit);
-}
-std::uint32_t Met3(const BoxTable<3>& table, std::uint32_t first, const FloatRay<3>& ray,
-                   float limit) {
-  return Met(table, first, ray, limit);
-}
-
 }  // namespace lantern::spatial::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
 namespace lantern::spatial {
 
-ScanDone scan_runs(const ScanTask<2>& task, const ScanRoom& room, std::size_t begin,
+template <int D>
+ScanDone scan_runs(const ScanTask<D>& task, const ScanRoom& room, std::size_t begin,
                    std::size_t end) {
-  static const auto best = LANTERN_BEST(ScanRuns2);
+  static const auto best = LANTERN_BEST(ScanRuns<D>);
   return best(task, room, begin, end);
 }
-ScanDone scan_runs(const ScanTask<3>& task, const ScanRoom& room, std::size_t begin,
-                   std::size_t end) {
-  static const auto best = LANTERN_BEST(ScanRuns3);
-  return best(task, room, begin, end);
+template <int D>
+BlockBits reached_in_block(const BoxTable<D>& table, std::uint32_t first,
+                           const AabbNode<D>& asked) {
+  static const auto best = LANTERN_BEST(Reached<D>);
+  return best(table, first, asked);
+}
+template <int D>
+std::uint32_t met_in_block(const BoxTable<D>& table, std::uint32_t first, const FloatRay<D>& ray,
+                           float limit) {
+  static const auto best = LANTERN_BEST(Met<D>);
+  return best(table, first, ray, limit);
 }
 
-BlockBits reached_in_block(const BoxTable<2>& table, std::uint32_t first,
-                           const AabbNode<2>& asked) {
-  static const auto best = LANTERN_BEST(Reached2);
-  return best(table, first, asked);
-}
-BlockBits reached_in_block(const BoxTable<3>& table, std::uint32_t first,
-                           const AabbNode<3>& asked) {
-  static const auto best = LANTERN_BEST(Reached3);
-  return best(table, first, asked);
-}
-std::uint32_t met_in_block(const BoxTable<2>& table, std::uint32_t first, const FloatRay<2>& ray,
-                           float limit) {
-  static const auto best = LANTERN_BEST(Met2);
-  return best(table, first, ray, limit);
-}
-std::uint32_t met_in_block(const BoxTable<3>& table, std::uint32_t first, const FloatRay<3>& ray,
-                           float limit) {
-  static const auto best = LANTERN_BEST(Met3);
-  return best(table, first, ray, limit);
-}
+template ScanDone scan_runs(const ScanTask<2>&, const ScanRoom&, std::size_t, std::size_t);
+template ScanDone scan_runs(const ScanTask<3>&, const ScanRoom&, std::size_t, std::size_t);
+template BlockBits reached_in_block(const BoxTable<2>&, std::uint32_t, const AabbNode<2>&);
+template BlockBits reached_in_block(const BoxTable<3>&, std::uint32_t, const AabbNode<3>&);
+template std::uint32_t met_in_block(const BoxTable<2>&, std::uint32_t, const FloatRay<2>&, float);
+template std::uint32_t met_in_block(const BoxTable<3>&, std::uint32_t, const FloatRay<3>&, float);
 
 }  // namespace lantern::spatial
 #endif

@@ -2,10 +2,6 @@
 // them.
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
 #include "spatial/broad_phase.hpp"
 
 namespace lantern::spatial {
@@ -29,5 +25,26 @@ std::vector<Pair> pairs_by_force(std::span<const Proxy<D>> boxes);
 
 // How many of `truth` are not in `found`. Both in order and without repeats.
 std::uint64_t count_missing(std::span<const Pair> truth, std::span<const Pair> found);
+
+// --- small ones, on which a structure is tried ---
+
+struct TrialBody {
+  Vec<2> center{0.0};
+  Vec<2> half{0.0};
+  bool operator==(const TrialBody&) const = default;
+};
+
+// Bodies are called b1, b2, … in their order.
+struct TrialWorld {
+  std::string_view sort;  // "clustered"
+  Box<2> bounds;
+  std::uint32_t capacity = 1;
+  std::uint32_t max_depth = 1;
+  std::vector<TrialBody> bodies;
+  std::vector<TrialBody> moved;  // where they are next; empty: they stay
+};
+
+// The `number`-th world of this seed; all sorts in turn.
+TrialWorld trial_world(std::uint64_t seed, std::uint64_t number);
 
 }  // namespace lantern::spatial

@@ -1,17 +1,9 @@
 #include "spatial/broad_phase.hpp"
 
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <optional>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include "base/error.hpp"
 #include "base/memory.hpp"
-#include "base/stop.hpp"
-#include "spatial/pairs.hpp"
+#include "spatial/pair_search.hpp"
 
 namespace lantern::spatial {
 namespace {
@@ -22,10 +14,23 @@ std::uint64_t most_entries(std::uint64_t room) { return 4096 + 64 * room; }
 }  // namespace
 
 template <int D>
+struct BroadPhase<D>::Search : PairSearch<D> {  // by bodies' places, later named by their ranks
+  PairOrder order;
+};
+
+template <int D>
+BroadPhase<D>::~BroadPhase() = default;
+template <int D>
+BroadPhase<D>::BroadPhase(BroadPhase&&) noexcept = default;
+template <int D>
+BroadPhase<D>& BroadPhase<D>::operator=(BroadPhase&&) noexcept = default;
+
+template <int D>
 BroadPhase<D>::BroadPhase(const Config& config)
     : config_(config),
       static_(made(&BroadPhaseCounters::static_builds)),
-      dynamic_(made(&BroadPhaseCounters::dynamic_builds)) {}
+      dynamic_(made(&BroadPhaseCounters::dynamic_builds)),
+      search_(std::make_unique<Search>()) {}
 
 template <int D>
 auto BroadPhase<D>::made(std::uint64_t BroadPhaseCounters::*builds) -> Store {
@@ -56,7 +61,8 @@ void BroadPhase<D>::all_or_nothing(F&& change) {
     throw;
   }
   own_allocations_ += own_places() != places;
-  counters_.allocations = own_allocations_ + past_allocations_ + structure_allocations();
+  counters_.allocations = own_allocations_ + past_allocations_;
+  for (const Store* store : stores()) counters_.allocations += store->structure->work().allocations;
 }
 
 template <int D>
@@ -80,16 +86,8 @@ void BroadPhase<D>::build(std::span<const Proxy<D>> proxies, const Watch& watch)
 // From now on the stores hold these bodies; structures whose bodies are where they were stand.
 template <int D>
 void BroadPhase<D>::take(std::span<const Proxy<D>> proxies) {
-  bool same_bodies = true;
-  const std::span<const Proxy<D>> by_id = checked(proxies, same_bodies);
-  same_bodies ? move(by_id) : replace(by_id);
-}
-
-// In order of ids; are they those that the stores hold, each in its own?
-template <int D>
-auto BroadPhase<D>::checked(std::span<const Proxy<D>> proxies, bool& same_bodies)
-    -> std::span<const Proxy<D>> {
   bool ascending = true;
+  bool same_bodies = true;  // are they those that the stores hold, each in its own?
   std::array<std::size_t, 2> places{};
   for (std::size_t i = 0; i < proxies.size(); ++i) {
     const Proxy<D>& proxy = proxies[i];
@@ -102,14 +100,14 @@ auto BroadPhase<D>::checked(std::span<const Proxy<D>> proxies, bool& same_bodies
   }
   same_bodies = same_bodies && ascending && places[0] == dynamic_.names.size() &&
                 places[1] == static_.names.size();
-  if (ascending) return proxies;
-  const auto by_id = [](const Proxy<D>& a, const Proxy<D>& b) { return a.id < b.id; };
+  if (same_bodies) return move(proxies);
+  if (ascending) return replace(proxies);
   sorted_.assign(proxies.begin(), proxies.end());
-  std::sort(sorted_.begin(), sorted_.end(), by_id);
+  std::ranges::sort(sorted_, {}, &Proxy<D>::id);
   for (std::size_t i = 1; i < sorted_.size(); ++i)
     if (sorted_[i - 1].id == sorted_[i].id)
       throw Refused(fmt::format("body {}: it is there twice", sorted_[i].id));
-  return sorted_;
+  replace(sorted_);
 }
 
 template <int D>
@@ -160,13 +158,6 @@ void BroadPhase<D>::replace(std::span<const Proxy<D>> proxies) {
   }
 }
 
-template <int D>
-void BroadPhase<D>::Bodies::clear() {
-  items.clear();
-  names.clear();
-  states.clear();
-}
-
 // A structure that was not finished must not be taken for that of its bodies.
 template <int D>
 void BroadPhase<D>::forget() {
@@ -183,8 +174,13 @@ void BroadPhase<D>::forget() {
 
 template <int D>
 void BroadPhase<D>::build(Store& store, Use use, const Watch& watch) {
-  if (config_.kind == StructureKind::automatic && !suits(store, use)) choose(store, use);
-  if (mended(store, watch)) return;
+  if (config_.kind == StructureKind::automatic) choose(store, use);
+  // A structure that can go on from where its bodies were is not built anew.
+  if (store.only_moved) {
+    store.stands = true;  // for who looks meanwhile: each body that is in it has its name
+    store.stands = store.structure->update(store.items, naming(store, watch));
+    if (store.stands) return;
+  }
   if (config_.in_proportion && store.items.size() > store.room) {
     store.room = std::bit_ceil(store.items.size());
     store.settings.max_depth = config_.max_depth;
@@ -207,33 +203,21 @@ void BroadPhase<D>::build(Store& store, Use use, const Watch& watch) {
 // What was chosen is chosen again when the bodies have become twice as many or half as many, or
 // each of them is compared with twice as many others.
 template <int D>
-bool BroadPhase<D>::suits(const Store& store, Use use) const {
+void BroadPhase<D>::choose(Store& store, Use use) {
   constexpr double kFew = 16;  // comparisons of a body that are of no concern
   const std::size_t bodies = store.items.size();
-  return store.kind != StructureKind::automatic && store.chosen_use == use &&
-         bodies <= 2 * store.chosen_for && 2 * bodies >= store.chosen_for &&
-         store.tests <= 2 * store.chosen_tests + kFew;
-}
-
-template <int D>
-void BroadPhase<D>::choose(Store& store, Use use) {
+  if (store.kind != StructureKind::automatic && store.chosen_use == use &&
+      bodies <= 2 * store.chosen_for && 2 * bodies >= store.chosen_for &&
+      store.tests <= 2 * store.chosen_tests + kFew)
+    return;
   StructureChoice<D> choice = choose_structure<D>(store.items, config_, use);
   store.chosen_use = use;
-  store.chosen_for = store.items.size();
+  store.chosen_for = bodies;
   store.tests = store.chosen_tests = 0;
-  store.why = std::move(choice.why);
   store.only_moved = false;
   store.kind = choice.kind;
   store.settings = std::move(choice.config);
   make_anew(store);
-}
-
-// A structure that can go on from where its bodies were is not built anew.
-template <int D>
-bool BroadPhase<D>::mended(Store& store, const Watch& watch) {
-  if (!store.only_moved) return false;
-  store.stands = true;  // for who looks meanwhile: each body that is in it has its name
-  return store.stands = store.structure->update(store.items, naming(store, watch));
 }
 
 // Who watches is told of bodies by their ids, not by their places in the list.
@@ -319,26 +303,26 @@ void BroadPhase<D>::find_pairs() {
   counters_.pair_tests = counters_.nodes_visited = 0;
   counters_.nodes_skipped_asleep = counters_.nodes_reused = 0;
   pairs_.clear();
-  search_.begin(dynamic_.items, dynamic_.states);
-  if (search_.stirring() > 0) {
+  search_->begin(dynamic_.items, dynamic_.states);
+  if (search_->stirring() > 0) {
     if (!dynamic_.stands) build(dynamic_);
     for (Store* store : stores()) store->structure->sort();
-    search_.found.set_threads(config_.threads);
+    search_->found.set_threads(config_.threads);
     found_names_ = dynamic_.names;
-    search_.found.ask_before_growing(
+    search_->found.ask_before_growing(
         [this](BodyId body, std::size_t pairs) { require_room(body, pairs); });
-    dynamic_.structure->pair(search_);
-    counters_.pair_tests = search_.tests;
-    counters_.nodes_visited = search_.nodes_visited;
-    counters_.nodes_skipped_asleep = search_.nodes_skipped;
+    dynamic_.structure->pair(*search_);
+    counters_.pair_tests = search_->tests;
+    counters_.nodes_visited = search_->nodes_visited;
+    counters_.nodes_skipped_asleep = search_->nodes_skipped;
     counters_.nodes_reused = dynamic_.structure->work().nodes_reused;
     dynamic_.tests =
-        static_cast<double>(counters_.pair_tests) / static_cast<double>(search_.stirring());
+        static_cast<double>(counters_.pair_tests) / static_cast<double>(search_->stirring());
     if (dynamic_.chosen_tests == 0) dynamic_.chosen_tests = dynamic_.tests;
     pair_static();
-    const FoundPairs& found = search_.found;
+    const FoundPairs& found = search_->found;
     if (found.size() > config_.most_pairs) refuse_more(found.first()[config_.most_pairs]);
-    order_.order(search_.found, found_names_, pairs_);
+    search_->order.order(search_->found, found_names_, pairs_);
   } else if (!dynamic_.stands) {
     empty(dynamic_);
   }
@@ -349,7 +333,10 @@ void BroadPhase<D>::find_pairs() {
 template <int D>
 void BroadPhase<D>::pair_static() {
   if (static_.items.empty()) return;
-  name_by_rank();
+  // What was found among dynamic bodies is named by their ranks among all from now on.
+  for (BodyId& place : search_->found.first()) place = dynamic_.ranks[place];
+  for (BodyId& place : search_->found.second()) place = dynamic_.ranks[place];
+  found_names_ = all_names_;
   for (std::size_t i = 0; i < dynamic_.items.size(); ++i) {
     stop_if_asked();
     if (!dynamic_.states[i].stirs()) continue;
@@ -359,16 +346,8 @@ void BroadPhase<D>::pair_static() {
     counters_.pair_tests += ids_.size();
     for (const BodyId j : ids_)
       if (overlap(box, static_.items[j].box))
-        search_.found.add(dynamic_.ranks[i], static_.ranks[j]);
+        search_->found.add(dynamic_.ranks[i], static_.ranks[j]);
   }
-}
-
-// What was found among dynamic bodies is named by their ranks among all from now on.
-template <int D>
-void BroadPhase<D>::name_by_rank() {
-  for (BodyId& place : search_.found.first()) place = dynamic_.ranks[place];
-  for (BodyId& place : search_.found.second()) place = dynamic_.ranks[place];
-  found_names_ = all_names_;
 }
 
 // Before the lists of pairs grow, or pass their limit: places in them, and what it takes to put
@@ -378,9 +357,9 @@ void BroadPhase<D>::require_room(BodyId number, std::size_t pairs) const {
   const BodyId body = found_names_[number];
   require_memory(pairs * (3 * sizeof(BodyId) + sizeof(Pair)),
                  fmt::format("body {}: with it {} or more pairs of boxes that overlap", body,
-                             search_.found.size()),
+                             search_->found.size()),
                  "take fewer bodies, or part them");
-  if (search_.found.size() > config_.most_pairs) refuse_more(number);
+  if (search_->found.size() > config_.most_pairs) refuse_more(number);
 }
 
 template <int D>
@@ -388,48 +367,6 @@ void BroadPhase<D>::refuse_more(BodyId number) const {
   throw Refused(
       fmt::format("body {}: with it more than {} pairs overlap; take fewer bodies, or part them",
                   found_names_[number], config_.most_pairs));
-}
-
-// --- the chain of pairs ---
-
-template <int D>
-PairChain BroadPhase<D>::pair_chain(FunctionRef<bool(BodyId)> awake, std::uint64_t most) const {
-  std::vector<bool> stirring;
-  for (std::size_t i = 0; i < dynamic_.items.size(); ++i)
-    stirring.push_back(!dynamic_.states[i].is_static && awake(dynamic_.names[i]));
-  struct Met {
-    Pair pair;
-    bool overlaps;
-  };
-  std::vector<Met> met;
-  PairChain chain;
-  const auto meet = [&](BodyId i, const Store& store, BodyId j) {
-    require_within(++chain.met, most);
-    const BodyId a = dynamic_.names[i], b = store.names[j];
-    met.push_back(
-        {{std::min(a, b), std::max(a, b)}, overlap(dynamic_.items[i].box, store.items[j].box)});
-  };
-  // What sorts its bodies before it is asked does so in a copy, and stays as it is.
-  const auto dynamic_copy = dynamic_.structure->sorted(), static_copy = static_.structure->sorted();
-  const Structure<D>& of_dynamic = dynamic_copy ? *dynamic_copy : *dynamic_.structure;
-  const Structure<D>& of_static = static_copy ? *static_copy : *static_.structure;
-  chain.besides = of_dynamic.compare([&](BodyId i) -> bool { return stirring[i]; },
-                                     [&](BodyId i, BodyId j) { meet(i, dynamic_, j); });
-  for (std::uint32_t i = 0; i < stirring.size() && !static_.items.empty(); ++i) {
-    std::vector<BodyId> near;
-    if (stirring[i]) chain.besides += of_static.near(dynamic_.items[i].box, near);
-    for (const BodyId j : near) meet(i, static_, j);
-  }
-  std::sort(met.begin(), met.end(), [](const Met& x, const Met& y) {
-    stop_if_asked();
-    return x.pair < y.pair;
-  });
-  for (const Met& both : met) {
-    if (!chain.pairs.empty() && chain.pairs.back() == both.pair) continue;
-    chain.pairs.push_back(both.pair);
-    if (both.overlaps) chain.overlapping.push_back(both.pair);
-  }
-  return chain;
 }
 
 // --- looking ---
@@ -480,16 +417,11 @@ bool BroadPhase<D>::is_stale(const Item<D>& item) const {
 }
 
 template <int D>
-std::uint64_t BroadPhase<D>::structure_allocations() const {
-  return static_.structure->work().allocations + dynamic_.structure->work().allocations;
-}
-
-template <int D>
 std::size_t BroadPhase<D>::own_places() const {
   const auto of_store = [](const Store& s) { return s.places() + s.ranks.capacity(); };
   return pairs_.capacity() + sorted_.capacity() + all_names_.capacity() + ids_.capacity() +
-         of_store(static_) + of_store(dynamic_) + fresh_.places() + search_.places() +
-         order_.places();
+         of_store(static_) + of_store(dynamic_) + fresh_.places() + search_->places() +
+         search_->order.places();
 }
 
 template class BroadPhase<2>;

@@ -1,37 +1,30 @@
 // The broad phase: which boxes overlap. One interface, many structures, the same pairs.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
-#include "spatial/pair_order.hpp"
-#include "spatial/pair_search.hpp"
-#include "spatial/query.hpp"
-#include "spatial/structure_choice.hpp"
+#include "spatial/broad_phase_config.hpp"
 
 namespace lantern::spatial {
 
+// Which structure for which bodies: `kind = "auto"`.
 template <int D>
-struct BroadPhaseConfig : StructureConfig<D> {
-  StructureKind kind = D == 3 ? StructureKind::octree : StructureKind::quadtree;
-  bool split_static = true;  // static bodies in a structure of their own
-  Build build = Build::one_by_one;
-  // That may look for pairs at the same time, where there are enough of them; the pairs and their
-  // order are the same for any number. To start threads takes memory anew each time.
-  unsigned threads = 1;
-  // Whether a tree that would grow out of proportion (more than 64 entries a body: many bodies
-  // larger than most cells) is built with half of its depth instead, again and again until it does
-  // not. Else the depth is as configured, and a tree of more than `most_entries` is refused.
-  bool in_proportion = true;
-  // Of overlaps met, each once for each leaf that both bodies share.
-  std::uint64_t most_pairs = std::uint64_t{1} << 26;
+struct StructureChoice {
+  StructureKind kind = StructureKind::brute_force;
+  StructureConfig<D> config;  // as given, but for what was chosen
+  // "a grid of 2 levels: 1% of 10000 bodies are more than 8 times as large as the median": the
+  // numbers are counted from the bodies.
+  std::string why;
 };
+
+enum class Use {
+  pairs,      // all pairs of bodies whose boxes overlap
+  questions,  // what a ray, a box, a ball meets
+};
+
+// The kind and the settings that are likely to serve these bodies soonest. Depends on the boxes
+// alone; looks at each body once, and at a sample of some thousand pairs.
+template <int D>
+StructureChoice<D> choose_structure(std::span<const Item<D>> items,
+                                    const StructureConfig<D>& config, Use use = Use::pairs);
 
 // What the broad phase knows of a body.
 template <int D>
@@ -41,18 +34,6 @@ struct Proxy {
   bool is_static = false;
   bool awake = true;  // of no matter if static
   bool operator==(const Proxy&) const = default;
-};
-
-struct BroadPhaseCounters {
-  // Since the broad phase was made.
-  std::uint64_t static_builds = 0;
-  std::uint64_t dynamic_builds = 0;
-  std::uint64_t allocations = 0;  // calls for memory
-  // Of the last update.
-  std::uint64_t pair_tests = 0;            // pairs met in leaves: boxes compared with boxes
-  std::uint64_t nodes_visited = 0;         // of the dynamic structure, while pairing
-  std::uint64_t nodes_skipped_asleep = 0;  // whole branches in which all sleep, each counted once
-  std::uint64_t nodes_reused = 0;          // of the dynamic structure
 };
 
 // The way from nodes to candidate pairs, for who shows or checks it: what an update of the same
@@ -79,6 +60,9 @@ class BroadPhase {
 
   // Throws Refused for what the structures refuse.
   explicit BroadPhase(const Config& config);
+  ~BroadPhase();
+  BroadPhase(BroadPhase&&) noexcept;
+  BroadPhase& operator=(BroadPhase&&) noexcept;
 
   // Finds the pairs. Proxies may come in any order. Nothing is done if they are those of the last
   // update; nothing is built for bodies of which none is awake. Throws Refused, naming the body,
@@ -102,10 +86,8 @@ class BroadPhase {
   void insert(std::span<const Proxy<D>> proxies, const Watch& watch = {});
   void insert(const Proxy<D>& proxy, const Watch& watch) { insert(std::span(&proxy, 1), watch); }
 
-  // Of the dynamic structure: as configured or, of `automatic`, what it is now, and why.
+  // Of the dynamic structure: as configured or, of `automatic`, what it is now.
   StructureKind kind() const { return dynamic_.kind; }
-  const StructureConfig<D>& settings() const { return dynamic_.settings; }
-  const std::string& why() const { return dynamic_.why; }
 
   // What an update would find in the structures as they stand, bodies with `awake(id)` moving. At
   // most `most` pairs of each kind: throws Refused beyond.
@@ -146,7 +128,11 @@ class BroadPhase {
     std::vector<Item<D>> items = {};  // their ids are their places
     std::vector<BodyId> names = {};
     std::vector<ProxyState> states = {};
-    void clear();
+    void clear() {
+      items.clear();
+      names.clear();
+      states.clear();
+    }
     std::size_t places() const { return items.capacity() + names.capacity() + states.capacity(); }
   };
   // A structure and its bodies.
@@ -155,7 +141,6 @@ class BroadPhase {
     std::uint64_t BroadPhaseCounters::*builds;
     StructureKind kind;
     StructureConfig<D> settings;  // the depth at most as configured
-    std::string why = {};         // it was chosen
     Use chosen_use = Use::pairs;
     std::size_t chosen_for = 0;             // so many bodies, and
     double chosen_tests = 0;                // so many comparisons a body in the first update after
@@ -178,17 +163,14 @@ class BroadPhase {
 
   Store made(std::uint64_t BroadPhaseCounters::*builds);
   void make_anew(Store& store);
-  bool suits(const Store& store, Use use) const;
   void choose(Store& store, Use use);
   template <class F>
   void all_or_nothing(F&& change);
   void take(std::span<const Proxy<D>> proxies);
-  std::span<const Proxy<D>> checked(std::span<const Proxy<D>> proxies, bool& same_bodies);
   void move(std::span<const Proxy<D>> proxies);
   void replace(std::span<const Proxy<D>> proxies);
   void forget();
   void build(Store& store, Use use = Use::pairs, const Watch& watch = {});
-  bool mended(Store& store, const Watch& watch);
   void put(Store& store, const Proxy<D>& proxy, const Watch& watch);
   static Watch naming(const Store& store, const Watch& watch);
   template <class F>
@@ -196,10 +178,8 @@ class BroadPhase {
   void empty(Store& store);
   void find_pairs();
   void pair_static();
-  void name_by_rank();
   void require_room(BodyId number, std::size_t pairs) const;
   [[noreturn]] void refuse_more(BodyId number) const;
-  std::uint64_t structure_allocations() const;
   std::size_t own_places() const;
 
   Config config_;
@@ -215,12 +195,24 @@ class BroadPhase {
   std::vector<BodyId> all_names_;  // by rank, if there are static bodies
   Bodies fresh_;                   // of a store whose bodies are others now
   std::vector<BodyId> ids_;
-  PairSearch<D> search_;  // finds them by their places, later named by their ranks
   std::span<const BodyId> found_names_;
-  PairOrder order_;
+  struct Search;
+  std::unique_ptr<Search> search_;
 };
 
 extern template class BroadPhase<2>;
 extern template class BroadPhase<3>;
+
+// The broad phase of these settings, with bodies as they are before a step and after it: the same
+// ids. What never moves has a structure of its own, which is built once. The pairs of what nobody
+// looks at come from vector instructions that compare more boxes than this in less time; counted is
+// the plain way, which frames show. Throws Refused as BroadPhase does, and beyond `most` pairs.
+template <int D>
+StructureWork structure_work(BroadPhaseConfig<D> config, std::span<const Proxy<D>> before,
+                             std::span<const Proxy<D>> after, std::uint64_t most);
+
+// Whether all that the kind does is counted: not of `none` and `automatic`, of the lecture's own
+// code, and of structures that a program was given.
+bool counts_its_work(StructureKind kind);
 
 }  // namespace lantern::spatial

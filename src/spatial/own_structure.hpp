@@ -25,13 +25,7 @@
 #pragma once
 
 #include <concepts>
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <span>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include "spatial/structure.hpp"
 
@@ -103,5 +97,17 @@ OwnKind own(std::string name, std::string words) {
 // was read or made earlier does not know them. Throws Refused for a name that is not of a–z, 0–9
 // and _ or that is taken.
 void know_own_structures(std::vector<OwnKind> kinds);
+
+// A structure of a user's own among ours: one type for all of them, since only the program that was
+// given one knows what it is.
+
+// Null for one of ours.
+const OwnKind* own_structure(StructureKind kind);
+
+// An empty one. In three dimensions it looks at x and z only. Whatever goes wrong in the tree is
+// thrown, as a StructureFault, by the next insert or look; the structure must be cleared then. Who
+// watches is told what must have happened, when it has.
+template <int D>
+std::unique_ptr<Structure<D>> own_tree(const OwnKind& kind, const StructureConfig<D>& config);
 
 }  // namespace lantern::spatial

@@ -2,28 +2,12 @@
 // structure. Compiled into each structure; see structure_of.hpp.
 #pragma once
 
-#include <algorithm>
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <vector>
-
 #include "base/stop.hpp"
 #include "spatial/box_table.hpp"
+#include "spatial/pairs.hpp"
 #include "spatial/structure.hpp"
 
 namespace lantern::spatial {
-
-// n(n-1)/2
-constexpr std::uint64_t all_pairs(std::uint64_t n) { return n < 2 ? 0 : n * (n - 1) / 2; }
-
-// What is known of a body beside its box.
-struct ProxyState {
-  bool is_static = false;
-  bool awake = true;
-  bool operator==(const ProxyState&) const = default;
-  bool stirs() const { return awake && !is_static; }
-};
 
 // Which nodes are awake (the lecture, "Sleeping Objects"): those below which an awake body lies.
 class AwakeNodes {

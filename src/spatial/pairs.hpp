@@ -1,14 +1,10 @@
 // Candidate pairs: two bodies that share a leaf.
 #pragma once
 
-#include <algorithm>
-#include <vector>
-
 #include <fmt/format.h>
 
 #include "base/error.hpp"
 #include "base/stop.hpp"
-#include "spatial/pair_search.hpp"
 #include "spatial/structure.hpp"
 
 namespace lantern::spatial {
@@ -25,6 +21,9 @@ inline void sort_pairs(std::vector<Pair>& pairs) {
     return x < y;
   });
 }
+
+// n(n-1)/2
+constexpr std::uint64_t all_pairs(std::uint64_t n) { return n < 2 ? 0 : n * (n - 1) / 2; }
 
 // Those of n bodies that brute force would test: not both of the `never_move` that never do.
 constexpr std::uint64_t testable_pairs(std::uint64_t n, std::uint64_t never_move) {

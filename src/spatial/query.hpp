@@ -6,16 +6,10 @@
 // the last bit, as if each body of the scene had been asked.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <limits>
-#include <optional>
 #include <variant>
-#include <vector>
 
 #include "base/error.hpp"
-#include "geometry/frustum.hpp"
 #include "geometry/ray.hpp"
 #include "spatial/structure.hpp"
 
@@ -88,35 +82,6 @@ bool overlap(const Ball<D>& ball, const Box<D>& box) {
   return squares <= 1;
 }
 
-// A structure as it is asked: its bodies may have other names than it has for them.
-template <int D>
-struct StructureView {
-  const Structure<D>* structure;
-  // If its bodies are numbered from 0: what they are called instead, in ascending order, and their
-  // boxes. Else they have the ids that it was given.
-  std::span<const BodyId> names = {};
-  std::span<const Item<D>> bodies = {};
-
-  StructureView(const Structure<D>& s) : structure(&s) {}
-  StructureView(const Structure<D>& s, std::span<const BodyId> their_names,
-                std::span<const Item<D>> their_boxes)
-      : structure(&s), names(their_names), bodies(their_boxes) {}
-
-  BodyId name(BodyId id) const { return names.empty() ? id : names[id]; }
-  void visit(NodeLook<D> f, const Vec<D>& toward = Vec<D>(0.0)) const {
-    std::vector<BodyId> ids;
-    structure->visit(
-        [&](NodeView<D> node) {
-          ids.clear();
-          for (const BodyId id : node.bodies) ids.push_back(name(id));
-          node.bodies = ids;
-          return f(node);
-        },
-        toward);
-  }
-  Counters counters() const { return structure->counters(); }
-};
-
 // The box with which a body was inserted.
 template <int D>
 using BoxOf = FunctionRef<Box<D>(BodyId)>;
@@ -171,9 +136,23 @@ struct VolumeQuery : QueryOf<D> {
   std::vector<BodyId>* found;
 };
 
-// Hits come about in order from what goes front to back: then they are put in order by moving each
-// a little; else, after too many moves, by sorting them.
-void sort_nearly_sorted(std::vector<RayHit>& hits);
+// What is nearly in order is put in order by moving each a little; else, after `most` moves, by
+// sorting it. How many moves it took.
+template <class T, class Before>
+std::size_t sort_nearly_sorted(std::vector<T>& list, std::size_t most, const Before& before) {
+  std::size_t moves = 0;
+  for (std::size_t i = 1; i < list.size(); ++i) {
+    const T one = list[i];
+    std::size_t hole = i;
+    for (; hole > 0 && moves < most && before(one, list[hole - 1]); --hole, ++moves)
+      list[hole] = list[hole - 1];
+    list[hole] = one;
+    if (moves < most) continue;
+    std::sort(list.begin(), list.end(), before);
+    break;
+  }
+  return moves;
+}
 
 template <int D>
 void require_valid(const Box<D>& box) {
@@ -200,48 +179,34 @@ NearestHit raycast_nearest(const std::type_identity_t<StructureView<D>>& of, con
   return {query.nearest, query.counts};
 }
 
-// All hits, into `all`, whose memory is used again; else as above.
+// All hits; else as above. The memory of `all` is used again.
 template <int D>
-void raycast_all_into(AllHits& all, const std::type_identity_t<StructureView<D>>& of,
-                      const Ray<D>& ray, std::type_identity_t<BoxOf<D>> box_of = {}, HitAt hit = {},
-                      QueryWatch told = {}) {
+AllHits raycast_all(const std::type_identity_t<StructureView<D>>& of, const Ray<D>& ray,
+                    std::type_identity_t<BoxOf<D>> box_of = {}, HitAt hit = {},
+                    QueryWatch told = {}, AllHits all = {}) {
   require_valid(ray);
   all.hits.clear();
   RayQuery<D> query{{of, box_of, told}, ray, hit, &all.hits, {}};
   of.structure->ask(query);
   all.counts = query.counts;
-  sort_nearly_sorted(all.hits);
-}
-
-template <int D>
-AllHits raycast_all(const std::type_identity_t<StructureView<D>>& of, const Ray<D>& ray,
-                    std::type_identity_t<BoxOf<D>> box_of = {}, HitAt hit = {},
-                    QueryWatch told = {}) {
-  AllHits all;
-  raycast_all_into(all, of, ray, box_of, hit, told);
+  // They come about in order from what goes front to back.
+  sort_nearly_sorted(all.hits, 16 * all.hits.size(), RayHit::before);
   return all;
 }
 
-// The bodies whose boxes overlap the volume: a Box, a Ball or a Frustum, into `found`, whose memory
-// is used again. Throws Refused for a box that is not valid, a centre that is not finite and a
-// radius that is negative or not finite.
+// The bodies whose boxes overlap the volume: a Box, a Ball or a Frustum. Throws Refused for a box
+// that is not valid, a centre that is not finite and a radius that is negative or not finite. The
+// memory of `found` is used again.
 template <int D, template <int> class Volume>
-void overlap_query_into(Found& found, const std::type_identity_t<StructureView<D>>& of,
-                        const Volume<D>& volume, std::type_identity_t<BoxOf<D>> box_of = {},
-                        QueryWatch told = {}) {
+Found overlap_query(const std::type_identity_t<StructureView<D>>& of, const Volume<D>& volume,
+                    std::type_identity_t<BoxOf<D>> box_of = {}, QueryWatch told = {},
+                    Found found = {}) {
   require_valid(volume);
   found.ids.clear();
   VolumeQuery<D> query{{of, box_of, told}, &volume, &found.ids};
   of.structure->ask(query);
   found.counts = query.counts;
   std::sort(found.ids.begin(), found.ids.end());
-}
-
-template <int D, template <int> class Volume>
-Found overlap_query(const std::type_identity_t<StructureView<D>>& of, const Volume<D>& volume,
-                    std::type_identity_t<BoxOf<D>> box_of = {}, QueryWatch told = {}) {
-  Found found;
-  overlap_query_into(found, of, volume, box_of, told);
   return found;
 }
 

@@ -11,14 +11,9 @@
 //                   +--------+--------+
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
 #include <limits>
-#include <optional>
 #include <type_traits>
 #include <utility>
-#include <vector>
 
 #include "base/stop.hpp"
 #include "geometry/not_finite.hpp"
@@ -124,13 +119,9 @@ struct RayProbe {
 
 // Whether a volume may lie within the zone of a node, which may be infinite. Of a frustum only its
 // planes are looked at, which is cheap and lets some in that lie outside, near its corners.
-template <int D>
-bool may_overlap(const Box<D>& box, const Box<D>& zone) {
-  return overlap(box, zone);
-}
-template <int D>
-bool may_overlap(const Ball<D>& ball, const Box<D>& zone) {
-  return overlap(ball, zone);
+template <int D, template <int> class Volume>
+bool may_overlap(const Volume<D>& volume, const Box<D>& zone) {
+  return overlap(volume, zone);
 }
 
 // Whether it may reach that side of a plane; generous by more than the error of heights.

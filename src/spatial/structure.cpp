@@ -1,23 +1,13 @@
 // The list of structures, ours and those that a program was given, and what they have in common.
 #include "spatial/structure.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <deque>
 
-#include <fmt/format.h>
-
-#include "base/error.hpp"
-#include "base/own_name.hpp"
-#include "spatial/own/own_tree.hpp"
-#include "spatial/query.hpp"
+#include "base/suggest.hpp"
+#include "spatial/own_structure.hpp"
 #include "spatial/structure_of.hpp"
 
 namespace lantern::spatial {
-
-#define LANTERN_KIND(name) extern const StructureEntry name##_entry;
-LANTERN_STRUCTURES(LANTERN_KIND)
-#undef LANTERN_KIND
 
 namespace {
 
@@ -163,17 +153,5 @@ std::string text_of(const OwnFault& fault, const std::function<std::string(BodyI
 StructureFault::StructureFault(OwnFault fault)
     : std::runtime_error(text_of(fault, [](BodyId id) { return fmt::format("body {}", id); })),
       fault_(std::move(fault)) {}
-
-void sort_nearly_sorted(std::vector<RayHit>& hits) {
-  std::size_t moves = 16 * hits.size();
-  for (std::size_t i = 1; i < hits.size(); ++i) {
-    const RayHit hit = hits[i];
-    std::size_t hole = i;
-    for (; hole > 0 && moves > 0 && RayHit::before(hit, hits[hole - 1]); --hole, --moves)
-      hits[hole] = hits[hole - 1];
-    hits[hole] = hit;
-    if (moves == 0) return std::sort(hits.begin(), hits.end(), RayHit::before);
-  }
-}
 
 }  // namespace lantern::spatial

@@ -44,6 +44,14 @@ void require_valid(const Item<D>& item) {
   if (!is_valid(item.box)) refuse_box(item);
 }
 
+// What is known of a body beside its box.
+struct ProxyState {
+  bool is_static = false;
+  bool awake = true;
+  bool operator==(const ProxyState&) const = default;
+  bool stirs() const { return awake && !is_static; }
+};
+
 // Two bodies, the lower id first.
 struct Pair {
   BodyId a = 0;
@@ -84,6 +92,11 @@ struct Tour {
   Vec<D> toward{0.0};         // siblings are met as a ray along it meets them; zero: in their order
   std::uint32_t next_id = 0;  // of the next node
 
+  // The next node, but for what is in it.
+  NodeView<D> view(NodeHandle handle, std::uint32_t parent, std::uint32_t slot, std::uint32_t depth,
+                   bool leaf, const Box<D>& box) {
+    return {handle, next_id++, parent, slot, depth, leaf, box};
+  }
   // The ids in ascending order: as they are if they lie so already, else a sorted copy.
   std::span<const BodyId> ascending(std::span<const BodyId> found) {
     if (std::is_sorted(found.begin(), found.end())) return found;
@@ -261,6 +274,35 @@ class Structure {
   Structure() = default;
   Structure(const Structure&) = default;
   Structure& operator=(const Structure&) = default;
+};
+
+// A structure as it is asked: its bodies may have other names than it has for them.
+template <int D>
+struct StructureView {
+  const Structure<D>* structure;
+  // If its bodies are numbered from 0: what they are called instead, in ascending order, and their
+  // boxes. Else they have the ids that it was given.
+  std::span<const BodyId> names = {};
+  std::span<const Item<D>> bodies = {};
+
+  StructureView(const Structure<D>& s) : structure(&s) {}
+  StructureView(const Structure<D>& s, std::span<const BodyId> their_names,
+                std::span<const Item<D>> their_boxes)
+      : structure(&s), names(their_names), bodies(their_boxes) {}
+
+  BodyId name(BodyId id) const { return names.empty() ? id : names[id]; }
+  void visit(NodeLook<D> f, const Vec<D>& toward = Vec<D>(0.0)) const {
+    std::vector<BodyId> ids;
+    structure->visit(
+        [&](NodeView<D> node) {
+          ids.clear();
+          for (const BodyId id : node.bodies) ids.push_back(name(id));
+          node.bodies = ids;
+          return f(node);
+        },
+        toward);
+  }
+  Counters counters() const { return structure->counters(); }
 };
 
 // An empty structure. Throws Refused for settings that it does not allow, for a kind that needs

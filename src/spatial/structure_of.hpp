@@ -10,13 +10,8 @@
 // and overrides the rest. All of this is compiled into the structure: nothing in it is virtual.
 #pragma once
 
-#include <algorithm>
-#include <span>
 #include <type_traits>
-#include <vector>
 
-#include "base/error.hpp"
-#include "base/stop.hpp"
 #include "spatial/pair_search.hpp"
 #include "spatial/query_walk.hpp"
 #include "spatial/structure.hpp"
@@ -112,6 +107,9 @@ struct StructureEntry {
   std::unique_ptr<Structure<2>> (*make_2d)(const StructureConfig<2>&);  // null: it needs the other
   std::unique_ptr<Structure<3>> (*make_3d)(const StructureConfig<3>&);
 };
+#define LANTERN_KIND(name) extern const StructureEntry name##_entry;
+LANTERN_STRUCTURES(LANTERN_KIND)
+#undef LANTERN_KIND
 template <class Tree, int D>
 std::unique_ptr<Structure<D>> made(const StructureConfig<D>& config) {
   return std::make_unique<Tree>(config);

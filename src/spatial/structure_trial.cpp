@@ -1,77 +1,16 @@
 #include "spatial/structure_trial.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-
-#include <fmt/format.h>
-
+#include "base/clock.hpp"
+#include "base/json_writer.hpp"
 #include "base/random.hpp"
-#include "base/stop.hpp"
 #include "geometry/random_vec.hpp"
+#include "spatial/box_worlds.hpp"
 #include "spatial/broad_phase.hpp"
+#include "spatial/own_structure.hpp"
 #include "spatial/pairs.hpp"
 
 namespace lantern::spatial {
 namespace {
-
-constexpr std::int64_t kMostBodies = 24;
-
-struct TrialSort {
-  std::string_view name;
-  TrialBody (*body)(const Box<2>& bounds, Random& random);
-};
-
-Vec<2> somewhere(const Box<2>& bounds, Random& random) {
-  return {random.between(bounds.lo.x, bounds.hi.x), random.between(bounds.lo.y, bounds.hi.y)};
-}
-
-constexpr TrialSort kTrialSorts[] = {
-    {"uniform",
-     [](const Box<2>& bounds, Random& random) {
-       return TrialBody{somewhere(bounds, random), random_point<2>(random, 0, 6)};
-     }},
-    {"clustered",
-     [](const Box<2>& bounds, Random& random) {
-       const double at = random.bits() % 2 == 0 ? 0.15 : 0.64;
-       return TrialBody{bounds.lo + bounds.size() * at + random_point<2>(random, 0, 2),
-                        random_point<2>(random, 0, 1)};
-     }},
-    {"coincident",
-     [](const Box<2>& bounds, Random&) {
-       return TrialBody{bounds.lo + bounds.size() * 0.375, Vec<2>(1.5)};
-     }},
-    {"on borders",  // edges lie exactly on those of cells
-     [](const Box<2>& bounds, Random& random) {
-       TrialBody body;
-       for (int i = 0; i < 2; ++i) {
-         const double cell = bounds.size()[i] / 16;
-         const auto from = static_cast<double>(random.whole(0, 14));
-         const auto cells = static_cast<double>(random.whole(0, 2));
-         body.half[i] = cell * cells / 2;
-         body.center[i] = bounds.lo[i] + cell * from + body.half[i];
-       }
-       return body;
-     }},
-    {"large and small",
-     [](const Box<2>& bounds, Random& random) {
-       const double size = bounds.size().x * std::pow(10.0, random.between(-6, 1));
-       return TrialBody{somewhere(bounds, random), random_point<2>(random, 0, size)};
-     }},
-    {"points",
-     [](const Box<2>& bounds, Random& random) {
-       return TrialBody{somewhere(bounds, random), Vec<2>(0.0)};
-     }},
-    {"outside",
-     [](const Box<2>& bounds, Random& random) {
-       const Vec<2> size = bounds.size();
-       return TrialBody{somewhere({bounds.lo - size, bounds.hi + size}, random),
-                        random_point<2>(random, 0, 30)};
-     }},
-};
-
-constexpr std::array<Box<2>, 3> kTrialBounds = {
-    Box<2>{Vec<2>(0.0), Vec<2>(64.0)}, Box<2>{{-32, -32}, {32, 32}}, Box<2>{{96, -16}, {224, 48}}};
 
 std::vector<Proxy<2>> proxies_of(const std::vector<TrialBody>& bodies) {
   std::vector<Proxy<2>> proxies;
@@ -88,14 +27,6 @@ bool misses_a_pair(std::string_view fault) {
 
 std::string trial_name(BodyId id) { return fmt::format("b{}", id); }
 
-std::vector<Pair> true_pairs(const std::vector<Proxy<2>>& proxies) {
-  std::vector<Pair> pairs;
-  for (std::size_t i = 0; i < proxies.size(); ++i)
-    for (std::size_t j = i + 1; j < proxies.size(); ++j)
-      if (overlap(proxies[i].box, proxies[j].box)) pairs.push_back({proxies[i].id, proxies[j].id});
-  return pairs;
-}
-
 // The first, and the pair that is missed, which is told last.
 std::optional<std::string> first_fault(const BroadPhase<2>& phase) {
   const std::vector<OwnFault> faults = phase.faults();
@@ -109,7 +40,7 @@ std::optional<std::string> first_fault(const BroadPhase<2>& phase) {
 // Of what an update found.
 std::optional<std::string> wrong_pair(const BroadPhase<2>& phase,
                                       const std::vector<Proxy<2>>& proxies) {
-  const std::vector<Pair> truth = true_pairs(proxies), &found = phase.pairs();
+  const std::vector<Pair> truth = pairs_by_force<2>(proxies), &found = phase.pairs();
   std::vector<Pair> missed, invented;
   std::ranges::set_difference(truth, found, std::back_inserter(missed));
   std::ranges::set_difference(found, truth, std::back_inserter(invented));
@@ -144,85 +75,70 @@ std::optional<std::string> fault_on_the_way(StructureKind kind, const TrialWorld
   return std::nullopt;
 }
 
-// Does as much go wrong as before?
-bool fails_alike(StructureKind kind, const TrialWorld& world, bool misses_pair) {
-  const auto fault = fault_in(kind, world);
-  return fault && (!misses_pair || misses_a_pair(*fault));
-}
+// Makes a world on which something goes wrong smaller and rounder, as long as as much does.
+struct Shrinking {
+  StructureKind kind;
+  TrialWorld world;
+  bool misses_pair;
 
-// Without one body after another, as long as something still goes wrong.
-bool drop_bodies(StructureKind kind, TrialWorld& world, bool misses_pair) {
-  bool dropped = false;
-  for (std::size_t i = world.bodies.size(); i-- > 0;) {
-    TrialWorld less = world;
-    less.bodies.erase(less.bodies.begin() + static_cast<std::ptrdiff_t>(i));
-    if (!less.moved.empty()) less.moved.erase(less.moved.begin() + static_cast<std::ptrdiff_t>(i));
-    if (!fails_alike(kind, less, misses_pair)) continue;
-    world = std::move(less);
-    dropped = true;
+  bool try_instead(TrialWorld simpler) {
+    const auto fault = fault_in(kind, simpler);
+    if (!fault || (misses_pair && !misses_a_pair(*fault))) return false;
+    world = std::move(simpler);
+    return true;
   }
-  return dropped;
-}
 
-bool try_instead(StructureKind kind, TrialWorld& world, TrialWorld simpler, bool misses_pair) {
-  if (!fails_alike(kind, simpler, misses_pair)) return false;
-  world = std::move(simpler);
-  return true;
-}
-
-void stand_still(StructureKind kind, TrialWorld& world, bool misses_pair) {
-  if (world.moved.empty()) return;
-  TrialWorld before = world, after = world;
-  before.moved.clear();
-  after.bodies = std::exchange(after.moved, {});
-  if (!try_instead(kind, world, before, misses_pair)) try_instead(kind, world, after, misses_pair);
-}
-
-// To whole numbers, halves, quarters, whichever is the roundest that still shows it.
-void round_bodies(StructureKind kind, TrialWorld& world, bool misses_pair) {
-  for (auto list : {&TrialWorld::bodies, &TrialWorld::moved})
-    for (std::size_t i = 0; i < (world.*list).size(); ++i)
-      for (auto part : {&TrialBody::center, &TrialBody::half})
-        for (int axis = 0; axis < 2; ++axis)
-          for (const double unit : {8.0, 1.0, 0.25}) {
-            TrialWorld rounder = world;
-            double& number = ((rounder.*list)[i].*part)[axis];
-            const double round = std::round(number / unit) * unit;
-            if (round == number) break;
-            if (round == 0 && part == &TrialBody::half) continue;  // it shall be seen
-            number = round;
-            if (try_instead(kind, world, rounder, misses_pair)) break;
-          }
-}
-
-bool simplify_settings(StructureKind kind, TrialWorld& world, bool misses_pair) {
-  bool simpler = false;
-  for (auto setting : {&TrialWorld::max_depth, &TrialWorld::capacity})
-    while (world.*setting > 1) {
+  // Without one body after another.
+  bool drop_bodies() {
+    bool dropped = false;
+    for (std::size_t i = world.bodies.size(); i-- > 0;) {
       TrialWorld less = world;
-      --(less.*setting);
-      if (!try_instead(kind, world, less, misses_pair)) break;
-      simpler = true;
+      for (auto* list : {&less.bodies, &less.moved})
+        if (!list->empty()) list->erase(list->begin() + static_cast<std::ptrdiff_t>(i));
+      dropped |= try_instead(std::move(less));
     }
-  return simpler;
-}
+    return dropped;
+  }
+
+  void stand_still() {
+    if (world.moved.empty()) return;
+    TrialWorld before = world, after = world;
+    before.moved.clear();
+    after.bodies = std::exchange(after.moved, {});
+    if (!try_instead(std::move(before))) try_instead(std::move(after));
+  }
+
+  // To whole numbers, halves, quarters, whichever is the roundest that still shows it.
+  void round_bodies() {
+    for (auto list : {&TrialWorld::bodies, &TrialWorld::moved})
+      for (std::size_t i = 0; i < (world.*list).size(); ++i)
+        for (auto part : {&TrialBody::center, &TrialBody::half})
+          for (int axis = 0; axis < 2; ++axis)
+            for (const double unit : {8.0, 1.0, 0.25}) {
+              TrialWorld rounder = world;
+              double& number = ((rounder.*list)[i].*part)[axis];
+              const double round = std::round(number / unit) * unit;
+              if (round == number) break;
+              if (round == 0 && part == &TrialBody::half) continue;  // it shall be seen
+              number = round;
+              if (try_instead(std::move(rounder))) break;
+            }
+  }
+
+  bool simplify_settings() {
+    bool simpler = false;
+    for (auto setting : {&TrialWorld::max_depth, &TrialWorld::capacity})
+      while (world.*setting > 1) {
+        TrialWorld less = world;
+        --(less.*setting);
+        if (!try_instead(std::move(less))) break;
+        simpler = true;
+      }
+    return simpler;
+  }
+};
 
 }  // namespace
-
-TrialWorld trial_world(std::uint64_t seed, std::uint64_t number) {
-  Random random(seed * 0x9e3779b97f4a7c15u + number);
-  const TrialSort& sort = kTrialSorts[number % std::size(kTrialSorts)];
-  TrialWorld world{sort.name, kTrialBounds[static_cast<std::size_t>(random.whole(0, 2))], 1, 1, {},
-                   {}};
-  world.capacity = static_cast<std::uint32_t>(random.whole(1, 4));
-  world.max_depth = static_cast<std::uint32_t>(random.whole(1, 5));
-  const std::int64_t bodies = random.whole(0, kMostBodies);
-  for (std::int64_t i = 0; i < bodies; ++i) world.bodies.push_back(sort.body(world.bounds, random));
-  const bool moves = random.bits() % 4 == 0;
-  for (std::int64_t i = 0; moves && i < bodies; ++i)
-    world.moved.push_back(sort.body(world.bounds, random));
-  return world;
-}
 
 std::optional<std::string> fault_in(StructureKind kind, const TrialWorld& world) try {
   stop_if_asked();
@@ -234,19 +150,18 @@ std::optional<std::string> fault_in(StructureKind kind, const TrialWorld& world)
 }
 
 TrialWorld shrunk(StructureKind kind, TrialWorld world) {
-  const bool pair = misses_a_pair(fault_in(kind, world).value_or(""));
-  stand_still(kind, world, pair);
-  while (drop_bodies(kind, world, pair) || simplify_settings(kind, world, pair)) {
+  const bool misses_pair = misses_a_pair(fault_in(kind, world).value_or(""));
+  Shrinking shrinking{kind, std::move(world), misses_pair};
+  shrinking.stand_still();
+  while (shrinking.drop_bodies() || shrinking.simplify_settings()) {
   }
-  stand_still(kind, world, pair);
-  round_bodies(kind, world, pair);
-  return world;
+  shrinking.stand_still();
+  shrinking.round_bodies();
+  return std::move(shrinking.world);
 }
 
 Trial try_structure(StructureKind kind, std::uint64_t worlds, std::uint64_t seed) {
-  Trial trial;
-  trial.kind = kind;
-  trial.worlds = worlds;
+  Trial trial{.kind = kind, .worlds = worlds};
   std::optional<TrialWorld> least;
   bool least_misses = false;
   for (std::uint64_t i = 0; i < worlds; ++i) {
@@ -268,6 +183,231 @@ Trial try_structure(StructureKind kind, std::uint64_t worlds, std::uint64_t seed
                         "it fails now and then: its results differ "
                         "from one run to the next");
   return trial;
+}
+
+namespace {
+
+constexpr std::uint32_t kBenchCapacity = 8, kBenchDepth = 7;
+
+// What there is to find, and what was found.
+struct Finds {
+  std::span<const Proxy<2>> boxes;
+  std::vector<Pair> pairs;  // as often as they are met
+  std::uint64_t tests = 0;
+
+  void add(BodyId a, BodyId b) {
+    if (overlap(boxes[a].box, boxes[b].box)) pairs.push_back({std::min(a, b), std::max(a, b)});
+  }
+  void add_leaf(std::span<const BodyId> bodies) {
+    stop_if_asked();
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      for (std::size_t j = i + 1; j < bodies.size(); ++j) add(bodies[i], bodies[j]);
+    tests += all_pairs(bodies.size());
+  }
+};
+
+// One structure on one scene, whoever wrote it; and what it took, turn by turn.
+struct Contestant {
+  std::function<void()> build;
+  std::function<void(Finds&)> find;
+  std::function<void(StructureTime&)> count;
+  std::vector<double> build_seconds = {}, pairs_seconds = {};
+
+  void take_turn(Finds& finds) {
+    finds.pairs.clear();
+    finds.tests = 0;
+    const CpuStopwatch building;
+    build();
+    build_seconds.push_back(building.seconds());
+    const CpuStopwatch finding;
+    find(finds);
+    pairs_seconds.push_back(finding.seconds());
+  }
+};
+
+Contestant one_of_ours(StructureKind kind, const StructureConfig<2>& config,
+                       std::span<const Proxy<2>> boxes) {
+  std::vector<Item<2>> items;
+  for (const Proxy<2>& box : boxes) items.push_back({box.id, box.box});
+  const std::shared_ptr<Structure<2>> structure = make_structure<2>(kind, config);
+  const bool in_leaves = traits_of(kind).meets_in_leaves;
+  return {[=] { structure->build(items); },
+          [=](Finds& finds) {
+            if (in_leaves)
+              return structure->visit([&](const NodeView<2>& node) {
+                finds.add_leaf(node.bodies);
+                return true;
+              });
+            const auto all = [](BodyId) { return true; };
+            structure->compare(all, [&](BodyId a, BodyId b) {
+              ++finds.tests;
+              finds.add(a, b);
+            });
+          },
+          [=](StructureTime& row) {
+            const Counters counters = structure->counters();
+            row.nodes = counters.nodes;
+            row.entries = counters.entries;
+          }};
+}
+
+Contestant one_of_yours(const OwnKind& kind, const StructureConfig<2>& config,
+                        std::span<const Proxy<2>> boxes) {
+  const auto tree = std::make_shared<std::unique_ptr<OwnTree>>();
+  return {[=, &kind] {
+            if (!*tree || !(*tree)->clear())
+              *tree = kind.make(config.bounds, config.capacity, config.max_depth);
+            for (const Proxy<2>& box : boxes) {
+              stop_if_asked();
+              (*tree)->insert(box.id, box.box);
+            }
+          },
+          [=, &kind](Finds& finds) {
+            (*tree)->visit([&](const OwnNode& node) {
+              for (const BodyId id : node.bodies)
+                if (id >= boxes.size())
+                  throw StructureFault({fmt::format(
+                      "structure '{}': a node lists a body of number {}, which was never inserted",
+                      kind.name, id)});
+              finds.add_leaf(node.bodies);
+            });
+          },
+          [=](StructureTime& row) {
+            row.nodes = row.entries = 0;
+            (*tree)->visit([&](const OwnNode& node) {
+              ++row.nodes;
+              row.entries += node.bodies.size();
+            });
+          }};
+}
+
+// Before its times mean anything: whether it can be read, and finds what there is.
+void look_at(StructureKind kind, const StructureConfig<2>& config, std::span<const Proxy<2>> boxes,
+             std::span<const Pair> truth, StructureTime& row) {
+  try {
+    BroadPhase<2> broad_phase({config, kind, false});
+    broad_phase.update(boxes);
+    row.missed = count_missing(truth, broad_phase.pairs());
+    row.invented = count_missing(broad_phase.pairs(), truth);
+    const auto name = [](BodyId id) { return fmt::format("body {}", id); };
+    if (const auto faults = broad_phase.faults(); !faults.empty())
+      row.fault = text_of(faults.front(), name);
+  } catch (const StructureFault& broken) {
+    row.fault = broken.what();
+  } catch (const Refused& refused) {
+    row.fault = refused.what();
+  }
+}
+
+std::vector<StructureTime> bench_scene(const StructureBench& bench, std::uint64_t bodies,
+                                       BoxSort sort, const char* name,
+                                       const std::function<void()>& told) {
+  const BoxUpdates<2> scene = seeded_boxes<2>(sort, bodies, bench.seed);
+  const std::span<const Proxy<2>> boxes = scene.frames[0];
+  const std::vector<Pair> truth = pairs_by_force<2>(boxes);
+  const StructureConfig<2> config{
+      .bounds = scene.bounds, .capacity = kBenchCapacity, .max_depth = kBenchDepth};
+  Finds finds{boxes, {}, 0};
+  std::vector<StructureTime> rows;
+  std::vector<Contestant> contestants;
+  for (const StructureKind kind : bench.kinds) {
+    StructureTime& row =
+        rows.emplace_back(StructureTime{.kind = kind, .scene = name, .bodies = boxes.size()});
+    Contestant& one = contestants.emplace_back();
+    look_at(kind, config, boxes, truth, row);
+    if (!row.fault.empty()) continue;
+    const OwnKind* yours = own_structure(kind);
+    one = yours ? one_of_yours(*yours, config, boxes) : one_of_ours(kind, config, boxes);
+    one.take_turn(finds);  // for warmth
+    row.pair_tests = finds.tests;
+    one.count(row);
+    if (const double both = one.build_seconds[0] + one.pairs_seconds[0]; both > bench.longest)
+      row.fault =
+          fmt::format("one build and search takes {:.1f} s, more than {:g} s", both, bench.longest);
+    one.build_seconds.clear();
+    one.pairs_seconds.clear();
+  }
+  for (int round = 0; round < bench.rounds; ++round)
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (rows[i].fault.empty()) contestants[i].take_turn(finds);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].build = timing_of(contestants[i].build_seconds);
+    rows[i].pairs = timing_of(contestants[i].pairs_seconds);
+    told();
+  }
+  return rows;
+}
+
+std::string microseconds(const Timing& time) {
+  return time.repeats == 0 ? "–" : fmt::format("{:.1f}", 1e6 * time.median);
+}
+
+}  // namespace
+
+std::uint64_t structure_bench_rows(const StructureBench& bench) {
+  return 2 * bench.kinds.size() * bench.bodies.size();
+}
+
+std::vector<StructureTime> bench_structures(const StructureBench& bench,
+                                            const std::function<void()>& told) {
+  std::vector<StructureTime> all;
+  for (const std::uint64_t bodies : bench.bodies)
+    for (const auto& [sort, name] : {std::pair(BoxSort::uniform, "uniform_2d"),
+                                     std::pair(BoxSort::clustered, "clustered_2d")}) {
+      const std::vector<StructureTime> rows = bench_scene(bench, bodies, sort, name, told);
+      all.insert(all.end(), rows.begin(), rows.end());
+    }
+  return all;
+}
+
+std::string to_table(std::span<const StructureTime> rows) {
+  std::string text = fmt::format(
+      "Microseconds, medians of turns; capacity {}, depth limit {}. Of your own structures insert "
+      "and visit are timed.\n{:<14}{:>7}  {:<18}{:>10}{:>10}{:>10}{:>8}{:>9}{:>11}\n",
+      kBenchCapacity, kBenchDepth, "scene", "bodies", "structure", "build", "pairs", "both",
+      "nodes", "entries", "pair tests");
+  for (const StructureTime& row : rows) {
+    text += fmt::format("{:<14}{:>7}  {:<18}", row.scene, row.bodies, to_string(row.kind));
+    if (!row.fault.empty()) {
+      text += fmt::format("not timed: {}\n", row.fault);
+      continue;
+    }
+    text += fmt::format("{:>10}{:>10}{:>10.1f}{:>8}{:>9}{:>11}\n", microseconds(row.build),
+                        microseconds(row.pairs), 1e6 * (row.build.median + row.pairs.median),
+                        row.nodes, row.entries, row.pair_tests);
+  }
+  return text;
+}
+
+std::string to_csv(std::span<const StructureTime> rows) {
+  std::string text =
+      "scene,bodies,structure,build_s,pairs_s,nodes,entries,pair_tests,missed,invented\n";
+  for (const StructureTime& row : rows)
+    if (row.fault.empty())
+      text += fmt::format("{},{},{},{:.9g},{:.9g},{},{},{},{},{}\n", row.scene, row.bodies,
+                          to_string(row.kind), row.build.median, row.pairs.median, row.nodes,
+                          row.entries, row.pair_tests, row.missed, row.invented);
+  return text;
+}
+
+std::string to_json(std::span<const StructureTime> rows, std::uint64_t seed) {
+  JsonWriter json;
+  json.begin_object().line().members("format", "lantern.structure.bench/1", "seed", seed,
+                                     "capacity", kBenchCapacity, "max_depth", kBenchDepth);
+  json.line().key("rows").begin_array();
+  for (const StructureTime& row : rows) {
+    json.line().begin_object().members("scene", row.scene, "bodies", row.bodies, "structure",
+                                       to_string(row.kind));
+    if (row.fault.empty())
+      json.members("build_s", row.build.median, "pairs_s", row.pairs.median, "nodes", row.nodes,
+                   "entries", row.entries, "pair_tests", row.pair_tests, "missed", row.missed,
+                   "invented", row.invented);
+    else
+      json.member("fault", row.fault);
+    json.end_object();
+  }
+  json.line().end_array().line().end_object();
+  return json.text() + "\n";
 }
 
 }  // namespace lantern::spatial

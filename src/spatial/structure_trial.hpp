@@ -1,35 +1,19 @@
 // A structure on trial: seeded random worlds of every sort that has ever broken a tree, against
-// brute force; and the smallest world on which it fails.
+// brute force, and the smallest world on which it fails; and how long it takes.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "spatial/structure.hpp"
+#include "base/timing.hpp"
+#include "spatial/box_worlds.hpp"
+#include "spatial/structure_kind.hpp"
 
 namespace lantern::spatial {
-
-struct TrialBody {
-  Vec<2> center{0.0};
-  Vec<2> half{0.0};
-  bool operator==(const TrialBody&) const = default;
-};
-
-// Bodies are called b1, b2, … in their order.
-struct TrialWorld {
-  std::string_view sort;  // "clustered"
-  Box<2> bounds;
-  std::uint32_t capacity = 1;
-  std::uint32_t max_depth = 1;
-  std::vector<TrialBody> bodies;
-  std::vector<TrialBody> moved;  // where they are next; empty: they stay
-};
-
-// The `number`-th world of this seed; all sorts in turn.
-TrialWorld trial_world(std::uint64_t seed, std::uint64_t number);
 
 // What goes wrong: a pair that is missed or is none, and what a structure of the user's own says
 // that is not so. Nothing if all is well.
@@ -42,9 +26,45 @@ struct Trial {
   StructureKind kind = StructureKind::none;
   std::uint64_t worlds = 0;
   std::uint64_t failed = 0;
-  TrialWorld smallest;  // of them, shrunk
-  std::string fault;    // what goes wrong there; empty if none failed
+  TrialWorld smallest = {};  // of them, shrunk
+  std::string fault = {};    // what goes wrong there; empty if none failed
 };
 Trial try_structure(StructureKind kind, std::uint64_t worlds, std::uint64_t seed);
+
+// How long structures take beside each other, those of a user's own among them: to build anew, and
+// to find all pairs. Of one's own tree its own code is timed, insert and visit, not what looks at
+// it afterwards.
+struct StructureTime {
+  StructureKind kind = StructureKind::none;
+  std::string scene;  // "uniform_2d"
+  std::uint64_t bodies = 0;
+  Timing build = {};  // processor seconds
+  Timing pairs = {};
+  std::uint64_t nodes = 0;
+  std::uint64_t entries = 0;     // bodies in leaves, each once a leaf
+  std::uint64_t pair_tests = 0;  // boxes compared with boxes
+  std::uint64_t missed = 0;      // pairs that brute force finds
+  std::uint64_t invented = 0;    // pairs that it does not
+  std::string fault = {};        // why it was not timed; empty if it was
+};
+
+struct StructureBench {
+  std::vector<StructureKind> kinds;
+  std::vector<std::uint64_t> bodies;
+  std::uint64_t seed = 1;
+  int rounds = 9;
+  double longest = 5;  // processor seconds of one build; one that takes longer is not timed
+};
+
+// Evenly spread and clustered boxes; all structures with capacity 8 and depth limit 7, in turns.
+// `told` is called after each row.
+std::vector<StructureTime> bench_structures(const StructureBench& bench,
+                                            const std::function<void()>& told);
+std::uint64_t structure_bench_rows(const StructureBench& bench);
+
+std::string to_table(std::span<const StructureTime> rows);
+std::string to_csv(std::span<const StructureTime> rows);
+// lantern.structure.bench/1
+std::string to_json(std::span<const StructureTime> rows, std::uint64_t seed);
 
 }  // namespace lantern::spatial

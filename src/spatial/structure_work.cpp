@@ -1,7 +1,9 @@
-#include "spatial/structure_work.hpp"
-
-#include <algorithm>
+// What is told of structures beside the pairs: the way to them, their work, and which to choose.
 #include <unordered_map>
+
+#include "geometry/shape.hpp"
+#include "spatial/broad_phase.hpp"
+#include "spatial/pairs.hpp"
 
 namespace lantern::spatial {
 namespace {
@@ -20,6 +22,49 @@ bool same_movers(std::span<const Proxy<D>> before, std::span<const Proxy<D>> aft
 }
 
 }  // namespace
+
+template <int D>
+PairChain BroadPhase<D>::pair_chain(FunctionRef<bool(BodyId)> awake, std::uint64_t most) const {
+  std::vector<bool> stirring;
+  for (std::size_t i = 0; i < dynamic_.items.size(); ++i)
+    stirring.push_back(!dynamic_.states[i].is_static && awake(dynamic_.names[i]));
+  struct Met {
+    Pair pair;
+    bool overlaps;
+  };
+  std::vector<Met> met;
+  PairChain chain;
+  const auto meet = [&](BodyId i, const Store& store, BodyId j) {
+    require_within(++chain.met, most);
+    const BodyId a = dynamic_.names[i], b = store.names[j];
+    met.push_back(
+        {{std::min(a, b), std::max(a, b)}, overlap(dynamic_.items[i].box, store.items[j].box)});
+  };
+  // What sorts its bodies before it is asked does so in a copy, and stays as it is.
+  const auto dynamic_copy = dynamic_.structure->sorted(), static_copy = static_.structure->sorted();
+  const Structure<D>& of_dynamic = dynamic_copy ? *dynamic_copy : *dynamic_.structure;
+  const Structure<D>& of_static = static_copy ? *static_copy : *static_.structure;
+  chain.besides = of_dynamic.compare([&](BodyId i) -> bool { return stirring[i]; },
+                                     [&](BodyId i, BodyId j) { meet(i, dynamic_, j); });
+  for (std::uint32_t i = 0; i < stirring.size() && !static_.items.empty(); ++i) {
+    std::vector<BodyId> near;
+    if (stirring[i]) chain.besides += of_static.near(dynamic_.items[i].box, near);
+    for (const BodyId j : near) meet(i, static_, j);
+  }
+  std::sort(met.begin(), met.end(), [](const Met& x, const Met& y) {
+    stop_if_asked();
+    return x.pair < y.pair;
+  });
+  for (const Met& both : met) {
+    if (!chain.pairs.empty() && chain.pairs.back() == both.pair) continue;
+    chain.pairs.push_back(both.pair);
+    if (both.overlaps) chain.overlapping.push_back(both.pair);
+  }
+  return chain;
+}
+
+template PairChain BroadPhase<2>::pair_chain(FunctionRef<bool(BodyId)>, std::uint64_t) const;
+template PairChain BroadPhase<3>::pair_chain(FunctionRef<bool(BodyId)>, std::uint64_t) const;
 
 bool counts_its_work(StructureKind kind) {
   return std::ranges::count(kStructureKinds, kind) > 0 && !traits_of(kind).is_plain;
@@ -55,5 +100,101 @@ template StructureWork structure_work(BroadPhaseConfig<2>, std::span<const Proxy
                                       std::span<const Proxy<2>>, std::uint64_t);
 template StructureWork structure_work(BroadPhaseConfig<3>, std::span<const Proxy<3>>,
                                       std::span<const Proxy<3>>, std::uint64_t);
+
+namespace {
+
+// What finding all pairs of a body costs, in ns, as measured: to compare it with another one,
+// sixteen at a time; to part it from the others in cells; and how much more a pair costs there,
+// since pairs of all with all come in order.
+template <int D>
+constexpr double kCompare = D == 2 ? 0.35 : 0.5;
+constexpr double kPart = 60, kPutInOrder = 4.5;
+
+// Of a sample of pairs: which share overlaps.
+template <int D>
+double share_of_overlaps(std::span<const Item<D>> items) {
+  constexpr std::size_t kSamples = 2000;
+  if (items.size() < 2) return 0;
+  std::size_t tested = 0, overlaps = 0;
+  std::uint64_t random = 1;  // Knuth's MMIX generator: any spread of numbers will do
+  const auto any = [&] {
+    random = random * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<std::size_t>(random >> 33) % items.size();
+  };
+  while (tested < kSamples) {
+    const std::size_t a = any(), b = any();
+    if (a == b) continue;
+    ++tested;
+    overlaps += overlap(items[a].box, items[b].box);
+  }
+  return static_cast<double>(overlaps) / static_cast<double>(tested);
+}
+
+template <int D>
+bool reaches_without_end(const Box<D>& box) {
+  for (int i = 0; i < D; ++i)
+    if (box.lo[i] <= -kEndless || box.hi[i] >= kEndless) return true;
+  return false;
+}
+
+// The longest side of each body that has one, in order.
+template <int D>
+std::vector<double> sizes_of(std::span<const Item<D>> items) {
+  std::vector<double> sizes;
+  for (const Item<D>& item : items)
+    if (!reaches_without_end(item.box)) sizes.push_back(extent_of(item.box));
+  std::ranges::sort(sizes);
+  return sizes;
+}
+
+template <int D>
+Box<D> around_all(std::span<const Item<D>> items) {
+  std::optional<Box<D>> all;
+  for (const Item<D>& item : items)
+    if (!reaches_without_end(item.box)) all = all ? united(*all, item.box) : item.box;
+  return all.value_or(Box<D>{Vec<D>(-1.0), Vec<D>(1.0)});
+}
+
+std::string percent(double share) {
+  return share > 0 && share < 0.01 ? "less than 1%" : fmt::format("{:.0f}%", 100 * share);
+}
+
+}  // namespace
+
+template <int D>
+StructureChoice<D> choose_structure(std::span<const Item<D>> items,
+                                    const StructureConfig<D>& config, Use use) {
+  StructureChoice<D> choice;
+  choice.config = config;
+  if (use == Use::questions) {
+    choice.kind = StructureKind::aabb_tree;
+    choice.why = fmt::format("{} bodies are asked, not paired", items.size());
+    return choice;
+  }
+  const double share = share_of_overlaps(items);
+  const double others = static_cast<double>(items.size()) / 2;
+  if (others * kCompare<D> < kPart + others * share * kPutInOrder) {
+    choice.why = fmt::format(
+        "{} bodies, of sampled pairs {} overlap: comparing all with all costs less than "
+        "partitioning them",
+        items.size(), percent(share));
+    return choice;
+  }
+  const std::vector<double> sizes = sizes_of(items);
+  const double median = sizes.empty() ? 0 : sizes[sizes.size() / 2];
+  const double largest = sizes.empty() ? 0 : sizes.back();
+  choice.kind = StructureKind::grid;
+  choice.config.bounds = around_all(items);
+  choice.config.cell = 0;
+  choice.config.levels = 1;
+  choice.why = fmt::format("{} bodies, the largest {:.3g} times as large as the median",
+                           items.size(), median > 0 ? largest / median : 1.0);
+  return choice;
+}
+
+template StructureChoice<2> choose_structure(std::span<const Item<2>>, const StructureConfig<2>&,
+                                             Use);
+template StructureChoice<3> choose_structure(std::span<const Item<3>>, const StructureConfig<3>&,
+                                             Use);
 
 }  // namespace lantern::spatial

@@ -1,6 +1,4 @@
 // Draws that are sorted by image paint the same picture, and bind less often.
-#include "atlas/binder.hpp"
-
 #include <cstdint>
 #include <map>
 #include <set>
@@ -9,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include "atlas/atlas.hpp"
 #include "base/random.hpp"
 
 namespace lantern::atlas {
@@ -40,19 +39,19 @@ std::uint64_t bindings_of(const Elements& elements, const std::vector<std::size_
     binder.bind(elements[i].image);
     binder.draw();
   }
-  EXPECT_EQ(binder.draws(), elements.size());
-  return binder.bindings();
+  EXPECT_EQ(binder.draws, elements.size());
+  return binder.bindings;
 }
 
 TEST(Binder, BindsWhenTheImageChangesAndNotBefore) {
   Binder binder;
-  EXPECT_FALSE(binder.bound());
+  EXPECT_FALSE(binder.bound);
   EXPECT_TRUE(binder.bind(7));
   EXPECT_FALSE(binder.bind(7));
   EXPECT_TRUE(binder.bind(0));
   EXPECT_TRUE(binder.bind(7));
-  EXPECT_EQ(binder.bindings(), 3u);
-  EXPECT_EQ(binder.draws(), 0u);
+  EXPECT_EQ(binder.bindings, 3u);
+  EXPECT_EQ(binder.draws, 0u);
 }
 
 TEST(Binder, SortedDrawsPaintTheSamePicture) {

@@ -10,7 +10,6 @@
 #include <gtest/gtest.h>
 
 #include "atlas/atlas.hpp"
-#include "atlas/stock.hpp"
 #include "base/error.hpp"
 #include "base/random.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/utf8.hpp"
+#include "base/printable.hpp"
 
 namespace lantern {
 namespace {

@@ -7,13 +7,12 @@
 
 #include <gtest/gtest.h>
 
-#include "base/grouped.hpp"
 #include "base/hash.hpp"
 #include "base/json_writer.hpp"
+#include "base/number.hpp"
 #include "base/printable.hpp"
 #include "base/random.hpp"
 #include "base/suggest.hpp"
-#include "base/utf8.hpp"
 
 namespace lantern {
 namespace {

@@ -1,5 +1,3 @@
-#include "geometry/frustum.hpp"
-
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -11,6 +9,7 @@
 #include "base/error.hpp"
 #include "base/random.hpp"
 #include "geometry/random_vec.hpp"
+#include "geometry/ray.hpp"
 
 namespace lantern::geometry {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "base/random.hpp"
 #include "geometry/not_finite.hpp"
-#include "geometry/polygon.hpp"
+#include "geometry/plane.hpp"
 #include "geometry/shape.hpp"
 
 namespace lantern::geometry {

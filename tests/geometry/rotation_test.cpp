@@ -9,8 +9,8 @@
 #include "base/random.hpp"
 #include "geometry/flat.hpp"
 #include "geometry/not_finite.hpp"
+#include "geometry/plane.hpp"
 #include "geometry/random_vec.hpp"
-#include "geometry/segment.hpp"
 
 namespace lantern::geometry {
 namespace {

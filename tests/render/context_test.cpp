@@ -4,9 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include "base/child.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
-#include "base/library.hpp"
 #include "render/support.hpp"
 
 namespace lantern::render {

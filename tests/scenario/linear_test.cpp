@@ -14,7 +14,7 @@
 
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
-#include "spatial/structure_work.hpp"
+#include "spatial/broad_phase.hpp"
 
 namespace {
 std::atomic<std::uint64_t> bytes{0};

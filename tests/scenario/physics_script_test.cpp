@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/angle.hpp"
+#include "geometry/vec.hpp"
 #include "language/language.hpp"
 #include "scenario/parsing.hpp"
 

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "geometry/frustum.hpp"
 #include "geometry/ray.hpp"
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"

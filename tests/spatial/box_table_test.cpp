@@ -6,8 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include "spatial/pair_order.hpp"
-
 namespace lantern::spatial {
 namespace {
 

@@ -7,7 +7,6 @@
 
 #include "geometry/not_finite.hpp"
 #include "spatial/level_oracles.hpp"
-#include "spatial/trees/bsp.hpp"
 #include "spatial/worlds.hpp"
 
 namespace lantern::spatial {
@@ -155,24 +154,6 @@ TEST(LevelBsp, TheObserverSeesTheBestCandidateChosenAndEveryCutAndSector) {
   EXPECT_EQ(told[Kind::divide], c.nodes - c.sectors);
   EXPECT_EQ(told[Kind::sector], c.sectors);
   EXPECT_EQ(told[Kind::cut], c.cuts);
-}
-
-TEST(LevelBsp, ItsPlanesMakeABspForBodies) {
-  const LevelBsp level = compile(testing::watchtower());
-  Bsp<2> bodies(testing::bsp_config<2>(level.planes(), level.bounds()));
-  EXPECT_EQ(bodies.counters().nodes, level.counters().nodes);
-  EXPECT_EQ(bodies.counters().depth, level.counters().depth);
-  std::vector<const Plane<2>*> planes;
-  level.visit([&](const LevelNodeView& view) { return planes.push_back(view.plane), true; });
-  std::size_t i = 0;
-  bodies.visit([&](const NodeView<2>& view) {
-    EXPECT_EQ(view.plane == nullptr, planes[i] == nullptr);
-    if (view.plane && planes[i]) {
-      EXPECT_EQ(view.plane->normal, planes[i]->normal);
-    }
-    return ++i, true;
-  });
-  EXPECT_EQ(i, planes.size());
 }
 
 TEST(LevelBsp, TenThousandWallsNeedAReasonableNumberOfTests) {

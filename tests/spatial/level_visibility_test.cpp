@@ -1,10 +1,9 @@
 // Who sees whom in a level, against lines of sight at random and against each sight's own witness.
-#include "spatial/level/level_visibility.hpp"
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
+#include "spatial/level/level_bsp.hpp"
 #include "spatial/level_oracles.hpp"
 #include "spatial/levels.hpp"
 
@@ -30,14 +29,14 @@ bool is_clear(const Segment<2>& sight, const LevelBsp& bsp, double near) {
 
 void expect_witnesses(const LevelBsp& bsp, const LevelVisibility& seen) {
   std::uint64_t pairs = 0;
-  for (std::uint32_t a = 0; a < seen.sectors(); ++a)
-    for (std::uint32_t b = 0; b < seen.sectors(); ++b) {
+  for (std::uint32_t a = 0; a < seen.sectors; ++a)
+    for (std::uint32_t b = 0; b < seen.sectors; ++b) {
       EXPECT_EQ(seen.sees(a, b), seen.sees(b, a));
       EXPECT_TRUE(seen.sees(a, a));
       pairs += a < b && seen.sees(a, b);
     }
-  EXPECT_EQ(seen.sights().size(), pairs) << "a pair sees each other without a line of sight";
-  for (const Sight& sight : seen.sights()) {
+  EXPECT_EQ(seen.sights.size(), pairs) << "a pair sees each other without a line of sight";
+  for (const Sight& sight : seen.sights) {
     EXPECT_TRUE(seen.sees(sight.from, sight.to));
     EXPECT_TRUE(is_clear(sight.line, bsp, 0)) << sight.from << " to " << sight.to;
     for (const auto& [sector, end] :
@@ -63,7 +62,7 @@ Vec<2> place_in(const LevelBsp& bsp, std::uint32_t sector, Random& random) {
 int expect_lines(const LevelBsp& bsp, const LevelVisibility& seen, Random& random, int lines) {
   int clear = 0;
   for (int i = 0; i < lines; ++i) {
-    const auto n = static_cast<double>(seen.sectors()) - 1e-9;
+    const auto n = static_cast<double>(seen.sectors) - 1e-9;
     const auto a = static_cast<std::uint32_t>(random.between(0, n));
     const auto b = static_cast<std::uint32_t>(random.between(0, n));
     const Segment<2> line{place_in(bsp, a, random), place_in(bsp, b, random)};
@@ -80,8 +79,8 @@ TEST(LevelVisibility, IsWhatLinesOfSightSay) {
   const LevelVisibility seen = find_visibility(bsp);
   expect_witnesses(bsp, seen);
   EXPECT_GT(expect_lines(bsp, seen, random, 4000), 200);
-  const std::uint64_t n = seen.sectors();
-  EXPECT_LT(seen.sights().size(), n * (n - 1) / 2) << "nothing is hidden: the level tests nothing";
+  const std::uint64_t n = seen.sectors;
+  EXPECT_LT(seen.sights.size(), n * (n - 1) / 2) << "nothing is hidden: the level tests nothing";
 }
 
 TEST(LevelVisibility, HoldsForAnyLevel) {
@@ -128,8 +127,8 @@ TEST(LevelVisibility, TellsThePortalsAndThenEachSector) {
   const LevelBsp bsp = compile_level(watchtower().walls, kWatchtowerBounds);
   std::vector<std::uint32_t> done;
   find_visibility(bsp, {}, [&](const LevelVisibility& so_far) {
-    EXPECT_FALSE(so_far.portals().empty());
-    done.push_back(so_far.done());
+    EXPECT_FALSE(so_far.portals.empty());
+    done.push_back(so_far.done);
   });
   ASSERT_EQ(done.size(), bsp.sectors().size() + 1);
   for (std::uint32_t i = 0; i < done.size(); ++i) EXPECT_EQ(done[i], i);
@@ -139,7 +138,7 @@ TEST(LevelVisibility, RefusesMoreThanItIsAllowed) {
   const LevelBsp bsp = compile_level(watchtower().walls, kWatchtowerBounds);
   EXPECT_THROW(find_visibility(bsp, {.most_sectors = 3}), Refused);
   EXPECT_THROW(find_visibility(bsp, {.most_tests = 10}), Refused);
-  EXPECT_EQ(find_visibility(compile_level({}, kWatchtowerBounds)).sectors(), 1u);
+  EXPECT_EQ(find_visibility(compile_level({}, kWatchtowerBounds)).sectors, 1u);
 }
 
 }  // namespace

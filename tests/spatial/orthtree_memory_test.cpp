@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "spatial/picture.hpp"
-#include "spatial/trees/leaf_array.hpp"
+#include "spatial/trees/node_parts.hpp"
 #include "spatial/trees/orthtree.hpp"
 #include "spatial/worlds.hpp"
 

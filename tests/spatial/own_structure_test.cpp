@@ -1,5 +1,7 @@
 // Structures that a program is given: a right one is as good as ours, and whatever a wrong one
 // says, it is told and nothing of ours breaks.
+#include "spatial/own_structure.hpp"
+
 #include <algorithm>
 #include <functional>
 #include <limits>
@@ -11,7 +13,6 @@
 #include <gtest/gtest.h>
 
 #include "spatial/broad_phase.hpp"
-#include "spatial/own/own_tree.hpp"
 #include "spatial/structure_trial.hpp"
 #include "spatial/trees/orthtree.hpp"
 #include "spatial/worlds.hpp"

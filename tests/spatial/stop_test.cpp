@@ -8,7 +8,6 @@
 #include "base/random.hpp"
 #include "spatial/broad_phase.hpp"
 #include "spatial/level/level_bsp.hpp"
-#include "spatial/level/level_visibility.hpp"
 #include "spatial/pairs.hpp"
 #include "spatial/query.hpp"
 #include "spatial/trees/bsp.hpp"

@@ -1,9 +1,8 @@
 // What kinds of structures are said to do for the same bodies.
-#include "spatial/structure_work.hpp"
-
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
+#include "spatial/broad_phase.hpp"
 #include "spatial/pairs.hpp"
 
 namespace lantern::spatial {

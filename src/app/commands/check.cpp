@@ -7,8 +7,8 @@
 #include "app/run_scenario.hpp"
 #include "app/scenario_folder.hpp"
 #include "app/terminal.hpp"
-#include "base/counted.hpp"
 #include "base/json_writer.hpp"
+#include "base/number.hpp"
 
 namespace lantern::app {
 namespace {

@@ -17,9 +17,9 @@
 #include "app/folders/kept_files.hpp"
 #include "app/output/sinks.hpp"
 #include "app/terminal.hpp"
-#include "base/counted.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
+#include "base/number.hpp"
 #include "render/png.hpp"
 #include "render/seal.hpp"
 

@@ -6,10 +6,9 @@
 #include "app/scenario_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/clock.hpp"
-#include "base/counted.hpp"
-#include "base/grouped.hpp"
 #include "base/json_writer.hpp"
 #include "base/memory.hpp"
+#include "base/number.hpp"
 #include "run/tally.hpp"
 
 namespace lantern::app {

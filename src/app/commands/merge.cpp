@@ -19,10 +19,10 @@
 #include "app/folders/kept_files.hpp"
 #include "app/folders/shard.hpp"
 #include "app/terminal.hpp"
-#include "base/counted.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
+#include "base/number.hpp"
 #include "base/stop.hpp"
 #include "embedded/version.hpp"
 

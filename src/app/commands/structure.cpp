@@ -9,9 +9,9 @@
 #include "app/commands/command.hpp"
 #include "app/structure_names.hpp"
 #include "app/terminal.hpp"
-#include "base/counted.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
+#include "base/number.hpp"
 #include "base/suggest.hpp"
 #include "spatial/structure_trial.hpp"
 

@@ -1,6 +1,4 @@
 // `structure bench`: structures beside each other, in turns.
-#include "spatial/structure_bench.hpp"
-
 #include <algorithm>
 
 #include <fmt/format.h>
@@ -12,6 +10,7 @@
 #include "app/structure_names.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
+#include "spatial/structure_trial.hpp"
 
 namespace lantern::app {
 namespace {

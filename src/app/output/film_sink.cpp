@@ -10,7 +10,7 @@
 #include "app/terminal.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
-#include "base/utf8.hpp"
+#include "base/printable.hpp"
 #include "publish/film.hpp"
 #include "render/renderer.hpp"
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "base/grouped.hpp"
+#include "base/number.hpp"
 #include "draw/count_words.hpp"
 #include "draw/panel.hpp"
 #include "spatial/structure_kind.hpp"

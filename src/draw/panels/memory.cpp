@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "base/utf8.hpp"
+#include "base/printable.hpp"
 #include "draw/body_shapes.hpp"
 #include "draw/font.hpp"
 #include "draw/keys.hpp"

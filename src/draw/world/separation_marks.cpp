@@ -16,7 +16,7 @@
 #include "draw/body_shapes.hpp"
 #include "draw/keys.hpp"
 #include "draw/world/narrow_marks.hpp"
-#include "geometry/polygon.hpp"
+#include "geometry/plane.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -10,7 +10,7 @@
 #include "draw/pen.hpp"
 #include "draw/staging.hpp"
 #include "draw/world/world2d_parts.hpp"
-#include "geometry/segment.hpp"
+#include "geometry/plane.hpp"
 
 namespace lantern::draw {
 namespace {

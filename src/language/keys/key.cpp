@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/check.hpp"
-#include "geometry/angle.hpp"
+#include "geometry/vec.hpp"
 #include "language/language.hpp"
 #include "language/scenario.hpp"
 

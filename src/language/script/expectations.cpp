@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/angle.hpp"
+#include "geometry/vec.hpp"
 #include "language/keys/key.hpp"
 #include "language/script/script_reading.hpp"
 

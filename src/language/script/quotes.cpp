@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "base/grouped.hpp"
+#include "base/number.hpp"
 #include "language/script/caption.hpp"
 #include "language/script/script_reading.hpp"
 #include "language/sides.hpp"

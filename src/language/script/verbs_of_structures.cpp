@@ -7,7 +7,7 @@
 
 #include "language/keys/key.hpp"
 #include "language/script/script_reading.hpp"
-#include "spatial/structure_work.hpp"
+#include "spatial/broad_phase.hpp"
 
 namespace lantern::language {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/angle.hpp"
+#include "geometry/vec.hpp"
 #include "language/keys/key.hpp"
 #include "language/tables/draft.hpp"
 

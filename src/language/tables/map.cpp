@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "base/utf8.hpp"
+#include "base/printable.hpp"
 #include "language/keys/key.hpp"
 #include "language/tables/draft.hpp"
 

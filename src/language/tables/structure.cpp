@@ -10,7 +10,7 @@
 #include "language/keys/key.hpp"
 #include "language/specs.hpp"
 #include "language/tables/draft.hpp"
-#include "spatial/structure_choice.hpp"
+#include "spatial/broad_phase.hpp"
 
 namespace lantern::language {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "base/counted.hpp"
 #include "base/error.hpp"
+#include "base/number.hpp"
 #include "base/printable.hpp"
 #include "base/suggest.hpp"
 #include "language/scenario.hpp"

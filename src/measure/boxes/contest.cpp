@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
-#include "base/counted.hpp"
+#include "base/number.hpp"
 #include "base/stop.hpp"
 #include "measure/broad_phase_cost.hpp"
 #include "measure/peer_modules.hpp"
 #include "measure/peers.hpp"
-#include "spatial/pair_order.hpp"
+#include "spatial/box_table.hpp"
 #include "spatial/query.hpp"
 
 namespace lantern::measure {
@@ -85,7 +85,7 @@ class OwnOracle : public Oracle<D> {
 
   void build(Boxes<D> boxes) override { broad_phase_.build(boxes); }
   void along(const Ray<D>& ray, std::vector<BodyId>& ids) override {
-    raycast_all_into(hits_, broad_phase_.dynamic(), ray);
+    hits_ = raycast_all(broad_phase_.dynamic(), ray, {}, {}, {}, std::move(hits_));
     for (const RayHit& hit : hits_.hits) ids.push_back(hit.id);
   }
   bool first(const Ray<D>& ray, std::vector<BodyId>& ids) override {
@@ -99,7 +99,7 @@ class OwnOracle : public Oracle<D> {
  private:
   template <class Volume>
   void inside(const Volume& volume, std::vector<BodyId>& ids) {
-    overlap_query_into(found_, broad_phase_.dynamic(), volume);
+    found_ = overlap_query(broad_phase_.dynamic(), volume, {}, {}, std::move(found_));
     ids.insert(ids.end(), found_.ids.begin(), found_.ids.end());
   }
 

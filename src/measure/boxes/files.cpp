@@ -9,10 +9,10 @@
 
 #include <fmt/format.h>
 
-#include "base/counted.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/memory.hpp"
+#include "base/number.hpp"
 #include "base/random.hpp"
 #include "base/stop.hpp"
 #include "base/suggest.hpp"

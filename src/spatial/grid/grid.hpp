@@ -83,23 +83,19 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
   // Reads bounds, cell, levels, open and most_entries. Throws Refused for bounds that are not
   // valid, a cell that is negative, not finite, or out of 1e-100 ... 1e100, for no level or more
   // than kMostLevels, and for a closed grid of more than kMostCells cells.
-  explicit Grid(const StructureConfig<D>& config)
-      : bounds_(config.bounds),
-        cell_(config.cell),
-        levels_(config.levels),
-        open_(config.open),
-        most_entries_(config.most_entries) {
-    if (!is_valid(bounds_)) throw Refused("grid: its bounds are not finite or inverted");
-    if (cell_ != 0 && !(cell_ >= 1e-100 && cell_ <= 1e100))
+  explicit Grid(const StructureConfig<D>& config) : config_(config) {
+    if (!is_valid(config_.bounds)) throw Refused("grid: its bounds are not finite or inverted");
+    if (config_.cell != 0 && !(config_.cell >= 1e-100 && config_.cell <= 1e100))
       throw Refused(fmt::format(
-          "grid: cell is {}, must be 0 (as suits the bodies) or 1e-100 ... 1e100", cell_));
-    if (levels_ == 0 || levels_ > kMostLevels)
-      throw Refused(fmt::format("grid: levels is {}, must be 1 ... {}", levels_, kMostLevels));
-    cut(cell_ == 0 ? 1 : cell_);
-    if (cell_ != 0 && !open_ && rasters_[0].cells() > kMostCells)
+          "grid: cell is {}, must be 0 (as suits the bodies) or 1e-100 ... 1e100", config_.cell));
+    if (config_.levels == 0 || config_.levels > kMostLevels)
+      throw Refused(
+          fmt::format("grid: levels is {}, must be 1 ... {}", config_.levels, kMostLevels));
+    cut(config_.cell == 0 ? 1 : config_.cell);
+    if (config_.cell != 0 && !config_.open && rasters_[0].cells() > kMostCells)
       throw Refused(
           fmt::format("grid: {:.3g} cells of {} are too many; take larger ones, or an open grid",
-                      rasters_[0].cells(), cell_));
+                      rasters_[0].cells(), config_.cell));
   }
 
   // Tells make_child, test and store of the cells that the body reaches: whoever is told looks at
@@ -140,7 +136,7 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
   // changes, but it must not be done by two threads at once.
   void hold() const {
     if (held_) return;
-    if (cell_ == 0) cut(side_for<D>(items_, room_));
+    if (config_.cell == 0) cut(side_for<D>(items_, room_));
     table_.build(items_, rasters());
     placed_ += items_.size();
     held_ = true;
@@ -177,7 +173,8 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
   template <class F>
   void take(Tour<D> tour, F&& f) const {
     show();
-    cells_.take(tour, rasters(), open_ ? cells_.bounds(rasters(), bounds_) : bounds_, f);
+    cells_.take(tour, rasters(),
+                config_.open ? cells_.bounds(rasters(), config_.bounds) : config_.bounds, f);
   }
 
   // Those that the box overlaps, each once.
@@ -201,9 +198,10 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
   Arrangement arrangement() const override {
     hold();
     Arrangement all;
-    for (std::size_t level = 0; level < levels_; ++level) {
+    for (std::size_t level = 0; level < config_.levels; ++level) {
       const auto count = [&](std::size_t axis) {
-        return open_ ? table_.buckets(level, axis) : rasters_[level].cells(static_cast<int>(axis));
+        return config_.open ? static_cast<std::uint64_t>(table_.level(level).buckets(axis))
+                            : rasters_[level].cells(static_cast<int>(axis));
       };
       all.levels.push_back(
           {rasters_[level].side(), count(0), count(1) * (D == 3 ? count(D - 1) : 1)});
@@ -232,20 +230,22 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
   }
 
  private:
-  std::span<const GridRaster<D>> rasters() const { return std::span(rasters_).first(levels_); }
+  std::span<const GridRaster<D>> rasters() const {
+    return std::span(rasters_).first(config_.levels);
+  }
 
   void cut(double side) const {
-    for (std::uint32_t level = 0; level < levels_; ++level, side *= kGridRatio)
-      rasters_[level] = GridRaster<D>(bounds_, side, open_);
+    for (std::uint32_t level = 0; level < config_.levels; ++level, side *= kGridRatio)
+      rasters_[level] = GridRaster<D>(config_.bounds, side, config_.open);
   }
 
   void show() const {
     if (shown_) return;
-    if (cell_ == 0 || open_) {  // other cells, or buckets
+    if (config_.cell == 0 || config_.open) {  // other cells, or buckets
       hold();
       cells_.forget();
     }
-    cells_.make(items_, rasters(), table_, open_, most_entries_);
+    cells_.make(items_, rasters(), table_, config_.open, config_.most_entries);
     shown_ = true;
   }
 
@@ -278,11 +278,7 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
     }
   }
 
-  Box<D> bounds_;
-  double cell_;
-  std::uint32_t levels_;
-  bool open_;
-  std::uint64_t most_entries_;
+  StructureConfig<D> config_;
   std::vector<Item<D>> items_;
 
   // Made of the items when they are asked for.

@@ -141,7 +141,7 @@ class GridCells : CountsAllocations {
     }
     entry.cell = reach.from;
     for (;;) {
-      if (hash) entry.bucket = hash->bucket(entry.level, entry.cell);
+      if (hash) entry.bucket = hash->level(entry.level).bucket(entry.cell);
       append(entries_, entry);
       std::size_t i = 0;
       for (; i < D && entry.cell[i] == reach.to[i]; ++i) entry.cell[i] = reach.from[i];
@@ -234,28 +234,21 @@ class GridCells : CountsAllocations {
     void go(std::uint32_t i, std::uint32_t parent) {
       stop_if_asked();
       const Node& node = cells.nodes_[i];
-      const std::uint32_t id = tour.next_id++;
-      const bool open = f(NodeView<D>{
-          .handle = node.handle,
-          .id = id,
-          .parent = parent,
-          .slot = node.slot,
-          .depth = node.depth,
-          .leaf = node.leaf,
-          .box = box_of(i),
-          .slack = slack,
-          .bodies = std::span(cells.bodies_).subspan(node.first, node.leaf ? node.count : 0)});
-      if (!open || node.leaf) return;
+      NodeView<D> view =
+          tour.view(node.handle, parent, node.slot, node.depth, node.leaf, box_of(i));
+      view.slack = slack;
+      view.bodies = std::span(cells.bodies_).subspan(node.first, node.leaf ? node.count : 0);
+      if (!f(std::as_const(view)) || node.leaf) return;
       const bool in_order = tour.toward == Vec<D>(0.0) || !cells.nodes_[i + 1].leaf;
       std::uint32_t end = node.end;
       const bool has_large = cells.nodes_[end - 1].slot == kGridLarge && node.depth == 0;
       end -= has_large;
       if (in_order)
         for (std::uint32_t child = i + 1; child < end; child = cells.nodes_[child].end)
-          go(child, id);
+          go(child, view.id);
       else
-        along(i + 1, end, D - 1, id);
-      if (has_large) go(end, id);
+        along(i + 1, end, D - 1, view.id);
+      if (has_large) go(end, view.id);
     }
 
     // Leaves of one level, in the order in which a ray meets them: slices across one axis, in each

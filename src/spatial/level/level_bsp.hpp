@@ -16,17 +16,7 @@
 // exactly one sector; a two-sided wall has one piece for each side.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "base/stop.hpp"
-#include "geometry/polygon.hpp"
-#include "geometry/segment.hpp"
 #include "spatial/structure.hpp"
 
 namespace lantern::spatial {
@@ -224,9 +214,6 @@ class LevelBsp {
     visit_from(0, kNone, next_id, f);
   }
 
-  // The dividing lines, for a Bsp<2> of bodies over the same bounds.
-  std::vector<BspPlane<2>> planes() const;
-
  private:
   friend class LevelCompiler;
   LevelBsp(std::span<const Wall> walls, const Box<2>& bounds);
@@ -267,9 +254,7 @@ class LevelBsp {
   std::vector<WallPiece> pieces_;
   std::vector<LevelNode> nodes_;
   std::vector<LevelSector> sectors_;
-  std::uint64_t cuts_ = 0;
-  std::uint64_t candidates_ = 0;
-  std::uint64_t side_tests_ = 0;
+  LevelCounters counted_;  // cuts, candidates and tests
 };
 
 // Compiles a level. No walls give a single sector. Throws Refused for walls and bounds as
@@ -278,5 +263,66 @@ class LevelBsp {
 // after Stopped.
 LevelBsp compile_level(std::span<const Wall> walls, const Box<2>& bounds,
                        const LevelConfig& config = {}, const LevelObserver& observer = {});
+
+// --- which sectors of a level can see which (level_visibility.cpp) ---
+
+// The visibility matrix that Quake's levels were shipped
+// with, exact for a map seen from above.
+//
+//      +---------+      A portal is the part of two sectors' common border that is no wall. Who
+//      | 0  |L   |      looks from sector 0 through portals into sector 2 has all their left ends
+//      |    :  1 |      on the left of the line of sight, all their right ends on its right:
+//      |    |R   |      sector 2 is visible through them exactly if a line parts the left ends
+//      |    +L..R+      from the right ones. The search goes from sector to sector, through all
+//      |    | 2  |      portals that such a line still passes together with those before.
+//      +---------+
+//
+// Portals and rows of the matrix: Airey, "Increasing update rates in the building walkthrough
+// system with automatic model-space subdivision and potentially visible set calculations" (1990).
+// The parting line: Teller, "Visibility computations in densely occluded polyhedral environments"
+// (1992). It parts the ends if its normal n has n · (left - right) > 0 for each left and each right
+// end: if their differences lie within less than half a turn, which two of them bound.
+//
+// One-sided walls hide what is behind them; two-sided ones, steps and windows, do not. A beam
+// narrower than the level's tolerance does not count: who only touches a corner sees nothing.
+
+// An opening between two sectors.
+struct Portal {
+  std::uint32_t a = 0;
+  std::uint32_t b = 0;  // greater than a
+  Segment<2> line;      // a's floor lies on its left, b's on its right
+};
+
+// Two sectors that see each other, and a line of sight from the floor of one to that of the other.
+struct Sight {
+  std::uint32_t from = 0;
+  std::uint32_t to = 0;
+  Segment<2> line;  // crosses no one-sided wall
+};
+
+struct VisibilityConfig {
+  std::uint32_t most_sectors = 4096;
+  std::uint64_t most_tests = std::uint64_t{1} << 24;  // of a portal against a view
+};
+
+struct LevelVisibility {
+  std::uint32_t sectors = 0;
+  std::uint32_t done = 0;  // sectors below this one are: all that they see is known
+  std::vector<Portal> portals;
+  std::vector<Sight> sights;         // of each pair that sees each other
+  std::uint64_t portals_tested = 0;  // how often a portal was held against the view through others
+  std::vector<char> seen = {};       // row by row
+
+  // Each sector sees itself.
+  bool sees(std::uint32_t a, std::uint32_t b) const { return seen[a * sectors + b] != 0; }
+};
+
+// Told when the portals are known, before any sector is done, and then after each sector.
+using VisibilityObserver = std::function<void(const LevelVisibility&)>;
+
+// The whole matrix. Throws Refused for a level of more sectors, or that needs more tests, than the
+// config allows.
+LevelVisibility find_visibility(const LevelBsp& level, const VisibilityConfig& config = {},
+                                const VisibilityObserver& observer = {});
 
 }  // namespace lantern::spatial

@@ -1,5 +1,3 @@
-#include "spatial/level/level_visibility.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -8,6 +6,7 @@
 
 #include "base/error.hpp"
 #include "base/stop.hpp"
+#include "spatial/level/level_bsp.hpp"
 
 namespace lantern::spatial {
 
@@ -205,19 +204,19 @@ class SightFinder {
     if (n > config_.most_sectors)
       throw Refused(fmt::format("level: it has {} sectors, its visibility is found of at most {}",
                                 n, config_.most_sectors));
-    found_.sectors_ = static_cast<std::uint32_t>(n);
-    found_.sees_.assign(n * n, 0);
-    for (std::size_t i = 0; i < n; ++i) found_.sees_[i * n + i] = 1;
-    found_.portals_ = PortalFinder(level_).find();
+    found_.sectors = static_cast<std::uint32_t>(n);
+    found_.seen.assign(n * n, 0);
+    for (std::size_t i = 0; i < n; ++i) found_.seen[i * n + i] = 1;
+    found_.portals = PortalFinder(level_).find();
     ways_out_.resize(n);
-    for (std::uint32_t p = 0; p < found_.portals_.size(); ++p) {
-      ways_out_[found_.portals_[p].a].push_back(p);
-      ways_out_[found_.portals_[p].b].push_back(p);
+    for (std::uint32_t p = 0; p < found_.portals.size(); ++p) {
+      ways_out_[found_.portals[p].a].push_back(p);
+      ways_out_[found_.portals[p].b].push_back(p);
     }
     if (observer) observer(found_);
     for (eye_ = 0; eye_ < n; ++eye_) {
       look_on(eye_, kNone);
-      ++found_.done_;
+      ++found_.done;
       if (observer) observer(found_);
     }
     return std::move(found_);
@@ -230,10 +229,10 @@ class SightFinder {
     for (const std::uint32_t p : ways_out_[sector]) {
       if (p == came_by) continue;
       stop_if_asked();
-      if (++found_.portals_tested_ > config_.most_tests)
+      if (++found_.portals_tested > config_.most_tests)
         throw Refused(fmt::format("level: its visibility takes more than {} tests of portals",
                                   config_.most_tests));
-      const Portal& portal = found_.portals_[p];
+      const Portal& portal = found_.portals[p];
       const bool forth = portal.a == sector;  // from a's side the line's end is on the left
       const Beam::Bounds before = beam_.bounds();
       if (!beam_.narrow(forth ? portal.line.b : portal.line.a,
@@ -248,13 +247,13 @@ class SightFinder {
 
   // The eye's sector sees this one.
   void note(std::uint32_t sector) {
-    const std::size_t n = found_.sectors_;
-    if (found_.sees_[eye_ * n + sector]) return;
-    found_.sees_[eye_ * n + sector] = found_.sees_[sector * n + eye_] = 1;
+    const std::size_t n = found_.sectors;
+    if (found_.seen[eye_ * n + sector]) return;
+    found_.seen[eye_ * n + sector] = found_.seen[sector * n + eye_] = 1;
     const auto [along, at] = beam_.line();
     const auto [from, out] = span_within(level_.sectors()[eye_].floor, at, along);
     const auto [in, to] = span_within(level_.sectors()[sector].floor, at, along);
-    found_.sights_.push_back(
+    found_.sights.push_back(
         {eye_, sector, {at + along * ((from + out) / 2), at + along * ((in + to) / 2)}});
   }
 

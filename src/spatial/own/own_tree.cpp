@@ -1,24 +1,75 @@
-#include "spatial/own/own_tree.hpp"
-
-#include <algorithm>
 #include <exception>
-#include <utility>
 
-#include <fmt/format.h>
-
-#include "base/stop.hpp"
 #include "spatial/own/own_view.hpp"
+#include "spatial/own_structure.hpp"
 #include "spatial/structure_of.hpp"
 
 namespace lantern::spatial {
+
+// --- one view and the one before ---
+
+// Nodes at the same place in the tree are the same node to who looks; others take what is free.
+void OwnView::keep_handles(const OwnView& before) {
+  std::vector<bool> taken(nodes_.size());
+  std::vector<Node*> fresh;
+  for (Node& node : nodes_) {
+    if (node.parent == kNone) {
+      node.before = 0;
+    } else if (const std::uint32_t above = nodes_[node.parent].before; above != kNone) {
+      before.each_child(above, [&](std::uint32_t c) {
+        if (before.nodes_[c].slot == node.slot) node.before = c;
+      });
+    }
+    if (node.before == kNone || before.nodes_[node.before].handle >= nodes_.size()) {
+      fresh.push_back(&node);
+      continue;
+    }
+    node.handle = before.nodes_[node.before].handle;
+    taken[node.handle] = true;
+  }
+  NodeHandle free = 0;
+  for (Node* node : fresh) {
+    while (taken[free]) ++free;
+    node->handle = free++;
+  }
+}
+
+Counters OwnView::counters() const {
+  Counters c{.nodes = nodes_.size(), .entries = bodies_.size()};
+  for (const Node& node : nodes_) {
+    ++(node.leaf ? c.leaves : c.splits);
+    c.depth = std::max<std::uint64_t>(c.depth, node.depth);
+  }
+  return c;
+}
+
+std::vector<Event> OwnView::events_since(const OwnView& before, BodyId body,
+                                         const OwnRules& rules) const {
+  std::vector<Event> events;
+  const auto tell = [&](Event::Kind kind, const Node& node, std::uint32_t count) {
+    events.push_back({kind, node.handle, body, count, count > 0 ? rules.capacity : 0});
+  };
+  const auto holds = [&](const OwnView& view, const Node& node) {
+    return std::ranges::binary_search(view.bodies(node), body);
+  };
+  for (const Node& node : nodes_) {
+    const Node* old = node.before == kNone ? nullptr : &before.nodes_[node.before];
+    if (!old) tell(Event::Kind::make_child, node, 0);
+    if (old && old->leaf && !node.leaf) tell(Event::Kind::split, node, old->count + 1);
+    if (!node.leaf || !holds(*this, node) || (old && old->leaf && holds(before, *old))) continue;
+    tell(Event::Kind::store, node, node.count);
+    if (node.count > rules.capacity && node.depth == rules.max_depth)
+      tell(Event::Kind::depth_limit, node, node.count);
+  }
+  return events;
+}
+
+// --- the structure ---
+
 namespace {
 
-Box<2> clamped(Box<2> box, const Box<2>& to) {
-  for (int i = 0; i < 2; ++i) {
-    box.lo[i] = std::clamp(box.lo[i], to.lo[i], to.hi[i]);
-    box.hi[i] = std::clamp(box.hi[i], to.lo[i], to.hi[i]);
-  }
-  return box;
+Box<2> clamped(const Box<2>& box, const Box<2>& to) {
+  return {glm::clamp(box.lo, to.lo, to.hi), glm::clamp(box.hi, to.lo, to.hi)};
 }
 
 // What it holds is read from its OwnView; the tree itself is only called to insert, to clear, and
@@ -28,9 +79,7 @@ class OwnFlat final : public StructureOf<OwnFlat, 2> {
   static constexpr Zones kZones = Zones::rounded_rim;
 
   OwnFlat(const StructureConfig<2>& config, const OwnKind& kind)
-      : kind_(kind),
-        rules_{kind.name, config.bounds, config.capacity, config.max_depth, config.most_entries},
-        view_(config.bounds) {
+      : kind_(kind), rules_{config, kind.name}, view_(config.bounds) {
     clear();
   }
 
@@ -129,16 +178,10 @@ class OwnFlat final : public StructureOf<OwnFlat, 2> {
     tour.ids.clear();
     for (const BodyId place : view_.bodies(node)) tour.ids.push_back(ids_[place]);
     std::sort(tour.ids.begin(), tour.ids.end());
-    const NodeView<2> view{.handle = node.handle,
-                           .id = tour.next_id++,
-                           .parent = parent,
-                           .slot = node.slot,
-                           .depth = node.depth,
-                           .leaf = node.leaf,
-                           .box = node.box,
-                           .slack = view_.slack(),
-                           .bodies = tour.ids};
-    if (!f(view)) return;
+    NodeView<2> view = tour.view(node.handle, parent, node.slot, node.depth, node.leaf, node.box);
+    view.slack = view_.slack();
+    view.bodies = tour.ids;
+    if (!f(std::as_const(view))) return;
     for (const std::uint32_t child : children_of(index, tour.toward))
       visit_from(child, view.id, tour, f);
   }

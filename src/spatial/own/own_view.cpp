@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/stop.hpp"
-#include "spatial/trees/halving.hpp"
+#include "spatial/trees/node_parts.hpp"
 
 namespace lantern::spatial {
 namespace {
@@ -68,7 +68,7 @@ class OwnView::Reader {
     run_own([&] { tree.visit(sink); },
             [&](const std::string& words) {
               if (thrown_) std::rethrow_exception(thrown_);
-              refuse(fmt::format("visit threw: {}", words));
+              refuse("visit threw: {}", words);
             });
     if (thrown_) std::rethrow_exception(thrown_);
     if (nodes_.empty()) refuse("visit told no node; it must tell the root at least");
@@ -77,8 +77,10 @@ class OwnView::Reader {
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& text) const {
-    throw StructureFault({fmt::format("structure '{}': {}", rules_.name, text)});
+  template <class... Args>
+  [[noreturn]] void refuse(fmt::format_string<const Args&...> text, const Args&... args) const {
+    throw StructureFault(
+        {fmt::format("structure '{}': {}", rules_.name, fmt::format(text, args...))});
   }
 
   void take(const OwnNode& told) {
@@ -93,19 +95,18 @@ class OwnView::Reader {
     for (int i = 0; i < 2; ++i)
       if (!std::isfinite(told.box.lo[i]) || !std::isfinite(told.box.hi[i]) ||
           told.box.lo[i] > told.box.hi[i])
-        refuse(fmt::format(
-            "the box of {} goes from {} to {} on axis {}; both must be finite and in this order",
-            where(), told.box.lo[i], told.box.hi[i], "xy"[i]));
+        refuse("the box of {} goes from {} to {} on axis {}; both must be finite and in this order",
+               where(), told.box.lo[i], told.box.hi[i], "xy"[i]);
     if (told.depth > rules_.max_depth)
       refuse(
-          fmt::format("{} lies at depth {}, the limit is {}; does the tree lead back into itself, "
-                      "or not stop at max_depth?",
-                      where(), told.depth, rules_.max_depth));
+          "{} lies at depth {}, the limit is {}; does the tree lead back into itself, or not stop "
+          "at max_depth?",
+          where(), told.depth, rules_.max_depth);
     if (parent != kNone && children_[parent] == kMostChildren)
-      refuse(fmt::format("{} has more than {} children; does visit come to an end?",
-                         view_.place_of(parent), kMostChildren));
+      refuse("{} has more than {} children; does visit come to an end?", view_.place_of(parent),
+             kMostChildren);
     if (nodes_.size() >= rules_.most_entries)
-      refuse(fmt::format("more than {} nodes; does visit come to an end?", rules_.most_entries));
+      refuse("more than {} nodes; does visit come to an end?", rules_.most_entries);
     close_to(told.depth);
     Node node{.box = told.box, .parent = parent, .depth = told.depth, .leaf = told.leaf};
     if (parent != kNone) node.slot = children_[parent]++;
@@ -119,24 +120,19 @@ class OwnView::Reader {
   std::uint32_t parent_of(const OwnNode& told) const {
     if (nodes_.empty()) {
       if (told.depth != 0)
-        refuse(
-            fmt::format("the first node that visit tells has depth {}; it must be the root, at "
-                        "depth 0",
-                        told.depth));
+        refuse("the first node that visit tells has depth {}; it must be the root, at depth 0",
+               told.depth);
       return kNone;
     }
     if (told.depth == 0)
-      refuse(fmt::format("visit tells a second root after {}; is the tree visited twice?",
-                         view_.place_of(way_.back())));
+      refuse("visit tells a second root after {}; is the tree visited twice?",
+             view_.place_of(way_.back()));
     if (told.depth > way_.size())
-      refuse(
-          fmt::format("after {}, at depth {}, comes a node of depth {}; it can be {} at most, for "
-                      "a child",
-                      view_.place_of(way_.back()), way_.size() - 1, told.depth, way_.size()));
+      refuse("after {}, at depth {}, comes a node of depth {}; it can be {} at most, for a child",
+             view_.place_of(way_.back()), way_.size() - 1, told.depth, way_.size());
     const std::uint32_t parent = way_[told.depth - 1];
     if (nodes_[parent].leaf)
-      refuse(
-          fmt::format("{} is told as a leaf, but a child of it follows", view_.place_of(parent)));
+      refuse("{} is told as a leaf, but a child of it follows", view_.place_of(parent));
     return parent;
   }
 
@@ -146,7 +142,7 @@ class OwnView::Reader {
     node.first = static_cast<std::uint32_t>(all.size());
     const std::uint32_t place = way_.back();
     if (all.size() + told.bodies.size() > rules_.most_entries)
-      refuse(fmt::format("the leaves list more than {} bodies in all", rules_.most_entries));
+      refuse("the leaves list more than {} bodies in all", rules_.most_entries);
     for (const BodyId id : told.bodies) {
       if (id < all_bodies_)
         all.push_back(id);
@@ -413,64 +409,6 @@ void OwnView::note(std::string text, std::uint32_t node, std::vector<BodyId> bod
   if (faults_.size() >= kMostFaults) return;
   faults_.push_back({std::move(text), std::move(bodies)});
   fault_nodes_.push_back(node);
-}
-
-// --- one view and the one before ---
-
-// Nodes at the same place in the tree are the same node to who looks; others take what is free.
-void OwnView::keep_handles(const OwnView& before) {
-  std::vector<bool> taken(nodes_.size());
-  std::vector<Node*> fresh;
-  for (Node& node : nodes_) {
-    if (node.parent == kNone) {
-      node.before = 0;
-    } else if (const std::uint32_t above = nodes_[node.parent].before; above != kNone) {
-      before.each_child(above, [&](std::uint32_t c) {
-        if (before.nodes_[c].slot == node.slot) node.before = c;
-      });
-    }
-    if (node.before == kNone || before.nodes_[node.before].handle >= nodes_.size()) {
-      fresh.push_back(&node);
-      continue;
-    }
-    node.handle = before.nodes_[node.before].handle;
-    taken[node.handle] = true;
-  }
-  NodeHandle free = 0;
-  for (Node* node : fresh) {
-    while (taken[free]) ++free;
-    node->handle = free++;
-  }
-}
-
-Counters OwnView::counters() const {
-  Counters c{.nodes = nodes_.size(), .entries = bodies_.size()};
-  for (const Node& node : nodes_) {
-    ++(node.leaf ? c.leaves : c.splits);
-    c.depth = std::max<std::uint64_t>(c.depth, node.depth);
-  }
-  return c;
-}
-
-std::vector<Event> OwnView::events_since(const OwnView& before, BodyId body,
-                                         const OwnRules& rules) const {
-  std::vector<Event> events;
-  const auto tell = [&](Event::Kind kind, const Node& node, std::uint32_t count) {
-    events.push_back({kind, node.handle, body, count, count > 0 ? rules.capacity : 0});
-  };
-  const auto holds = [&](const OwnView& view, const Node& node) {
-    return std::ranges::binary_search(view.bodies(node), body);
-  };
-  for (const Node& node : nodes_) {
-    const Node* old = node.before == kNone ? nullptr : &before.nodes_[node.before];
-    if (!old) tell(Event::Kind::make_child, node, 0);
-    if (old && old->leaf && !node.leaf) tell(Event::Kind::split, node, old->count + 1);
-    if (!node.leaf || !holds(*this, node) || (old && old->leaf && holds(before, *old))) continue;
-    tell(Event::Kind::store, node, node.count);
-    if (node.count > rules.capacity && node.depth == rules.max_depth)
-      tell(Event::Kind::depth_limit, node, node.count);
-  }
-  return events;
 }
 
 }  // namespace lantern::spatial

@@ -19,12 +19,8 @@
 namespace lantern::spatial {
 
 // What is known of the tree without asking it.
-struct OwnRules {
+struct OwnRules : StructureConfig<2> {
   std::string name;  // of its kind
-  Box<2> bounds;
-  std::uint32_t capacity = 0;
-  std::uint32_t max_depth = 0;
-  std::uint64_t most_entries = 0;  // and nodes
 };
 
 class OwnView {

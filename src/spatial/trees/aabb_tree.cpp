@@ -1,11 +1,6 @@
 // How an AABB tree is built of all its bodies at once, follows them, and finds which overlap.
 #include "spatial/trees/aabb_tree.hpp"
 
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <limits>
-
 namespace lantern::spatial {
 namespace {
 
@@ -28,10 +23,8 @@ float middle(const AabbNode<D>& leaf, int axis) {
 template <int D>
 AabbNode<D> nowhere() {
   AabbNode<D> node;
-  for (int i = 0; i < D; ++i) {
-    node.lo[i] = kInfinite;
-    node.hi[i] = -kInfinite;
-  }
+  std::fill_n(node.lo, D, kInfinite);
+  std::fill_n(node.hi, D, -kInfinite);
   return node;
 }
 
@@ -66,17 +59,37 @@ auto before_on(int axis) {
   };
 }
 
-template <int D>
-std::size_t cut_at_median(std::span<AabbNode<D>> leaves, int axis) {
-  const std::size_t half = leaves.size() / 2;
-  std::nth_element(leaves.begin(), leaves.begin() + static_cast<std::ptrdiff_t>(half), leaves.end(),
-                   before_on<D>(axis));
-  return half;
-}
-
 // Whether that many of all may lie on one side.
 bool fits(std::size_t one_side, std::size_t all, std::uint32_t height) {
   return lowest(std::max(one_side, all - one_side)) < height;
+}
+
+// Of boxes in a row, of which each holds(box) bodies: the first of the upper side of the allowed
+// cut that costs least; `otherwise` if none is allowed.
+constexpr std::size_t kMostParts = 16;
+template <int D, class Holds>
+std::size_t best_cut(std::span<const AabbNode<D>> boxes, std::size_t bodies, std::uint32_t height,
+                     std::size_t otherwise, Holds&& holds) {
+  float behind[kMostParts];
+  AabbNode<D> part = nowhere<D>();
+  std::size_t count = 0;
+  const auto cost_with = [&](const AabbNode<D>& box) {
+    part.grow_around(part, box);
+    count += holds(box);
+    return count > 0 ? part.area() * static_cast<float>(count) : 0;
+  };
+  for (std::size_t i = boxes.size() - 1; i > 0; --i) behind[i] = cost_with(boxes[i]);
+  part = nowhere<D>();
+  count = 0;
+  float least = kInfinite;
+  for (std::size_t i = 1; i < boxes.size(); ++i) {
+    const float cost = cost_with(boxes[i - 1]) + behind[i];
+    if (cost < least && fits(count, bodies, height)) {
+      least = cost;
+      otherwise = i;
+    }
+  }
+  return otherwise;
 }
 
 // Few leaves: sorted, and every place between two of them tried.
@@ -88,31 +101,14 @@ std::size_t cut_few(std::span<AabbNode<D>> leaves, int axis, std::uint32_t heigh
   for (std::size_t i = 1; i < n; ++i)
     for (std::size_t j = i; j > 0 && before(leaves[j], leaves[j - 1]); --j)
       std::swap(leaves[j], leaves[j - 1]);
-  float behind[kFew];
-  AabbNode<D> part = leaves[n - 1];
-  for (std::size_t i = n - 1; i > 0; --i) {
-    part.grow_around(part, leaves[i]);
-    behind[i] = part.area() * static_cast<float>(n - i);
-  }
-  std::size_t best = n / 2;
-  float least = kInfinite;
-  part = leaves[0];
-  for (std::size_t i = 1; i < n; ++i) {
-    part.grow_around(part, leaves[i - 1]);
-    const float cost = part.area() * static_cast<float>(i) + behind[i];
-    if (cost < least && fits(i, n, height)) {
-      least = cost;
-      best = i;
-    }
-  }
-  return best;
+  return best_cut<D>(leaves, n, height, n / 2, [](const AabbNode<D>&) { return 1u; });
 }
 
 // Many: counted into bins of equal width.
 template <int D>
 class Bins {
  public:
-  static constexpr int kCount = 16;
+  static constexpr int kCount = kMostParts;
 
   explicit Bins(const Spread& spread)
       : axis_(spread.axis),
@@ -133,35 +129,11 @@ class Bins {
 
   // The first bin of the upper side; 0 if no cut is allowed.
   int best(std::size_t n, std::uint32_t height) const {
-    float behind[kCount];
-    AabbNode<D> part = nowhere<D>();
-    std::size_t count = 0;
-    for (int i = kCount - 1; i > 0; --i) {
-      count += take(part, i);
-      behind[i] = count > 0 ? part.area() * static_cast<float>(count) : 0;
-    }
-    int best = 0;
-    float least = kInfinite;
-    part = nowhere<D>();
-    count = 0;
-    for (int i = 1; i < kCount; ++i) {
-      count += take(part, i - 1);
-      const float cost = part.area() * static_cast<float>(count) + behind[i];
-      if (cost < least && fits(count, n, height)) {
-        least = cost;
-        best = i;
-      }
-    }
-    return best;
+    return static_cast<int>(
+        best_cut<D>(boxes_, n, height, 0, [](const AabbNode<D>& bin) { return bin.below; }));
   }
 
  private:
-  std::size_t take(AabbNode<D>& part, int bin) const {
-    const AabbNode<D>& box = boxes_[static_cast<std::size_t>(bin)];
-    part.grow_around(part, box);
-    return box.below;
-  }
-
   int axis_;
   float from_, scale_;
   std::array<AabbNode<D>, kCount> boxes_;
@@ -180,12 +152,17 @@ std::size_t AabbTree<D>::cut(std::span<Node> leaves, std::uint32_t height) {
   const Spread spread = widest<D>(leaves);
   if (leaves.size() <= kFew) return cut_few<D>(leaves, spread.axis, height);
   Bins<D> bins(spread);
-  if (!bins.is_possible()) return cut_at_median<D>(leaves, spread.axis);
-  for (const Node& leaf : leaves) bins.add(leaf);
-  const int best = bins.best(leaves.size(), height);
-  if (best == 0) return cut_at_median<D>(leaves, spread.axis);
-  const auto upper = std::partition(leaves.begin(), leaves.end(),
-                                    [&](const Node& leaf) { return bins.of(leaf) < best; });
+  int best = 0;
+  if (bins.is_possible()) {
+    for (const Node& leaf : leaves) bins.add(leaf);
+    best = bins.best(leaves.size(), height);
+  }
+  auto upper = leaves.begin() + static_cast<std::ptrdiff_t>(leaves.size() / 2);
+  if (best == 0)  // at the median
+    std::nth_element(leaves.begin(), upper, leaves.end(), before_on<D>(spread.axis));
+  else
+    upper = std::partition(leaves.begin(), leaves.end(),
+                           [&](const Node& leaf) { return bins.of(leaf) < best; });
   return static_cast<std::size_t>(upper - leaves.begin());
 }
 
@@ -454,7 +431,6 @@ void AabbTree<D>::pair_between(const AabbSpot& of_a, const AabbSpot& of_b, const
 template class AabbTree<2>;
 template class AabbTree<3>;
 
-extern const StructureEntry aabb_tree_entry;
 const StructureEntry aabb_tree_entry{{.words = "AABB tree",
                                       .settings = bits_of({Setting::margin, Setting::following}),
                                       .meets_in_leaves = false,

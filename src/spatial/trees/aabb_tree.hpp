@@ -26,13 +26,6 @@
 // Boxes are kept in float, rounded outward; who is handed a body compares the true box.
 #pragma once
 
-#include <array>
-#include <cmath>
-#include <type_traits>
-#include <utility>
-
-#include <fmt/format.h>
-
 #include "spatial/structure_of.hpp"
 #include "spatial/trees/aabb_walk.hpp"
 
@@ -327,15 +320,10 @@ class AabbTree final : public StructureOf<AabbTree<D>, D>, CountsAllocations {
                   Tour<D>& tour, F& f) const {
     stop_if_asked();
     const Node& node = nodes_[at];
-    const NodeView<D> view{.handle = handle_of(at),
-                           .id = tour.next_id++,
-                           .parent = parent,
-                           .slot = slot,
-                           .depth = depth,
-                           .leaf = node.is_leaf(),
-                           .box = finite(node.box()),
-                           .bodies = std::span(&node.link, node.bodies() == 1 ? 1 : 0)};
-    if (!f(view) || view.leaf) return;
+    NodeView<D> view =
+        tour.view(handle_of(at), parent, slot, depth, node.is_leaf(), finite(node.box()));
+    view.bodies = std::span(&node.link, node.bodies() == 1 ? 1 : 0);
+    if (!f(std::as_const(view)) || view.leaf) return;
     const NodeHandle first = second_first(node, tour.toward) ? 1 : 0;
     visit_from(node.link + first, view.id, first, depth + 1, tour, f);
     visit_from(node.link + 1 - first, view.id, 1 - first, depth + 1, tour, f);

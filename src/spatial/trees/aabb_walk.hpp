@@ -1,13 +1,8 @@
 // The nodes of an AABB tree, and the ways of boxes and rays through it, for when nobody watches.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <span>
 #include <utility>
 
 #include "geometry/ray.hpp"
@@ -132,13 +127,12 @@ struct FloatRay {
 struct BlockBits {
   std::uint32_t maybe = 0, surely = 0;
 };
-BlockBits reached_in_block(const BoxTable<2>& table, std::uint32_t first, const AabbNode<2>& asked);
-BlockBits reached_in_block(const BoxTable<3>& table, std::uint32_t first, const AabbNode<3>& asked);
+template <int D>
+BlockBits reached_in_block(const BoxTable<D>& table, std::uint32_t first, const AabbNode<D>& asked);
 
 // The same of those that the ray may meet before `limit`.
-std::uint32_t met_in_block(const BoxTable<2>& table, std::uint32_t first, const FloatRay<2>& ray,
-                           float limit);
-std::uint32_t met_in_block(const BoxTable<3>& table, std::uint32_t first, const FloatRay<3>& ray,
+template <int D>
+std::uint32_t met_in_block(const BoxTable<D>& table, std::uint32_t first, const FloatRay<D>& ray,
                            float limit);
 
 // --- ways ---

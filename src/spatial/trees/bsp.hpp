@@ -10,13 +10,8 @@
 // between the least and the greatest height of both boxes. Whatever side it falls on, both reach.
 #pragma once
 
-#include <cmath>
-#include <utility>
-
-#include <fmt/format.h>
-
 #include "spatial/structure_of.hpp"
-#include "spatial/trees/leaf_array.hpp"
+#include "spatial/trees/node_parts.hpp"
 
 namespace lantern::spatial {
 
@@ -89,8 +84,7 @@ class Bsp final : public StructureOf<Bsp<D>, D> {
     const auto refuse = [&](const char* why) {
       throw Refused(fmt::format("BSP: plane {} {}", index, why));
     };
-    for (int i = 0; i < D; ++i)
-      if (!std::isfinite(p.plane.normal[i])) refuse("has a normal that is not finite");
+    if (!is_finite(p.plane.normal)) refuse("has a normal that is not finite");
     if (p.plane.normal == Vec<D>(0.0)) refuse("has a normal of zero length");
     if (!std::isfinite(p.plane.offset)) refuse("has an offset that is not finite");
     if (index == 0 && p.parent != kNone) refuse("is the first, so it cannot have a parent");
@@ -143,16 +137,10 @@ class Bsp final : public StructureOf<Bsp<D>, D> {
   void visit_from(NodeHandle handle, std::uint32_t parent, Tour<D>& tour, F& f) const {
     stop_if_asked();
     const Node& node = nodes_[handle];
-    const NodeView<D> view{.handle = handle,
-                           .id = tour.next_id++,
-                           .parent = parent,
-                           .slot = node.slot,
-                           .depth = node.depth,
-                           .leaf = node.is_leaf(),
-                           .box = bounds_,
-                           .plane = node.is_leaf() ? nullptr : &planes_[node.plane].plane,
-                           .bodies = tour.ascending(contents_.values(node.contents))};
-    if (!f(view) || view.leaf) return;
+    NodeView<D> view = tour.view(handle, parent, node.slot, node.depth, node.is_leaf(), bounds_);
+    if (!view.leaf) view.plane = &planes_[node.plane].plane;
+    view.bodies = tour.ascending(contents_.values(node.contents));
+    if (!f(std::as_const(view)) || view.leaf) return;
     double along = 0;  // a ray along the plane's normal comes from behind
     for (int i = 0; i < D; ++i) along += tested_[node.plane].normal[i] * tour.toward[i];
     const NodeHandle first = along < 0 ? 1 : 0;

@@ -1,6 +1,6 @@
 // The lecture's quadtree, and with one more axis its octree: a node that holds too much is halved
-// on every axis (see halving.hpp), and its contents go to each child that they reach. The tree is
-// built as it is taught, one Insert after another.
+// on every axis (see node_parts.hpp), and its contents go to each child that they reach. The tree
+// is built as it is taught, one Insert after another.
 //
 // A body is compared with the middles of nodes only, never with their rims, so nothing is dropped:
 // cells at the rim reach outward without end, and a body outside the root's bounds lies in the
@@ -21,15 +21,10 @@
 // bound on any axis.
 #pragma once
 
-#include <array>
 #include <numeric>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "spatial/structure_of.hpp"
-#include "spatial/trees/halving.hpp"
-#include "spatial/trees/leaf_array.hpp"
+#include "spatial/trees/node_parts.hpp"
 
 namespace lantern::spatial {
 
@@ -340,13 +335,7 @@ class Orthtree final : public StructureOf<Orthtree<D>, D>, CountsAllocations {
     stop_if_asked();
     const Node& node = nodes_[at.node];
     Tour<D>& tour = way.tour;
-    NodeView<D> view{.handle = at.node,
-                     .id = tour.next_id++,
-                     .parent = parent,
-                     .slot = slot,
-                     .depth = at.depth,
-                     .leaf = node.is_leaf(),
-                     .box = at.bounds};
+    NodeView<D> view = tour.view(at.node, parent, slot, at.depth, node.is_leaf(), at.bounds);
     tour.ids.clear();
     if (view.leaf) {
       add_ids(node, tour.ids);

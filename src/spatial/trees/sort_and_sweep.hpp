@@ -13,10 +13,6 @@
 // sort takes over. The order does not depend on which of the two made it.
 #pragma once
 
-#include <bit>
-#include <optional>
-#include <utility>
-
 #include "geometry/shape.hpp"
 #include "spatial/structure_of.hpp"
 
@@ -69,8 +65,7 @@ class SortAndSweep final : public StructureOf<SortAndSweep<D>, D>, CountsAllocat
       const double x = items_[a].box.lo[axis_], y = items_[b].box.lo[axis_];
       return x < y || (x == y && items_[a].id < items_[b].id);
     };
-    swaps_ = 0;
-    if (!insertion_sort(before)) std::sort(order_.begin(), order_.end(), before);
+    swaps_ = sort_nearly_sorted(order_, 8 * order_.size(), before);
     ends_.clear();
     for (const std::uint32_t i : order_) {
       const double end = items_[i].box.hi[axis_];
@@ -204,23 +199,6 @@ class SortAndSweep final : public StructureOf<SortAndSweep<D>, D>, CountsAllocat
         std::partition_point(order_.begin() + at + 1, order_.end(),
                              [&](std::uint32_t i) { return items_[i].box.lo[axis_] <= end; });
     return static_cast<std::uint32_t>(last - order_.begin());
-  }
-
-  // False when it gave up after a few moves an item; the order holds each item once in any case.
-  template <class Before>
-  bool insertion_sort(const Before& before) {
-    const std::size_t most = 8 * order_.size();
-    std::size_t moves = most;
-    for (std::size_t i = 1; i < order_.size(); ++i) {
-      const std::uint32_t item = order_[i];
-      std::size_t hole = i;
-      for (; hole > 0 && moves > 0 && before(item, order_[hole - 1]); --hole, --moves)
-        order_[hole] = order_[hole - 1];
-      order_[hole] = item;
-      swaps_ = most - moves;
-      if (moves == 0) return false;
-    }
-    return true;
   }
 
   std::vector<Item<D>> items_;
