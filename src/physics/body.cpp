@@ -8,7 +8,6 @@
 
 #include "base/error.hpp"
 #include "geometry/not_finite.hpp"
-#include "physics/mass.hpp"
 
 namespace lantern::physics {
 namespace {

@@ -2,7 +2,6 @@
 #include "physics/forces.hpp"
 
 #include "base/stop.hpp"
-#include "physics/energy.hpp"
 
 namespace lantern::physics {
 namespace {

@@ -1,5 +1,3 @@
-#include "physics/free_rotation.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 
 #include "base/check.hpp"
 #include "geometry/elliptic.hpp"
+#include "physics/body.hpp"
 
 namespace lantern::physics {
 namespace {

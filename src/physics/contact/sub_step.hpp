@@ -17,8 +17,8 @@
 #include <functional>
 
 #include "base/stop.hpp"
-#include "physics/contact/island.hpp"
-#include "physics/free_rotation.hpp"
+#include "physics/body.hpp"
+#include "physics/contact/contact_solver.hpp"
 
 namespace lantern::physics {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "physics/free_rotation.hpp"
+#include "physics/body.hpp"
 #include "physics/impact/impacts.hpp"
 
 namespace lantern::physics {

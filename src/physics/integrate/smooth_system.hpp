@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/stop.hpp"
-#include "physics/free_rotation.hpp"
+#include "physics/body.hpp"
 #include "physics/integrate/integrator.hpp"
 
 namespace lantern::physics {

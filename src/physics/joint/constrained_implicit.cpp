@@ -2,7 +2,7 @@
 // impulses p of the joints:
 //
 //   A dv - J^T dp = momentum that is missing     A: the matrix of an implicit step
-//   J dv          = velocity that is missing     (motion_matrix.hpp)
+//   J dv          = velocity that is missing     (implicit_stage.hpp)
 //
 // by the Schur complement J A^-1 J^T, which is full. Joints push along their lines at the stage, as
 // springs do there: so a stiff spring beside a rod leaves nothing that would turn it. What their
@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "physics/integrate/motion_matrix.hpp"
+#include "physics/integrate/implicit_stage.hpp"
 #include "physics/joint/constrained_motion.hpp"
 
 namespace lantern::physics {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "physics/energy.hpp"
+#include "physics/forces.hpp"
 
 namespace lantern::physics {
 namespace {
