@@ -231,7 +231,7 @@ struct ContactRows {
     for (ContactPoint<D>& p : points()) {
       if (p.inverse_normal_mass == 0) continue;
       const double parting =
-          glm::dot(relative_mean_velocity(body_a, p.arm_a, body_b, p.arm_b), normal);
+          glm::dot(relative_velocity(body_a.mean, p.arm_a, body_b.mean, p.arm_b), normal);
       const double wanted = p.wanted_mean_speed(h);
       const double before = p.correction;
       // Together with the impulse that is there already, it may push but not pull.
@@ -243,7 +243,7 @@ struct ContactRows {
     }
     for (ContactPoint<D>& p : points()) {
       if (!p.sticks || p.pn == 0 || p.inverse_tangent_mass == 0) continue;
-      const Vec<D> slip = across(relative_mean_velocity(body_a, p.arm_a, body_b, p.arm_b));
+      const Vec<D> slip = across(relative_velocity(body_a.mean, p.arm_a, body_b.mean, p.arm_b));
       const Vec<D> impulse = (p.wanted_slip - slip) / p.inverse_tangent_mass;
       correct(p, impulse, body_a, body_b);
       sweep.change = std::max(sweep.change, glm::length(impulse));

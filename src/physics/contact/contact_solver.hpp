@@ -67,9 +67,7 @@ struct Island {
   std::vector<Mat<D>> axes;  // of the bodies where they are
   std::vector<SolverBody<D>> solver_bodies;
   std::vector<Increment<D>> increments;
-  // After the forces, before the constraints.
-  std::vector<Vec<D>> kicked;
-  std::vector<Spin<D>> kicked_spins;
+  std::vector<Motion<D>> kicked;  // after the forces, before the constraints
   JointBlock<D> joint_block;
 
   void find_axes() {

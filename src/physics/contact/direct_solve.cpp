@@ -111,7 +111,7 @@ class DirectSolve {
         return wanted - glm::dot(u, part.direction);
       });
       if (let_go(island)) continue;
-      apply_rows(rows_, values_, island.solver_bodies);
+      apply_rows(rows_, values_, island.solver_bodies, false);
       for (const RowPart& part : parts_) {
         const Vec<D> impulse = part.direction * part.gain;
         if (part.joint != nullptr)
@@ -137,8 +137,8 @@ class DirectSolve {
     }
     count_direct_solve(rows_.size(), step.work);
     find_gains([&](const RowPart& part) {
-      const Vec<D> u = relative_mean_velocity(island.solver_bodies[part.a], part.arm_a,
-                                              island.solver_bodies[part.b], part.arm_b);
+      const Vec<D> u = relative_velocity(island.solver_bodies[part.a].mean, part.arm_a,
+                                         island.solver_bodies[part.b].mean, part.arm_b);
       const double wanted = part.joint != nullptr ? 0  // see JointRows
                             : part.tangent < 0    ? part.point->wanted_mean_speed(step.h)
                                                : glm::dot(part.point->wanted_slip, part.direction);
@@ -148,7 +148,7 @@ class DirectSolve {
       if (part.point != nullptr && part.tangent < 0 &&
           part.point->correction + part.gain < -part.point->pn)
         return false;
-    correct_rows(rows_, values_, island.solver_bodies);
+    apply_rows(rows_, values_, island.solver_bodies, true);
     for (const RowPart& part : parts_)
       if (part.point != nullptr && part.tangent < 0) part.point->correction += part.gain;
     return true;

@@ -15,52 +15,38 @@
 namespace lantern::physics {
 
 template <int D>
-struct SolverBody {
-  double inverse_mass = 0;
-  Inertia<D> inverse_inertia{0.0};
+struct Motion {
   Vec<D> velocity{0.0};
   Spin<D> spin{0.0};
+};
+
+template <int D>
+struct SolverBody : Motion<D> {
+  double inverse_mass = 0;
+  Inertia<D> inverse_inertia{0.0};
   Spin<D> twist{0.0};  // angular momentum gained from constraints
-  // How the body really moves over the sub-step: its mean velocities. They differ from the above by
+  // How the body really moves over the sub-step: its mean velocities. They differ from its own by
   // what pushes out penetration, which must not become motion (split impulses).
-  Vec<D> mean_velocity{0.0};
-  Spin<D> mean_spin{0.0};
+  Motion<D> mean;
   Spin<D> lag{0.0};           // of the angular momentum while the body turns, see Increment
   Spin<D> turning_spin{0.0};  // the mean spin that this gives
 
   void apply(const Vec<D>& impulse, const Vec<D>& arm) {
     const Spin<D> turn = cross(arm, impulse);
-    velocity += impulse * inverse_mass;
-    spin += inverse_inertia * turn;
+    this->velocity += impulse * inverse_mass;
+    this->spin += inverse_inertia * turn;
     twist += turn;
   }
-  // The same for an impulse of `size` along `direction`, of which is known how it turns the body.
-  void apply_along(const Vec<D>& direction, const Spin<D>& turn, const Spin<D>& gained,
-                   double size) {
-    velocity += direction * (size * inverse_mass);
-    spin += gained * size;
-    twist += turn * size;
-  }
-  void correct_along(const Vec<D>& direction, const Spin<D>& gained, double size) {
-    mean_velocity += direction * (size * inverse_mass);
-    mean_spin += gained * size;
-  }
   void correct(const Vec<D>& impulse, const Vec<D>& arm) {
-    mean_velocity += impulse * inverse_mass;
-    mean_spin += inverse_inertia * cross(arm, impulse);
+    mean.velocity += impulse * inverse_mass;
+    mean.spin += inverse_inertia * cross(arm, impulse);
   }
 };
 
 template <int D>
-Vec<D> relative_velocity(const SolverBody<D>& a, const Vec<D>& arm_a, const SolverBody<D>& b,
+Vec<D> relative_velocity(const Motion<D>& a, const Vec<D>& arm_a, const Motion<D>& b,
                          const Vec<D>& arm_b) {
   return (b.velocity + cross(b.spin, arm_b)) - (a.velocity + cross(a.spin, arm_a));
-}
-template <int D>
-Vec<D> relative_mean_velocity(const SolverBody<D>& a, const Vec<D>& arm_a, const SolverBody<D>& b,
-                              const Vec<D>& arm_b) {
-  return (b.mean_velocity + cross(b.mean_spin, arm_b)) -
-         (a.mean_velocity + cross(a.mean_spin, arm_a));
 }
 
 template <int D>
@@ -125,20 +111,18 @@ struct ConstraintRow {
 // alone.
 template <int D>
 void apply_rows(const std::vector<ConstraintRow<D>>& rows, const std::vector<double>& impulses,
-                std::vector<SolverBody<D>>& bodies) {
+                std::vector<SolverBody<D>>& bodies, bool to_mean) {
+  const auto apply = [&](SolverBody<D>& body, const Vec<D>& direction, const Spin<D>& turn,
+                         const Spin<D>& gained, double size) {
+    Motion<D>& motion = to_mean ? body.mean : body;
+    motion.velocity += direction * (size * body.inverse_mass);
+    motion.spin += gained * size;
+    if (!to_mean) body.twist += turn * size;
+  };
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const ConstraintRow<D>& row = rows[i];
-    bodies[row.a].apply_along(row.direction, row.turn_a, row.gained_a, -impulses[i]);
-    bodies[row.b].apply_along(row.direction, row.turn_b, row.gained_b, impulses[i]);
-  }
-}
-template <int D>
-void correct_rows(const std::vector<ConstraintRow<D>>& rows, const std::vector<double>& impulses,
-                  std::vector<SolverBody<D>>& bodies) {
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const ConstraintRow<D>& row = rows[i];
-    bodies[row.a].correct_along(row.direction, row.gained_a, -impulses[i]);
-    bodies[row.b].correct_along(row.direction, row.gained_b, impulses[i]);
+    apply(bodies[row.a], row.direction, row.turn_a, row.gained_a, -impulses[i]);
+    apply(bodies[row.b], row.direction, row.turn_b, row.gained_b, impulses[i]);
   }
 }
 

@@ -58,12 +58,7 @@ class SubStep {
       body.velocity += island.increments[i].kick;
       body.spin += body.inverse_inertia * island.increments[i].twist;
     }
-    island.kicked.clear();
-    island.kicked_spins.clear();
-    for (const SolverBody<D>& body : island.solver_bodies) {
-      island.kicked.push_back(body.velocity);
-      island.kicked_spins.push_back(body.spin);
-    }
+    island.kicked.assign(island.solver_bodies.begin(), island.solver_bodies.end());
     each_joint([](auto& rows, auto& a, auto& b) { rows.warm_start(a, b); });
     each_pair([](auto& rows, auto& a, auto& b) { rows.warm_start(a, b); });
   }
@@ -96,12 +91,10 @@ class SubStep {
   // within it.
   void do_no_work() {
     double before = 0, after = 0, wanted = 0;
-    const auto before_of = [&](std::uint32_t i, const Vec<D>& arm) {
-      return island.kicked[i] + cross(island.kicked_spins[i], arm);
-    };
     const auto add = [&](const auto& rows, const auto& point, const Vec<D>& impulse) {
       const SolverBody<D>&a = island.solver_bodies[rows.a], &b = island.solver_bodies[rows.b];
-      before += glm::dot(impulse, before_of(rows.b, point.arm_b) - before_of(rows.a, point.arm_a));
+      before += glm::dot(impulse, relative_velocity(island.kicked[rows.a], point.arm_a,
+                                                    island.kicked[rows.b], point.arm_b));
       after += glm::dot(impulse, relative_velocity(a, point.arm_a, b, point.arm_b));
     };
     for (const JointRows<D>& rows : island.joints) add(rows, rows, rows.impulse);
@@ -116,8 +109,9 @@ class SubStep {
     const double share = std::clamp((wanted - before) / changed, 0.0, 1.0);
     for (std::size_t i = 0; i < island.solver_bodies.size(); ++i) {
       SolverBody<D>& body = island.solver_bodies[i];
-      body.velocity = island.kicked[i] + (body.velocity - island.kicked[i]) * share;
-      body.spin = island.kicked_spins[i] + (body.spin - island.kicked_spins[i]) * share;
+      const auto& [velocity, spin] = island.kicked[i];
+      body.velocity = velocity + (body.velocity - velocity) * share;
+      body.spin = spin + (body.spin - spin) * share;
       body.twist *= share;
     }
     for (JointRows<D>& rows : island.joints) rows.impulse *= share;
@@ -133,11 +127,11 @@ class SubStep {
     for (std::size_t i = 0; i < island.solver_bodies.size(); ++i) {
       SolverBody<D>& body = island.solver_bodies[i];
       const double lag = lag_of(i);
-      const Vec<D> pressed = body.velocity - island.kicked[i];
-      body.mean_velocity = body.velocity + increments[i].drift / h - pressed * lag;
+      const Vec<D> pressed = body.velocity - island.kicked[i].velocity;
+      body.mean.velocity = body.velocity + increments[i].drift / h - pressed * lag;
       body.lag = increments[i].lag;
       if (turns_alike(island.bodies[i])) body.lag -= body.twist * lag;
-      body.mean_spin = body.turning_spin = body.spin + body.inverse_inertia * body.lag;
+      body.mean.spin = body.turning_spin = body.spin + body.inverse_inertia * body.lag;
     }
   }
 
@@ -181,10 +175,10 @@ class SubStep {
       }
       body.velocity = solved.velocity;
       body.angular_momentum += increment.twist + solved.twist;
-      body.position += solved.mean_velocity * h;
+      body.position += solved.mean.velocity * h;
       if (body.inverse_inertia == Spin<D>(0.0)) continue;
       const Spin<D> turning = body.angular_momentum + solved.lag;
-      const Spin<D> pushed = solved.mean_spin - solved.turning_spin;
+      const Spin<D> pushed = solved.mean.spin - solved.turning_spin;
       if (turning == Spin<D>(0.0) && pushed == Spin<D>(0.0)) continue;
       turn_freely(body, h, body.rotation.value_or(config.rotation), solved.lag);
       if (pushed != Spin<D>(0.0)) turn_with_momentum(body, Spin<D>(pushed * h));

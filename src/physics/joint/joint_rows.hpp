@@ -101,7 +101,7 @@ struct JointRows {
   // Mean velocities, too, keep the points together. (Gaps are closed by JointBlock, after the
   // bodies have moved.)
   void correct_positions(SolverBody<D>& body_a, SolverBody<D>& body_b, Sweep& sweep) {
-    const Vec<D> gained = impulse_for(-relative_mean_velocity(body_a, arm_a, body_b, arm_b));
+    const Vec<D> gained = impulse_for(-relative_velocity(body_a.mean, arm_a, body_b.mean, arm_b));
     body_a.correct(-gained, arm_a);
     body_b.correct(gained, arm_b);
     sweep.change = std::max(sweep.change, glm::length(gained));
@@ -165,14 +165,7 @@ class JointBlock {
   // Impulses after which no joint parts.
   void solve_velocities(std::vector<JointRows<D>>& joints, std::vector<SolverBody<D>>& bodies,
                         Sweep& sweep, WorldWork& work) {
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
-      const ConstraintRow<D>& row = rows_[r];
-      const JointRows<D>& joint = joints[joint_of_[r]];
-      values_[r] = -glm::dot(
-          row.direction, relative_velocity(bodies[row.a], joint.arm_a, bodies[row.b], joint.arm_b));
-    }
-    solve(factor_, work);
-    apply_rows(rows_, values_, bodies);
+    stop_parting(joints, bodies, false, work);
     for (std::size_t r = 0; r < rows_.size(); ++r) {
       Vec<D>& impulse = joints[joint_of_[r]].impulse;
       impulse += rows_[r].direction * values_[r];
@@ -184,14 +177,7 @@ class JointBlock {
   // The same of mean velocities.
   void correct_positions(const std::vector<JointRows<D>>& joints,
                          std::vector<SolverBody<D>>& bodies, Sweep& sweep, WorldWork& work) {
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
-      const ConstraintRow<D>& row = rows_[r];
-      const JointRows<D>& joint = joints[joint_of_[r]];
-      values_[r] = -glm::dot(row.direction, relative_mean_velocity(bodies[row.a], joint.arm_a,
-                                                                   bodies[row.b], joint.arm_b));
-    }
-    solve(factor_, work);
-    correct_rows(rows_, values_, bodies);
+    stop_parting(joints, bodies, true, work);
     for (const double value : values_) sweep.change = std::max(sweep.change, std::abs(value));
   }
 
@@ -209,11 +195,11 @@ class JointBlock {
     for (int round = 0; round < kJointSettings.closing_rounds && worst > enough && left > 0;
          ++round) {
       solve(damped ? damped_ : factor_, work);
-      keep(bodies);
+      kept_ = bodies;
       move(bodies, 1);
       double way = way_of(bodies);
       if (way > left) {
-        restore(bodies);
+        bodies = kept_;
         move(bodies, left / way);
         way = left;
       }
@@ -222,7 +208,7 @@ class JointBlock {
       if (better) {
         left -= way;
       } else {
-        restore(bodies);
+        bodies = kept_;
         find_errors(joints, bodies);
         if (damped) return;
       }
@@ -232,11 +218,20 @@ class JointBlock {
   }
 
  private:
-  struct KeptPlace {
-    Vec<D> position;
-    Rotation<D> orientation;
-    Spin<D> angular_momentum;
-  };
+  // By their velocities, or by their mean velocities.
+  void stop_parting(const std::vector<JointRows<D>>& joints, std::vector<SolverBody<D>>& bodies,
+                    bool of_mean, WorldWork& work) {
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+      const ConstraintRow<D>& row = rows_[r];
+      const JointRows<D>& joint = joints[joint_of_[r]];
+      const SolverBody<D>&a = bodies[row.a], &b = bodies[row.b];
+      const Motion<D>&of_a = of_mean ? a.mean : a, &of_b = of_mean ? b.mean : b;
+      values_[r] =
+          -glm::dot(row.direction, relative_velocity(of_a, joint.arm_a, of_b, joint.arm_b));
+    }
+    solve(factor_, work);
+    apply_rows(rows_, values_, bodies, of_mean);
+  }
 
   void list(const std::vector<JointRows<D>>& joints, const std::vector<SolverBody<D>>& bodies) {
     rows_.clear();
@@ -264,20 +259,6 @@ class JointBlock {
   bool damp() {
     plan(rows_, kept_.size(), damped_);
     return factor_compliant(rows_, kJointSettings.damping, damped_);
-  }
-
-  void keep(const std::vector<Body<D>>& bodies) {
-    kept_.clear();
-    for (const Body<D>& body : bodies)
-      kept_.push_back({body.position, body.orientation, body.angular_momentum});
-  }
-
-  void restore(std::vector<Body<D>>& bodies) const {
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      bodies[i].position = kept_[i].position;
-      bodies[i].orientation = kept_[i].orientation;
-      bodies[i].angular_momentum = kept_[i].angular_momentum;
-    }
   }
 
   static double angle_between(const Rotation<D>& a, const Rotation<D>& b) {
@@ -329,7 +310,7 @@ class JointBlock {
   std::vector<std::uint32_t> joint_of_;  // of each row
   EnvelopeSystem factor_, damped_;
   bool solved_ = false;
-  std::vector<KeptPlace> kept_;
+  std::vector<Body<D>> kept_;
   std::vector<double> values_;  // what is missing, then impulses
 };
 
