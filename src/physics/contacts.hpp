@@ -42,6 +42,14 @@ void renew_record(Contact<D>& record, const Manifold<D>& manifold) {
   record = renewed;
 }
 
+// What a step remembers of a pair that touched in it.
+template <int D>
+struct Touch {
+  Contact<D> record;   // what the step tells
+  Contact<D> memory;   // impulses of the last sub-step, which the next step begins with
+  double seconds = 0;  // of that sub-step; 0: there was none
+};
+
 struct ContactEvent {
   enum class Kind {
     begin,  // touch in this step, did not in the last one
@@ -112,6 +120,11 @@ struct Pose {
   Vec<D> position{0.0};
   Rotation<D> orientation{};
 };
+
+template <int D>
+Pose<D> pose(const Body<D>& body) {
+  return {body.id, body.position, body.orientation};
+}
 
 // An impact that was located: the two are there when they meet. Times are seconds since the step
 // began.

@@ -263,20 +263,13 @@ Rotation<3> turned_as_top(const Rotation<3>& r, const Vec<3>& inverse_inertia, c
   return turned(Rotation<3>{q}, l * (terms.middle * h));
 }
 
-// In the order of the enumerators.
-constexpr std::array<std::string_view, 3> kMethods = {"splitting_2", "splitting_4",
-                                                      "explicit_gyroscopic"};
-
 }  // namespace
 
 std::string_view to_string(RotationMethod method) {
-  return kMethods[static_cast<std::size_t>(method)];
-}
-
-std::optional<RotationMethod> rotation_method_named(std::string_view name) {
-  const auto* const found = std::ranges::find(kMethods, name);
-  if (found == kMethods.end()) return std::nullopt;
-  return static_cast<RotationMethod>(found - kMethods.begin());
+  using enum RotationMethod;
+  return method == splitting_2   ? "splitting_2"
+         : method == splitting_4 ? "splitting_4"
+                                 : "explicit_gyroscopic";
 }
 
 template <int D>

@@ -43,6 +43,14 @@ struct Backoff {
   }
 };
 
+// What a step remembers of a joint.
+template <int D>
+struct JointMemory {
+  Vec<D> impulse{0.0};  // of the last sub-step, upon b, N s
+  double seconds = 0;   // of that sub-step; 0: there was none
+  Backoff backoff = {};
+};
+
 // Of a joint whose points are at `from` and `to`, in units of length: how far those of a pin are
 // apart, how far those of a rod are from its length.
 template <int D>

@@ -41,7 +41,6 @@ std::string_view to_string(Integrator integrator);
 std::string_view to_string(RotationMethod method);
 std::string_view to_string(ContactMethod method);
 std::optional<Integrator> integrator_named(std::string_view name);
-std::optional<RotationMethod> rotation_method_named(std::string_view name);
 std::optional<ContactMethod> contact_method_named(std::string_view name);
 std::vector<std::string_view> integrator_names();
 std::vector<std::string_view> contact_method_names();

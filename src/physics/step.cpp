@@ -68,8 +68,8 @@ struct World<D>::Step {
     double restitution = 0;
     double friction = 0;
     double reach = 0;
-    const Touch* touch = nullptr;    // of the step before, if they touched in it
-    std::uint32_t manifold = kNone;  // as they were found to lie; none of too many
+    const Touch<D>* touch = nullptr;  // of the step before, if they touched in it
+    std::uint32_t manifold = kNone;   // as they were found to lie; none of too many
     bool located = false;
   };
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
@@ -85,7 +85,7 @@ struct World<D>::Step {
   std::vector<double> reach;  // of each body: how far its surface may come; at least as given
   std::vector<Body<D>> moved = world.bodies_;
   std::vector<double> rested = world.rested_;
-  std::vector<JointMemory> joint_memories = world.joint_memories_;
+  std::vector<JointMemory<D>> joint_memories = world.joint_memories_;
   Forces<D> forces = world.forces_;
   std::vector<TimedPush> pushes = {};
   std::vector<Increment<D>> anew = {};  // increments anew, since bodies woke in this step
@@ -96,7 +96,7 @@ struct World<D>::Step {
   std::vector<Manifold<D>> manifolds = {};
   std::vector<std::uint32_t> root = {};         // of each body's island; static ones have their own
   std::vector<std::uint32_t> local_place = {};  // of each body in the island that was gathered last
-  std::vector<Touch> touching = {};
+  std::vector<Touch<D>> touching = {};
   std::vector<std::uint32_t> touch_of = {};  // of each near pair; kNone: it did not touch
   bool struck = false;                       // an impact was located
   Outcome outcome = {.impacts = {{}, {}, world.outcome_.impacts.keeps_looks}};
@@ -161,7 +161,7 @@ struct World<D>::Step {
     }
     // They are made when their islands are moved, and remembered for the next step.
     constexpr std::uint64_t kEach =
-        sizeof(NearPair) + sizeof(IslandPair<D>) + 2 * (sizeof(Touch) + sizeof(Contact<D>));
+        sizeof(NearPair) + sizeof(IslandPair<D>) + 2 * (sizeof(Touch<D>) + sizeof(Contact<D>));
     require_memory(kEach * near.size(), fmt::format("{} pairs that may touch", near.size()),
                    "take fewer bodies that overlap");
   }
@@ -197,7 +197,7 @@ struct World<D>::Step {
     };
     for (const NearPair& pair : near) unite(pair.a, pair.b);
     // What sleeps is not looked at: it hangs together as when it fell asleep.
-    for (const Touch& touch : world.touching_) {
+    for (const Touch<D>& touch : world.touching_) {
       const std::uint32_t a = place_of(touch.record.a), b = place_of(touch.record.b);
       if (moved[a].asleep && moved[b].asleep) unite(a, b);
     }
@@ -278,7 +278,7 @@ struct World<D>::Step {
     world.work_.asleep = 0;
     if (world.config_.may_sleep && !(forces.gravitation > 0)) {
       std::vector<std::uint8_t> restless(moved.size()), held(moved.size());
-      for (const Touch& touch : touching)
+      for (const Touch<D>& touch : touching)
         for (const BodyId id : {touch.record.a, touch.record.b}) {
           held[root[place_of(id)]] = true;
           const BodyId other = id == touch.record.a ? touch.record.b : touch.record.a;
@@ -312,7 +312,7 @@ struct World<D>::Step {
   // Contacts in order of ids, and what is new about them.
   void update_contact_events() {
     order_touches();
-    for (const Touch& touch : touching) outcome.contacts.push_back(touch.record);
+    for (const Touch<D>& touch : touching) outcome.contacts.push_back(touch.record);
 
     const std::vector<Contact<D>>& contacts = outcome.contacts;
     const std::vector<std::uint8_t> crush =
@@ -484,14 +484,9 @@ struct World<D>::Step {
     pair.reach = from.reach;
     pair.located = from.located;
     pair.pressed = !from.located;
-    pair.record.a = pair.memory.a = moved[from.a].id;
-    pair.record.b = pair.memory.b = moved[from.b].id;
+    if (from.touch != nullptr) pair.touch = *from.touch;
+    pair.touch.record = {moved[from.a].id, moved[from.b].id, {}, {}, {}};
     if (from.manifold != kNone) pair.seen = &manifolds[from.manifold];
-    if (from.touch != nullptr) {
-      pair.remembered = from.touch->seconds > 0;
-      pair.memory = from.touch->memory;
-      pair.seconds = from.touch->seconds;
-    }
     return pair;
   }
 
@@ -585,7 +580,7 @@ struct World<D>::Step {
       JointRows<D> rows{.joint = world.joints_[i].second, .place = static_cast<std::uint32_t>(i)};
       rows.a = local(place_of(rows.joint.a));
       rows.b = local(place_of(rows.joint.b));
-      const JointMemory& memory = world.joint_memories_[i];
+      const JointMemory<D>& memory = world.joint_memories_[i];
       rows.seconds = memory.seconds;
       rows.backoff = memory.backoff;
       if (memory.seconds > 0) rows.impulse = memory.impulse;
@@ -605,24 +600,24 @@ struct World<D>::Step {
       const IslandPair<D>& pair = island.pairs[i];
       if (!pair.touched) continue;
       touch_of[group.pairs[i]] = static_cast<std::uint32_t>(touching.size());
-      touching.push_back({pair.record, pair.memory, pair.remembered ? pair.seconds : 0});
+      touching.push_back(pair.touch);
     }
   }
 
   // In order of ids, as the near pairs are, with those of bodies that slept through.
   void order_touches() {
-    std::vector<Touch> slept, ordered;
+    std::vector<Touch<D>> slept, ordered;
     const auto rests = [&](BodyId id) {
       return !world.bodies_[place_of(id)].stirs() && !moved[place_of(id)].stirs();
     };
-    for (const Touch& touch : world.touching_)
+    for (const Touch<D>& touch : world.touching_)
       if (rests(touch.record.a) && rests(touch.record.b)) slept.push_back(touch);
     ordered.reserve(touching.size() + slept.size());
     auto next = slept.begin();
     for (std::size_t i = 0; i < near.size(); ++i) {
       stop_if_asked();
       if (touch_of[i] == kNone) continue;
-      Touch& touch = touching[touch_of[i]];
+      Touch<D>& touch = touching[touch_of[i]];
       while (next != slept.end() && next->record.pair() < touch.record.pair())
         ordered.push_back(std::move(*next++));
       if (next != slept.end() && next->record.pair() == touch.record.pair()) ++next;

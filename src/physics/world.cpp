@@ -270,8 +270,9 @@ void World<D>::part_islands() {
 template <int D>
 void World<D>::forget_contacts_of(std::span<const BodyId> ids) {
   const auto is_of = [&](BodyId id) { return std::ranges::binary_search(ids, id); };
-  std::erase_if(touching_,
-                [&](const Touch& touch) { return is_of(touch.record.a) || is_of(touch.record.b); });
+  std::erase_if(touching_, [&](const Touch<D>& touch) {
+    return is_of(touch.record.a) || is_of(touch.record.b);
+  });
 }
 
 template <int D>
@@ -370,7 +371,7 @@ void World<D>::remove_joint(JointId id) {
 template <int D>
 std::vector<Pair> World<D>::links() const {
   std::vector<Pair> all;
-  for (const Touch& touch : touching_) all.push_back(touch.record.pair());
+  for (const Touch<D>& touch : touching_) all.push_back(touch.record.pair());
   for (const Spring<D>& spring : forces_.springs) all.push_back({spring.a, spring.b});
   for (const auto& entry : joints_) all.push_back({entry.second.a, entry.second.b});
   return all;
@@ -447,7 +448,7 @@ std::uint64_t World<D>::hash() const {
     hash.add(std::uint64_t{joints_[i].first});
     add_to(hash, joint_memories_[i].impulse);
   }
-  for (const Touch& touch : touching_) {
+  for (const Touch<D>& touch : touching_) {
     hash.add(std::uint64_t{touch.record.a}).add(std::uint64_t{touch.record.b});
     add_to(hash, touch.memory);
   }

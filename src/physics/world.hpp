@@ -138,12 +138,6 @@ class World {
   std::uint64_t hash() const;
 
  private:
-  // What a step remembers of a pair that touched in it.
-  struct Touch {
-    Contact<D> record;   // what the step tells
-    Contact<D> memory;   // impulses of the last sub-step, which the next step begins with
-    double seconds = 0;  // of that sub-step; 0: there was none
-  };
   struct Outcome {  // what a step tells
     std::vector<Contact<D>> contacts = {};
     std::vector<ContactEvent> events = {};
@@ -154,11 +148,6 @@ class World {
   struct TimedPush {
     Push<D> push;
     std::optional<double> until;
-  };
-  struct JointMemory {
-    Vec<D> impulse{0.0};  // of the last sub-step
-    double seconds = 0;   // of that sub-step
-    Backoff backoff = {};
   };
   struct Step;  // one step while it is made (step.cpp)
   // What looking ahead found out for the next step.
@@ -187,13 +176,13 @@ class World {
   std::vector<SpringId> spring_ids_;
   std::vector<TimedPush> pushes_;
   std::vector<std::pair<JointId, Joint<D>>> joints_;
-  std::vector<JointMemory> joint_memories_;
+  std::vector<JointMemory<D>> joint_memories_;
   BodyId next_id_ = 0;
   SpringId next_spring_ = 0;
   JointId next_joint_ = 0;
   double time_ = 0;
 
-  std::vector<Touch> touching_;  // by pair: of the last step, and of those that sleep
+  std::vector<Touch<D>> touching_;  // by pair: of the last step, and of those that sleep
   Outcome outcome_;
   std::optional<BroadPhase<D>> broad_phase_;
   std::optional<Ahead> ahead_;  // until anything changes

@@ -161,12 +161,6 @@ TEST(Methods, OnlyTheTextbookUpdateLosesAngularMomentum) {
   }
 }
 
-TEST(Methods, NamesOfRotationsAreFoundAgain) {
-  for (const RotationMethod method : kRotations)
-    EXPECT_EQ(rotation_method_named(to_string(method)), method);
-  EXPECT_EQ(rotation_method_named("splitting_3"), std::nullopt);
-}
-
 World<2> pile(ContactMethod contacts) {
   WorldConfig<2> config = falling<2>();
   config.contacts = contacts;

@@ -37,17 +37,14 @@ struct IslandPair {
   int rests = 0;         // how often it was located and too slow to bounce
   double slow = 0;       // approaches slower than this are no impacts
   double reach = 0;      // how near they must be to be looked at
-  bool remembered = false;
-  Contact<D> memory;   // of the last sub-step
-  double seconds = 0;  // of that sub-step
+  Touch<D> touch;        // what it remembers, and what the step tells
   bool touched = false;
-  Contact<D> record;                  // what the step tells
   const Manifold<D>* seen = nullptr;  // how they lie, within `reach`; null once they have moved
 
   void record_impulses() {
     for (std::size_t i = 0; i < rows.points().size(); ++i) {
-      record.normal_impulses[i] += rows.room[i].pn;
-      record.friction_impulses[i] += rows.room[i].pt;
+      touch.record.normal_impulses[i] += rows.room[i].pn;
+      touch.record.friction_impulses[i] += rows.room[i].pt;
     }
   }
 };
@@ -97,7 +94,7 @@ struct Island {
       manifold = &*made;
     }
     pair.rows.set_points(*manifold, a, b, axes[pair.rows.a], axes[pair.rows.b], remembered, scale);
-    renew_record(pair.record, *manifold);
+    renew_record(pair.touch.record, *manifold);
     work.contact_points += pair.rows.points().size();
     return true;
   }

@@ -60,8 +60,9 @@ class SubSteps {
         pair.seen = nullptr;  // it is about to move
         continue;
       }
-      const double scale = pair.seconds > 0 ? rescaled(scale_to, pair.seconds) : 0;
-      island_.find_points(pair, pair.reach, pair.remembered ? &pair.memory : nullptr, scale,
+      const double seconds = pair.touch.seconds;
+      const double scale = seconds > 0 ? rescaled(scale_to, seconds) : 0;
+      island_.find_points(pair, pair.reach, seconds > 0 ? &pair.touch.memory : nullptr, scale,
                           move_.work);
     }
   }
@@ -82,13 +83,13 @@ class SubSteps {
   void remember(double h) {
     for (IslandPair<D>& pair : island_.pairs) {
       stop_if_asked();
-      pair.remembered = pair.rows.count > 0;
-      if (!pair.remembered) continue;
-      pair.seconds = h;
-      pair.memory.manifold = pair.record.manifold;
+      auto& [record, memory, seconds] = pair.touch;
+      seconds = pair.rows.count > 0 ? h : 0;
+      if (pair.rows.count == 0) continue;
+      memory.manifold = record.manifold;
       for (std::size_t i = 0; i < pair.rows.points().size(); ++i) {
-        pair.memory.normal_impulses[i] = pair.rows.room[i].pn;
-        pair.memory.friction_impulses[i] = pair.rows.room[i].pt;
+        memory.normal_impulses[i] = pair.rows.room[i].pn;
+        memory.friction_impulses[i] = pair.rows.room[i].pt;
       }
     }
     island_.joint_seconds = h;

@@ -14,6 +14,16 @@ struct Impact {
   IslandPair<D>* pair = nullptr;
 };
 
+// A bounce that would end within a small share of `step` seconds is none. So a ball that bounces
+// lower and lower comes to rest after finitely many impacts. This is the speed of such a bounce.
+template <int D>
+double slowest_impact(const Trajectory<D>& a, const Trajectory<D>& b, double step) {
+  const double pull = 2 * glm::length(b.bend - a.bend) + a.held + b.held;
+  return std::max(
+      pull * step * kImpactSettings.shortest_bounce,
+      kImpactSettings.speed_by_rounding * (glm::length(a.velocity) + glm::length(b.velocity)));
+}
+
 template <int D>
 class ImpactMotion {
  public:
@@ -36,7 +46,9 @@ class ImpactMotion {
       }
       if (next->time > 0) solve(next->time);
       left -= next->time;
-      log_.moments.push_back(moment_of(*next->pair, move_.h - left));
+      const ContactRows<D>& met = next->pair->rows;
+      log_.moments.push_back(
+          {move_.h - left, pose(island_.bodies[met.a]), pose(island_.bodies[met.b])});
       const int impacts = resolve_impacts();
       move_.work.impacts_located += static_cast<std::uint64_t>(impacts);
       budget_ -= std::max(impacts, 1);
@@ -247,15 +259,6 @@ class ImpactMotion {
         first = Impact<D>{met->seconds, &pair};
     }
     return first;
-  }
-
-  // The bodies of the pair are where they meet, `time` seconds after the step began.
-  ImpactMoment<D> moment_of(const IslandPair<D>& pair, double time) const {
-    const auto pose = [&](std::uint32_t place) {
-      const Body<D>& body = island_.bodies[place];
-      return Pose<D>{body.id, body.position, body.orientation};
-    };
-    return {time, pose(pair.rows.a), pose(pair.rows.b)};
   }
 
   const IslandMove<D>& move_;

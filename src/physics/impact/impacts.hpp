@@ -68,11 +68,6 @@ struct TimeOfImpact {
 template <int D>
 std::optional<TimeOfImpact> time_of_impact(const Encounter<D>& of);
 
-// A bounce that would end within a small share of `step` seconds is none. So a ball that bounces
-// lower and lower comes to rest after finitely many impacts. This is the speed of such a bounce.
-template <int D>
-double slowest_impact(const Trajectory<D>& a, const Trajectory<D>& b, double step);
-
 // A body at a moment of its free flight.
 template <int D>
 struct Flying {

@@ -303,10 +303,9 @@ class Approach {
         *std::min_element(points.begin(), points.end(),
                           [](const auto& p, const auto& q) { return p.separation < q.separation; });
     const Vec<D> half = manifold.normal * (gap / 2);
-    of_.looks->push_back({of_.begun + t, pose_of(a), pose_of(b), nearest.position - half,
+    of_.looks->push_back({of_.begun + t, pose(a), pose(b), nearest.position - half,
                           nearest.position + half, gap, of_.begun + t});
   }
-  static Pose<D> pose_of(const Body<D>& body) { return {body.id, body.position, body.orientation}; }
   // Of the last look.
   void tell_free_until(double t) const {
     if (of_.looks != nullptr) of_.looks->back().free_until = of_.begun + std::min(t, of_.within);
@@ -333,19 +332,10 @@ std::optional<TimeOfImpact> time_of_impact(const Encounter<D>& of) {
   return met;
 }
 
-template <int D>
-double slowest_impact(const Trajectory<D>& a, const Trajectory<D>& b, double step) {
-  const double pull = 2 * glm::length(b.bend - a.bend) + a.held + b.held;
-  return std::max(
-      pull * step * kImpactSettings.shortest_bounce,
-      kImpactSettings.speed_by_rounding * (glm::length(a.velocity) + glm::length(b.velocity)));
-}
-
 #define LANTERN_INSTANTIATE(D)                                                                     \
   template double fastest_spin(const Body<D>&);                                                    \
   template double sure_advance(const Flying<D>&, const Flying<D>&, const Vec<D>&, double, double); \
-  template std::optional<TimeOfImpact> time_of_impact(const Encounter<D>&);                        \
-  template double slowest_impact(const Trajectory<D>&, const Trajectory<D>&, double);
+  template std::optional<TimeOfImpact> time_of_impact(const Encounter<D>&);
 
 LANTERN_INSTANTIATE(2)
 LANTERN_INSTANTIATE(3)
