@@ -5,8 +5,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
+#include "base/stop.hpp"
 #include "physics/body.hpp"
 
 namespace lantern::physics {
@@ -110,6 +112,42 @@ std::vector<std::uint8_t> crushing(const std::vector<Contact<D>>& contacts, Body
       found[presses[i].contact] = found[presses[j].contact] = 1;
     }
   return found;
+}
+
+// A pair of which is told that it touches: its begin was an event, its end will be one.
+struct ToldPair {
+  Pair pair;
+  int frames_left = 0;  // steps without touch before its end is told
+};
+
+// What is new about the contacts, in order of ids as they and `told` are, which becomes that of
+// now; a pair that parts is said to have done so after `frames` steps.
+template <int D, class BodyOf>
+std::vector<ContactEvent> tell_events(const std::vector<Contact<D>>& contacts, int frames,
+                                      BodyOf&& body_of, std::vector<ToldPair>& told) {
+  const std::vector<std::uint8_t> crush = crushing<D>(contacts, body_of);
+  const std::vector<ToldPair> old = std::move(told);
+  std::vector<ContactEvent> events;
+  told.clear();
+  std::size_t i = 0, j = 0;
+  while (i < old.size() || j < contacts.size()) {
+    stop_if_asked();
+    const bool parted =
+        j == contacts.size() || (i < old.size() && old[i].pair < contacts[j].pair());
+    const bool known = parted || (i < old.size() && old[i].pair == contacts[j].pair());
+    const ToldPair now = {parted ? old[i].pair : contacts[j].pair(),
+                          (parted ? std::min(old[i].frames_left, frames) : frames) - 1};
+    if (parted && now.frames_left < 0)
+      events.push_back({ContactEvent::Kind::end, now.pair.a, now.pair.b});
+    else
+      told.push_back(now);
+    if (!parted)
+      events.push_back({known ? ContactEvent::Kind::stay : ContactEvent::Kind::begin, now.pair.a,
+                        now.pair.b, !crush.empty() && crush[j] != 0});
+    if (known) ++i;
+    if (!parted) ++j;
+  }
+  return events;
 }
 
 // When impacts were, and, for who asks, how that was found out. First where a body is at some

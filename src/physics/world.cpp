@@ -58,27 +58,6 @@ Spin<3> momentum_for(const Body<3>& body, const Vec<3>& spin) {
   return r * l;
 }
 
-template <int D>
-void check_spring(const Spring<D>& spring, const std::string& who) {
-  if (spring.a == spring.b)
-    throw Refused(fmt::format("{}: both ends are on body {}", who, spring.a));
-  require_finite(spring.at_a, who, "at_a");
-  require_finite(spring.at_b, who, "at_b");
-  require_not_negative(spring.rest_length, who, "rest_length");
-  require_not_negative(spring.stiffness, who, "stiffness");
-  require_not_negative(spring.damping, who, "damping");
-}
-
-template <int D>
-void check_same_integrator(const Body<D>& a, const Body<D>& b, const WorldConfig<D>& config) {
-  const auto dynamic = BodyKind::dynamic_body;
-  const Integrator of_a = a.integrator.value_or(config.integrator);
-  const Integrator of_b = b.integrator.value_or(config.integrator);
-  if (a.kind != dynamic || b.kind != dynamic || of_a == of_b) return;
-  throw Refused(fmt::format("spring between '{}' and '{}': one is moved by {}, the other by {}",
-                            a.name, b.name, to_string(of_a), to_string(of_b)));
-}
-
 void add_to(Hash& hash, double value) { hash.add(value); }
 template <int D>
 void add_to(Hash& hash, const glm::vec<D, double>& value) {
@@ -156,8 +135,7 @@ template <int D>
 const Body<D>* World<D>::find(BodyId id) const {
   if (id < bodies_.size() && bodies_[id].id == id)
     return &bodies_[id];  // as long as none is removed
-  const auto body = std::lower_bound(bodies_.begin(), bodies_.end(), id,
-                                     [](const Body<D>& b, BodyId wanted) { return b.id < wanted; });
+  const auto body = std::ranges::lower_bound(bodies_, id, {}, &Body<D>::id);
   return body != bodies_.end() && body->id == id ? &*body : nullptr;
 }
 
@@ -321,8 +299,19 @@ template <int D>
 SpringId World<D>::add_spring(const Spring<D>& spring) {
   const Body<D>& a = bodies_[index_of(spring.a)];
   const Body<D>& b = bodies_[index_of(spring.b)];
-  check_spring(spring, fmt::format("spring {}", next_spring_));
-  check_same_integrator(a, b, config_);
+  const std::string who = fmt::format("spring {}", next_spring_);
+  if (spring.a == spring.b)
+    throw Refused(fmt::format("{}: both ends are on body {}", who, spring.a));
+  require_finite<D>(spring.at_a, who, "at_a");
+  require_finite<D>(spring.at_b, who, "at_b");
+  require_not_negative(spring.rest_length, who, "rest_length");
+  require_not_negative(spring.stiffness, who, "stiffness");
+  require_not_negative(spring.damping, who, "damping");
+  const Integrator of_a = a.integrator.value_or(config_.integrator);
+  const Integrator of_b = b.integrator.value_or(config_.integrator);
+  if (a.kind == BodyKind::dynamic_body && b.kind == BodyKind::dynamic_body && of_a != of_b)
+    throw Refused(fmt::format("spring between '{}' and '{}': one is moved by {}, the other by {}",
+                              a.name, b.name, to_string(of_a), to_string(of_b)));
   wake_from(std::array{spring.a, spring.b});
   forces_.springs.push_back(spring);
   spring_ids_.push_back(next_spring_);

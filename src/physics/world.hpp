@@ -119,12 +119,7 @@ class World {
   // together, or that went on sleeping together. What has left or let go since has parted them.
   // kNoIsland of what only `place` or its own velocity moves, and of what no step has seen yet.
   const std::vector<BodyId>& islands() const { return islands_; }
-  // A pair of which is told that it touches: its begin was an event, its end will be one.
-  struct Told {
-    Pair pair;
-    int frames_left = 0;  // steps without touch before its end is told
-  };
-  const std::vector<Told>& told() const { return outcome_.told; }  // by pair
+  const std::vector<ToldPair>& told() const { return outcome_.told; }  // by pair
   // Its impacts that were located; of the looks by which they were, nothing unless they are kept.
   const ImpactLog<D>& impacts() const { return outcome_.impacts; }
   // From now on the looks of a step are kept, or not. Without, nobody spends time on them.
@@ -141,7 +136,7 @@ class World {
   struct Outcome {  // what a step tells
     std::vector<Contact<D>> contacts = {};
     std::vector<ContactEvent> events = {};
-    std::vector<Told> told = {};  // by pair
+    std::vector<ToldPair> told = {};  // by pair
     std::vector<Pair> pairs = {};
     ImpactLog<D> impacts = {};
   };
@@ -149,7 +144,8 @@ class World {
     Push<D> push;
     std::optional<double> until;
   };
-  struct Step;  // one step while it is made (step.cpp)
+  struct StepIslands;  // its part that is of islands (step_islands.hpp)
+  struct Step;         // one step while it is made (step.cpp)
   // What looking ahead found out for the next step.
   struct Ahead {
     double h = 0;
