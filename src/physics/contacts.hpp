@@ -102,8 +102,7 @@ std::vector<std::uint8_t> crushing(const std::vector<Contact<D>>& contacts, Body
   }
   std::vector<std::uint8_t> found;
   if (!deep) return found;
-  std::stable_sort(presses.begin(), presses.end(),
-                   [](const Press& x, const Press& y) { return x.body < y.body; });
+  std::ranges::stable_sort(presses, {}, &Press::body);
   for (std::size_t i = 0; i < presses.size(); ++i)
     for (std::size_t j = i + 1; j < presses.size() && presses[j].body == presses[i].body; ++j) {
       if (!(presses[i].depth + presses[j].depth > kCrushSettings.deep)) continue;

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <utility>
@@ -13,6 +15,8 @@
 #include "physics/body.hpp"
 
 namespace lantern::physics {
+
+using SpringId = std::uint32_t;
 
 // A damped spring between points of two bodies, given in the bodies' own axes from their centres:
 // force = -stiffness * (length - rest) - damping * (rate of length), along the line between the
@@ -27,6 +31,7 @@ struct Spring {
   double rest_length = 0;
   double stiffness = 0;  // N a unit
   double damping = 0;    // N s a unit
+  SpringId id = 0;       // given by the world
 };
 
 // A force that a script applies for a while.
@@ -35,6 +40,7 @@ struct Push {
   BodyId body = 0;
   Vec<D> at{0.0};  // in the world's axes from the centre
   Vec<D> force{0.0};
+  std::optional<double> until{};  // this time of the world; none: until it is cleared
 };
 
 // Newton's law, too: every two bodies of which one is dynamic attract each other with gravitation
@@ -94,13 +100,12 @@ class BodyLookup {
   explicit BodyLookup(std::span<const Body<D>> bodies) {
     places_.reserve(bodies.size());
     for (std::size_t i = 0; i < bodies.size(); ++i) places_.emplace_back(bodies[i].id, i);
-    std::sort(places_.begin(), places_.end());
+    std::ranges::sort(places_);
   }
 
   // Throws Refused, naming `who` looks, if there is no such body.
   std::size_t index_of(BodyId id, std::string_view who) const {
-    const auto place =
-        std::lower_bound(places_.begin(), places_.end(), std::pair{id, std::size_t{0}});
+    const auto place = std::ranges::lower_bound(places_, std::pair{id, std::size_t{0}});
     if (place == places_.end() || place->first != id)
       throw Refused(fmt::format("{}: there is no body {}", who, id));
     return place->second;

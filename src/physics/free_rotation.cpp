@@ -197,8 +197,7 @@ constexpr Limits limits_of(RotationMethod method) {
 
 Split split(const Vec<3>& inverse_inertia) {
   std::array<int, 3> order{0, 1, 2};
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int i, int j) { return inverse_inertia[i] < inverse_inertia[j]; });
+  std::ranges::stable_sort(order, {}, [&](int i) { return inverse_inertia[i]; });
   const double middle = inverse_inertia[order[1]];
   return {order[1],
           middle,

@@ -9,7 +9,6 @@
 namespace lantern::physics {
 
 using JointId = std::uint32_t;
-using SpringId = std::uint32_t;
 
 enum class JointKind {
   distance,  // the two points stay `length` apart: a rod

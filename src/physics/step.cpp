@@ -67,7 +67,6 @@ struct World<D>::Step : World<D>::StepIslands {
   using typename StepIslands::Group, typename StepIslands::NearPair;
 
   std::vector<double> reach;  // of each body: how far its surface may come; at least as given
-  std::vector<TimedPush> pushes = {};
   std::vector<Increment<D>> anew = {};  // increments anew, since bodies woke in this step
   std::vector<Proxy<D>> boxes = {};     // of bodies, enlarged by how far each may come
   std::uint64_t narrow_pairs = 0;       // of the broad phase's, looked at by the narrow phase
@@ -78,14 +77,11 @@ struct World<D>::Step : World<D>::StepIslands {
   // The phases, in their order: see World::step.
   void find_forces() {
     std::vector<std::uint32_t> released;
-    for (const TimedPush& push : world.pushes_) {
-      if (push.until && *push.until <= world.time_ + kStepSettings.rounding * h)
-        released.push_back(place_of(push.push.body));
-      else
-        pushes.push_back(push);
-    }
-    forces.pushes.clear();
-    for (const TimedPush& push : pushes) forces.pushes.push_back(push.push);
+    std::erase_if(forces.pushes, [&](const Push<D>& push) {
+      const bool ends = push.until && *push.until <= world.time_ + kStepSettings.rounding * h;
+      if (ends) released.push_back(place_of(push.body));
+      return ends;
+    });
     wake(std::move(released));
     // Once a step, by looking ahead or in the first of several tries: they follow from the world as
     // it was before.
@@ -234,14 +230,16 @@ struct World<D>::Step : World<D>::StepIslands {
       world.islands_[i] =
           world.bodies_[i].kind == BodyKind::dynamic_body ? world.bodies_[root[i]].id : kNoIsland;
     world.joint_memories_ = std::move(joint_memories);
-    world.pushes_ = std::move(pushes);
     world.forces_.pushes = std::move(forces.pushes);
     world.touching_ = std::move(touching);
     world.outcome_ = std::move(outcome);
     world.ahead_.reset();
     world.time_ += h;
-    ++world.work_.steps;
-    world.work_.narrow_pairs += narrow_pairs;
+    WorldWork& work = world.work_;
+    ++work.steps;
+    work.narrow_pairs += narrow_pairs;
+    work.constraint_rows =
+        work.normal_rows + work.friction_rows + work.joint_rows + work.direct_rows;
   }
 
   // Over the whole step, if nothing touches.

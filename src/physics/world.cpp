@@ -121,11 +121,9 @@ void World<D>::remove(std::span<const BodyId> ids) {
   for (const Spring<D>& spring : forces_.springs) disturb(spring);
   for (const auto& entry : joints_) disturb(entry.second);
   wake_from(disturbed);
-  erase_where([&](std::size_t i) { return goes(forces_.springs[i]); }, spring_ids_,
-              forces_.springs);
+  std::erase_if(forces_.springs, goes);
   erase_where([&](std::size_t i) { return goes(joints_[i].second); }, joint_memories_, joints_);
-  std::erase_if(pushes_, [&](const TimedPush& push) { return is_gone(push.push.body); });
-  list_pushes();
+  std::erase_if(forces_.pushes, [&](const Push<D>& push) { return is_gone(push.body); });
   forget_contacts_of(gone);
   erase_where([&](std::size_t i) { return is_gone(bodies_[i].id); }, rested_, islands_, bodies_);
   part_islands();
@@ -314,7 +312,7 @@ SpringId World<D>::add_spring(const Spring<D>& spring) {
                               a.name, b.name, to_string(of_a), to_string(of_b)));
   wake_from(std::array{spring.a, spring.b});
   forces_.springs.push_back(spring);
-  spring_ids_.push_back(next_spring_);
+  forces_.springs.back().id = next_spring_;
   return next_spring_++;
 }
 
@@ -338,12 +336,10 @@ JointId World<D>::add_joint(const Joint<D>& joint) {
 
 template <int D>
 void World<D>::remove_spring(SpringId id) {
-  const auto place = std::ranges::find(spring_ids_, id) - spring_ids_.begin();
-  if (place == std::ssize(spring_ids_)) return;
-  const auto spring = forces_.springs.begin() + place;
+  const auto spring = std::ranges::find(forces_.springs, id, &Spring<D>::id);
+  if (spring == forces_.springs.end()) return;
   wake_from(std::array{spring->a, spring->b});
   forces_.springs.erase(spring);
-  spring_ids_.erase(spring_ids_.begin() + place);
   part_islands();
 }
 
@@ -378,32 +374,22 @@ void World<D>::push(BodyId id, const Vec<D>& force, const Vec<D>& at,
   if (seconds && !(std::isfinite(*seconds) && *seconds > 0))
     throw Refused(fmt::format("{}: a push of {} seconds is not allowed", who, *seconds));
   wake_from(id);
-  TimedPush push{{id, arm, force}, std::nullopt};
-  if (seconds) push.until = time_ + *seconds;
-  pushes_.push_back(push);
-  list_pushes();
-}
-
-template <int D>
-void World<D>::list_pushes() {
-  forces_.pushes.clear();
-  for (const TimedPush& push : pushes_) forces_.pushes.push_back(push.push);
+  forces_.pushes.push_back({id, arm, force});
+  if (seconds) forces_.pushes.back().until = time_ + *seconds;
 }
 
 template <int D>
 void World<D>::clear_pushes() {
   std::vector<BodyId> pushed;
-  for (const TimedPush& push : pushes_) pushed.push_back(push.push.body);
+  for (const Push<D>& push : forces_.pushes) pushed.push_back(push.body);
   wake_from(pushed);
-  pushes_.clear();
-  list_pushes();
+  forces_.pushes.clear();
 }
 
 template <int D>
 void World<D>::clear_pushes(BodyId id) {
   if (find(id) != nullptr) wake_from(id);
-  std::erase_if(pushes_, [&](const TimedPush& push) { return push.push.body == id; });
-  list_pushes();
+  std::erase_if(forces_.pushes, [&](const Push<D>& push) { return push.body == id; });
 }
 
 template <int D>

@@ -140,10 +140,6 @@ class World {
     std::vector<Pair> pairs = {};
     ImpactLog<D> impacts = {};
   };
-  struct TimedPush {
-    Push<D> push;
-    std::optional<double> until;
-  };
   struct StepIslands;  // its part that is of islands (step_islands.hpp)
   struct Step;         // one step while it is made (step.cpp)
   // What looking ahead found out for the next step.
@@ -160,7 +156,6 @@ class World {
   void part_islands();
   void forget_contacts_of(std::span<const BodyId> ids);
   static void spin(Body<D>& body, const Spin<D>& angular_velocity);
-  void list_pushes();
   BroadPhase<D>& structure();  // made when it is first needed
 
   WorldConfig<D> config_;
@@ -168,9 +163,7 @@ class World {
   std::vector<double> rested_;   // seconds that each body has been slow
   bool may_rest_ = false;        // one of them is above 0, or a body sleeps: there may be who wakes
   std::vector<BodyId> islands_;  // of each body
-  Forces<D> forces_;             // its pushes are those of pushes_
-  std::vector<SpringId> spring_ids_;
-  std::vector<TimedPush> pushes_;
+  Forces<D> forces_;
   std::vector<std::pair<JointId, Joint<D>>> joints_;
   std::vector<JointMemory<D>> joint_memories_;
   BodyId next_id_ = 0;

@@ -81,12 +81,9 @@ struct ContactPoint {
 
 // What one sweep did.
 struct Sweep {
+  WorldWork* work;     // counts the rows that were solved
   double change = 0;   // largest change of an impulse
   double largest = 0;  // largest impulse
-  // How many were solved.
-  std::uint64_t normal_rows = 0;
-  std::uint64_t friction_rows = 0;
-  std::uint64_t joint_rows = 0;
 };
 
 // The contact of two bodies of an island.
@@ -178,7 +175,7 @@ struct ContactRows {
       apply(p, normal * (p.pn - before), body_a, body_b);
       sweep.change = std::max(sweep.change, std::abs(p.pn - before));
       sweep.largest = std::max(sweep.largest, p.pn);
-      ++sweep.normal_rows;
+      ++sweep.work->normal_rows;
     }
     if (friction == 0) return;
     for (ContactPoint<D>& p : points()) {
@@ -192,7 +189,7 @@ struct ContactRows {
       const Vec<D> impulse = p.pt - before;
       apply(p, impulse, body_a, body_b);
       sweep.change = std::max(sweep.change, glm::length(impulse));
-      sweep.friction_rows += D - 1;
+      sweep.work->friction_rows += D - 1;
     }
   }
 
@@ -239,7 +236,7 @@ struct ContactRows {
       p.correction = std::max(before + (wanted - parting) / p.inverse_normal_mass, least);
       correct(p, normal * (p.correction - before), body_a, body_b);
       sweep.change = std::max(sweep.change, std::abs(p.correction - before));
-      ++sweep.normal_rows;
+      ++sweep.work->normal_rows;
     }
     for (ContactPoint<D>& p : points()) {
       if (!p.sticks || p.pn == 0 || p.inverse_tangent_mass == 0) continue;
@@ -247,7 +244,7 @@ struct ContactRows {
       const Vec<D> impulse = (p.wanted_slip - slip) / p.inverse_tangent_mass;
       correct(p, impulse, body_a, body_b);
       sweep.change = std::max(sweep.change, glm::length(impulse));
-      sweep.friction_rows += D - 1;
+      sweep.work->friction_rows += D - 1;
     }
   }
 

@@ -21,7 +21,7 @@ template <int D>
 void sequential_impulses(const IslandMove<D>& move) {
   const int most = move.config.iterations;
   in_sub_steps<D>(move, 1, [&](SubStep<D>& step) {
-    Sweep sweep;
+    Sweep sweep{&step.work};
     for (int i = 0; i < most; ++i) {
       sweep = step.sweep_velocities(i);
       if (sweep.change <= kRowSettings.change * sweep.largest) break;

@@ -41,6 +41,7 @@ struct IslandPair {
   bool touched = false;
   const Manifold<D>* seen = nullptr;  // how they lie, within `reach`; null once they have moved
 
+  bool may_press() const { return rows.count > 0; }
   void record_impulses() {
     for (std::size_t i = 0; i < rows.points().size(); ++i) {
       touch.record.normal_impulses[i] += rows.room[i].pn;
@@ -109,13 +110,6 @@ struct IslandMove {
   double whole;
   WorldWork& work;
 };
-
-inline void count(const Sweep& sweep, WorldWork& work) {
-  work.normal_rows += sweep.normal_rows;
-  work.friction_rows += sweep.friction_rows;
-  work.joint_rows += sweep.joint_rows;
-  work.constraint_rows += sweep.normal_rows + sweep.friction_rows + sweep.joint_rows;
-}
 
 // What the bodies' free motion would be: x += h (v + kick) + drift, and so on. Static and kinematic
 // bodies, too. Turned by the body's own method, or by the world's.

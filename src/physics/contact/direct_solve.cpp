@@ -52,7 +52,7 @@ class DirectSolve {
     const int most = std::clamp(kDirectSettings.most_solved / pairs, kDirectSettings.fewest_sweeps,
                                 kDirectSettings.most_sweeps);
     bool settled = false;
-    Sweep sweep;
+    Sweep sweep{&step.work};
     for (int i = 0; i < most; ++i) {
       sweep = step.sweep_velocities(i);
       const double enough = settled ? kRowSettings.no_matter : kRowSettings.change;

@@ -119,7 +119,6 @@ class LecturePass {
     const auto manifold = collide(placed(a), placed(b), 0);
     if (!manifold) return false;
     ++work_.contact_points;
-    ++work_.constraint_rows;
     ++work_.normal_rows;
     const ManifoldPoint<D> point = single_point(*manifold);
     IslandPair<D>& pair = pair_of(a, b);

@@ -123,8 +123,8 @@ class QuickSweeps {
     bodies_.clear();
     for (const SolverBody<D>& body : island.solver_bodies) bodies_.push_back({body});
     if (contacts_.empty())
-      contacts_.resize(static_cast<std::size_t>(std::ranges::count_if(
-          island.pairs, [](const IslandPair<D>& pair) { return pair.rows.count > 0; })));
+      contacts_.resize(
+          static_cast<std::size_t>(std::ranges::count_if(island.pairs, &IslandPair<D>::may_press)));
     auto next = contacts_.begin();
     for (const IslandPair<D>& pair : island.pairs) {
       const ContactRows<D>& rows = pair.rows;
@@ -170,24 +170,22 @@ class QuickSweeps {
   // Returns the largest change of a relative speed.
   double sweep(WorldWork& work) {
     double largest = 0;
-    Sweep done;
     for (Contact& contact : contacts_) {
       stop_if_asked();
       Moving &a = bodies_[contact.a], &b = bodies_[contact.b];
       for (Point& point : contact.points()) {
         if (point.normal_mass == 0) continue;
         largest = std::max(largest, solve_normal(contact, point, a, b) / point.normal_mass);
-        ++done.normal_rows;
+        ++work.normal_rows;
       }
       if (contact.friction == 0) continue;
       for (Point& point : contact.points()) {
         if (point.tangent_mass == 0 || (point.pn == 0 && point.pt == decltype(point.pt){}))
           continue;
         largest = std::max(largest, solve_friction(contact, point, a, b) / point.tangent_mass);
-        done.friction_rows += kTangents;
+        work.friction_rows += kTangents;
       }
     }
-    count(done, work);
     return largest;
   }
 

@@ -168,7 +168,6 @@ bool factor_compliant(const std::vector<ConstraintRow<D>>& rows, double complian
 inline void count_direct_solve(std::size_t rows, WorldWork& work) {
   ++work.direct_solves;
   work.direct_rows += rows;
-  work.constraint_rows += rows;
 }
 
 }  // namespace lantern::physics

@@ -20,8 +20,7 @@ class SubSteps {
     const int count = std::max(1, static_cast<int>(std::ceil(h / whole * sub_steps - 1e-9)));
     const double seconds = h / count;
     look_for_contacts(move_.config.warm_start ? seconds : 0);
-    const bool pressed = std::any_of(island_.pairs.begin(), island_.pairs.end(),
-                                     [](const auto& pair) { return pair.rows.count > 0; });
+    const bool pressed = std::ranges::any_of(island_.pairs, &IslandPair<D>::may_press);
     if (!pressed && !island_.joints.empty() && move_constrained(move_)) return remember(h);
     if (!pressed && island_.joints.empty()) {
       fly_all();

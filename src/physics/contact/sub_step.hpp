@@ -50,8 +50,7 @@ class SubStep {
     each_joint([&](JointRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b) {
       rows.refresh(island.bodies[rows.a], island.bodies[rows.b], a, b);
     });
-    touches_ = std::any_of(island.pairs.begin(), island.pairs.end(),
-                           [](const IslandPair<D>& pair) { return pair.rows.count > 0; });
+    touches_ = std::ranges::any_of(island.pairs, &IslandPair<D>::may_press);
     joints_at_once_ = island.joint_block.refresh(island.joints, island.solver_bodies);
     for (std::size_t i = 0; i < island.solver_bodies.size(); ++i) {
       SolverBody<D>& body = island.solver_bodies[i];
@@ -66,7 +65,7 @@ class SubStep {
   // Once over all rows, joints last. Every other `turn` goes backwards, so that neither end of a
   // stack, nor side of a box, is preferred.
   Sweep sweep_velocities(int turn) {
-    Sweep sweep;
+    Sweep sweep{&work};
     if (!joints_at_once_)
       each_joint([&](auto& rows, auto& a, auto& b) { rows.solve_velocities(a, b, sweep); });
     for (std::size_t i = 0; i < island.pairs.size(); ++i) {
@@ -78,7 +77,6 @@ class SubStep {
     if (joints_at_once_)
       island.joint_block.solve_velocities(island.joints, island.solver_bodies, sweep, work);
     if (joints_at_once_ && !touches_) sweep.change = 0;
-    count(sweep, work);
     return sweep;
   }
 
@@ -145,14 +143,13 @@ class SubStep {
   }
 
   Sweep sweep_positions() {
-    Sweep sweep;
+    Sweep sweep{&work};
     if (!joints_at_once_)
       each_joint([&](auto& rows, auto& a, auto& b) { rows.correct_positions(a, b, sweep); });
     each_pair([&](auto& rows, auto& a, auto& b) { rows.correct_positions(a, b, h, sweep); });
     if (joints_at_once_)
       island.joint_block.correct_positions(island.joints, island.solver_bodies, sweep, work);
     if (joints_at_once_ && !touches_) sweep.change = 0;
-    count(sweep, work);
     return sweep;
   }
 

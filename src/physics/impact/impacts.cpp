@@ -33,8 +33,7 @@ class ImpactMotion {
 
   void run() {
     double left = move_.h;
-    const bool any_located = std::any_of(island_.pairs.begin(), island_.pairs.end(),
-                                         [](const auto& pair) { return pair.located; });
+    const bool any_located = std::ranges::any_of(island_.pairs, &IslandPair<D>::located);
     while (any_located) {
       find_increments_if_any<D>(move_.config, island_.bodies, island_.forces, left,
                                 island_.increments, move_.work);
@@ -76,9 +75,8 @@ class ImpactMotion {
       p.separation = p.gap = 0;
     }
     for (int i = 0; i < kImpactSettings.most_point_sweeps; ++i) {
-      Sweep sweep;
+      Sweep sweep{&move_.work};
       rows.solve_velocities(a, b, 1, sweep);
-      count(sweep, move_.work);
       if (rows.count == 1 && rows.friction == 0) break;
       if (sweep.change <= kImpactSettings.change * sweep.largest) break;
     }

@@ -116,7 +116,7 @@ double fastest_spin(const Body<D>& body) {
       const Vec<3> l = glm::conjugate(body.orientation.q) * body.angular_momentum;
       std::array<int, 3> axis{0, 1, 2};
       const Vec<3>& m = body.inverse_inertia;
-      std::stable_sort(axis.begin(), axis.end(), [&](int i, int j) { return m[i] < m[j]; });
+      std::ranges::stable_sort(axis, {}, [&](int i) { return m[i]; });
       square += (m[axis[1]] - m[axis[0]]) * (m[axis[2]] - m[axis[1]]) * l[axis[1]] * l[axis[1]];
     }
   }
@@ -300,8 +300,7 @@ class Approach {
                  double gap) const {
     const auto points = manifold.points();
     const ManifoldPoint<D>& nearest =
-        *std::min_element(points.begin(), points.end(),
-                          [](const auto& p, const auto& q) { return p.separation < q.separation; });
+        *std::ranges::min_element(points, {}, &ManifoldPoint<D>::separation);
     const Vec<D> half = manifold.normal * (gap / 2);
     of_.looks->push_back({of_.begun + t, pose(a), pose(b), nearest.position - half,
                           nearest.position + half, gap, of_.begun + t});

@@ -55,7 +55,7 @@ class MotionMatrix {
   // The ties may change between two factors, but not their ends; they must outlive the matrix.
   MotionMatrix(const SmoothSystem<D>& system, LinearSolver solver,
                std::span<const Tie<D>> ties = {})
-      : system_(system), ties_(ties), number_(numbers(system)) {
+      : system_(system), ties_(ties) {
     const std::size_t count = system.movers().size();
     const bool all_linked = system.any_attraction() && count > kMostAttracting;
     if (solver == LinearSolver::direct || (solver == LinearSolver::by_size && !all_linked))
@@ -99,26 +99,19 @@ class MotionMatrix {
       const Vec<D> momentum = sides.momentum(motion, s.direction);
       const auto columns_a = columns(a, s.arm_a), columns_b = columns(b, s.arm_b);
       for (int c = 0; c < B; ++c) {
-        if (system_.moves(a)) rows[number_[a]][c] += glm::dot(columns_a[c], momentum);
-        if (system_.moves(b)) rows[number_[b]][c] -= glm::dot(columns_b[c], momentum);
+        if (system_.moves(a)) rows[system_.number(a)][c] += glm::dot(columns_a[c], momentum);
+        if (system_.moves(b)) rows[system_.number(b)][c] -= glm::dot(columns_b[c], momentum);
       }
     });
   }
 
  private:
-  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
-
-  static std::vector<std::size_t> numbers(const SmoothSystem<D>& system) {
-    std::vector<std::size_t> number(system.bodies().size(), kNone);
-    for (std::size_t n = 0; n < system.movers().size(); ++n) number[system.movers()[n]] = n;
-    return number;
-  }
-
   std::vector<std::pair<std::size_t, std::size_t>> links() const {
     std::vector<std::pair<std::size_t, std::size_t>> all;
     const auto add = [&](const Ends& ends) {
       const auto [a, b] = ends;
-      if (a != b && system_.moves(a) && system_.moves(b)) all.emplace_back(number_[a], number_[b]);
+      if (a != b && system_.moves(a) && system_.moves(b))
+        all.emplace_back(system_.number(a), system_.number(b));
     };
     system_.each_two(add);
     for (const Tie<D>& tie : ties_) add(tie.ends);
@@ -191,9 +184,13 @@ class MotionMatrix {
     const bool linked = system_.moves(a) && system_.moves(b);
     for (int r = 0; r < B; ++r) {
       for (int c = 0; c < B; ++c) {
-        if (system_.moves(a)) blocks.add(number_[a], r, c, product(columns_a[r], columns_a[c]));
-        if (system_.moves(b)) blocks.add(number_[b], r, c, product(columns_b[r], columns_b[c]));
-        if (linked) blocks.add(number_[b], number_[a], r, c, -product(columns_b[r], columns_a[c]));
+        if (system_.moves(a))
+          blocks.add(system_.number(a), r, c, product(columns_a[r], columns_a[c]));
+        if (system_.moves(b))
+          blocks.add(system_.number(b), r, c, product(columns_b[r], columns_b[c]));
+        if (linked)
+          blocks.add(system_.number(b), system_.number(a), r, c,
+                     -product(columns_b[r], columns_a[c]));
       }
     }
     const Vec<D> force = time_squared_ * s.tension * s.direction;
@@ -213,11 +210,11 @@ class MotionMatrix {
         for (int c = 0; c < B; ++c) motion += unknowns[c] * of_end[c];
         return sides.momentum(motion, s.direction);
       };
-      const Vec<D> of_a = momentum(x[number_[a]], columns_a);
-      const Vec<D> of_b = momentum(x[number_[b]], columns_b);
+      const Vec<D> of_a = momentum(x[system_.number(a)], columns_a);
+      const Vec<D> of_b = momentum(x[system_.number(b)], columns_b);
       for (int c = 0; c < B; ++c) {
-        y[number_[a]][c] -= glm::dot(columns_a[c], of_b);
-        y[number_[b]][c] -= glm::dot(columns_b[c], of_a);
+        y[system_.number(a)][c] -= glm::dot(columns_a[c], of_b);
+        y[system_.number(b)][c] -= glm::dot(columns_b[c], of_a);
       }
     });
   }
@@ -241,11 +238,11 @@ class MotionMatrix {
       if (!system_.turns(i)) return;
       const double back = glm::dot(arm, force);
       if constexpr (D == 2) {
-        blocks.add(number_[i], D, D, buckling_ ? back : std::max(back, 0.0));
+        blocks.add(system_.number(i), D, D, buckling_ ? back : std::max(back, 0.0));
       } else if (buckling_) {
         for (int r = 0; r < 3; ++r)
           for (int c = 0; c < 3; ++c)
-            blocks.add(number_[i], D + r, D + c,
+            blocks.add(system_.number(i), D + r, D + c,
                        (r == c ? back : 0) - (arm[r] * force[c] + arm[c] * force[r]) / 2);
       }
     }
@@ -253,7 +250,6 @@ class MotionMatrix {
 
   const SmoothSystem<D>& system_;
   std::span<const Tie<D>> ties_;
-  std::vector<std::size_t> number_;       // of a body among the movers
   std::optional<BlockSystem<B>> blocks_;  // one of the two
   std::optional<BlockIteration<B>> iteration_;
   // Of the last `factor`.

@@ -173,7 +173,7 @@ std::vector<Integrator> integrators_of(const WorldConfig<D>& config,
   for (const Body<D>& body : bodies) {
     if (body.kind != BodyKind::dynamic_body) continue;
     const Integrator its = body.integrator.value_or(config.integrator);
-    if (std::find(used.begin(), used.end(), its) == used.end()) used.push_back(its);
+    if (std::ranges::find(used, its) == used.end()) used.push_back(its);
   }
   if (used.empty()) used.push_back(config.integrator);
   return used;
@@ -195,7 +195,7 @@ template <int D>
 bool any_force(std::span<const Body<D>> bodies, const Forces<D>& forces) {
   const bool on_any = forces.gravity != Vec<D>(0.0) || forces.gravitation > 0 ||
                       !forces.springs.empty() || !forces.pushes.empty();
-  return std::any_of(bodies.begin(), bodies.end(), [&](const Body<D>& body) {
+  return std::ranges::any_of(bodies, [&](const Body<D>& body) {
     if (!body.is_pushed()) return false;
     return on_any || body.linear_drag > 0 || body.angular_drag > 0;
   });

@@ -95,7 +95,7 @@ struct JointRows {
     body_b.apply(gained, arm_b);
     sweep.change = std::max(sweep.change, glm::length(gained));
     sweep.largest = std::max(sweep.largest, glm::length(impulse));
-    sweep.joint_rows += width();
+    sweep.work->joint_rows += width();
   }
 
   // Mean velocities, too, keep the points together. (Gaps are closed by JointBlock, after the
@@ -105,7 +105,7 @@ struct JointRows {
     body_a.correct(-gained, arm_a);
     body_b.correct(gained, arm_b);
     sweep.change = std::max(sweep.change, glm::length(gained));
-    sweep.joint_rows += width();
+    sweep.work->joint_rows += width();
   }
 
   // The square of the frequency at which the bodies swing by a tension, an upper bound: an end at

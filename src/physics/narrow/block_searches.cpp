@@ -16,12 +16,7 @@ template <int D>
 class AxisSearch {
  public:
   AxisSearch(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin, NarrowTrace<D>& trace)
-      : a_(a),
-        b_(b),
-        offset_(b.center - a.center),
-        bias_(kAxisBias * smallest_half(a, b)),
-        margin_(margin),
-        trace_(trace) {}
+      : a_(a), b_(b), margin_(margin), trace_(trace) {}
 
   SeparatingAxes<D> run() {
     found_.parted = !try_all();
@@ -114,10 +109,9 @@ class AxisSearch {
     best_.separation = none;
   }
 
-  const PlacedCore<D>& a_;
-  const PlacedCore<D>& b_;
-  Vec<D> offset_;
-  double bias_;
+  const PlacedCore<D>&a_, &b_;
+  const Vec<D> offset_ = b_.center - a_.center;
+  const double bias_ = kAxisBias * smallest_half(a_, b_);
   SeparatingAxis<D> best_{Vec<D>(0.0), -std::numeric_limits<double>::infinity()};
   SeparatingAxes<D> found_;
   bool any_ = false;
@@ -157,12 +151,7 @@ class ClosestSearch {
  public:
   ClosestSearch(const PlacedCore<D>& a, const PlacedCore<D>& b, const SeparatingAxis<D>& axis,
                 NarrowTrace<D>& trace)
-      : a_(a),
-        b_(b),
-        axis_(axis),
-        trace_(trace),
-        reach_a_(a.reach(axis.normal)),
-        reach_b_(b.reach(axis.normal)) {}
+      : a_(a), b_(b), axis_(axis), trace_(trace) {}
 
   ClosestFeatures<D> run() {
     each_corner(a_, [&](const Vec<D>& corner, std::uint32_t name) {
@@ -217,11 +206,10 @@ class ClosestSearch {
     return reach_b_ + glm::dot(p - b_.center, axis_.normal);
   }
 
-  const PlacedCore<D>& a_;
-  const PlacedCore<D>& b_;
+  const PlacedCore<D>&a_, &b_;
   const SeparatingAxis<D>& axis_;
   NarrowTrace<D>& trace_;
-  double reach_a_, reach_b_;
+  const double reach_a_ = a_.reach(axis_.normal), reach_b_ = b_.reach(axis_.normal);
   double least_ = std::numeric_limits<double>::infinity();  // the square of the least distance
   double slack_ = std::numeric_limits<double>::infinity();
   ClosestFeatures<D> best_;

@@ -144,7 +144,7 @@ std::vector<int> widest_four(const Outline<3>& outline,
     double most = 0;
     for (int i = 0; i < outline.count; ++i) {
       const double m = measure(outline[i].point);
-      if (m <= most * (1 + 1e-6) || std::count(chosen.begin(), chosen.end(), i) != 0) continue;
+      if (m <= most * (1 + 1e-6) || std::ranges::count(chosen, i) != 0) continue;
       most = m, best = i;
     }
     if (best >= 0) chosen.push_back(best);
@@ -154,7 +154,7 @@ std::vector<int> widest_four(const Outline<3>& outline,
   const Vec<3> across = glm::cross(normal, outline[chosen.back()].point - first);
   add_best([&](const Vec<3>& p) { return glm::dot(p - first, across); });
   add_best([&](const Vec<3>& p) { return -glm::dot(p - first, across); });
-  std::sort(chosen.begin(), chosen.end());
+  std::ranges::sort(chosen);
   return chosen;
 }
 
