@@ -262,24 +262,6 @@ void World<D>::sleep(BodyId id) {
 }
 
 template <int D>
-void World<D>::wake(std::span<const BodyId> ids) {
-  for (const BodyId id : ids) index_of(id);
-  wake_from(ids);
-}
-
-template <int D>
-BroadPhase<D>& World<D>::structure() {
-  if (!broad_phase_) broad_phase_.emplace(config_.broad_phase);
-  return *broad_phase_;
-}
-
-template <int D>
-void World<D>::switch_broad_phase(const BroadPhaseConfig<D>& config) {
-  broad_phase_.emplace(config);
-  config_.broad_phase = config;
-}
-
-template <int D>
 void World<D>::switch_contacts(ContactMethod method, int sub_steps, int iterations,
                                double wanted_error) {
   if (config_.contacts == ContactMethod::none || method == ContactMethod::none)

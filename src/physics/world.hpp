@@ -80,11 +80,17 @@ class World {
   // A sleeping body stands still and is skipped until something wakes it. Only dynamic bodies can
   // sleep; for others nothing happens. `wake` wakes all that touch or hang on them, too.
   void sleep(BodyId id);
-  void wake(std::span<const BodyId> ids);
+  void wake(std::span<const BodyId> ids) {
+    for (const BodyId id : ids) index_of(id);
+    wake_from(ids);
+  }
   void wake(BodyId id) { wake(std::span(&id, 1)); }
 
   // Goes on with another broad phase; the trajectory is the same, bit for bit.
-  void switch_broad_phase(const BroadPhaseConfig<D>& config);
+  void switch_broad_phase(const BroadPhaseConfig<D>& config) {
+    broad_phase_.emplace(config);
+    config_.broad_phase = config;
+  }
   // Goes on with another way to part bodies. Whether they touch at all is settled when the world is
   // made: throws Refused if either method, the old or the new, is `none`, and for a number that is
   // out of its range. What presses goes on pressing: the next step begins with the old impulses.
@@ -156,7 +162,10 @@ class World {
   void part_islands();
   void forget_contacts_of(std::span<const BodyId> ids);
   static void spin(Body<D>& body, const Spin<D>& angular_velocity);
-  BroadPhase<D>& structure();  // made when it is first needed
+  BroadPhase<D>& structure() {  // made when it is first needed
+    if (!broad_phase_) broad_phase_.emplace(config_.broad_phase);
+    return *broad_phase_;
+  }
 
   WorldConfig<D> config_;
   std::vector<Body<D>> bodies_;

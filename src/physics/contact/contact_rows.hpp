@@ -325,7 +325,4 @@ struct ContactRows {
   }
 };
 
-extern template struct ContactRows<2>;
-extern template struct ContactRows<3>;
-
 }  // namespace lantern::physics

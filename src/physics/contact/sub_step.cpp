@@ -145,15 +145,7 @@ void in_sub_steps(const IslandMove<D>& move, int sub_steps,
   SubSteps<D>(move, solve).run(sub_steps);
 }
 
-#define LANTERN_INSTANTIATE(D)    \
-  template struct ContactRows<D>; \
-  template struct JointRows<D>;   \
-  template class JointBlock<D>;   \
-  template class SubStep<D>;      \
-  template void in_sub_steps(const IslandMove<D>&, int, const std::function<void(SubStep<D>&)>&);
-
-LANTERN_INSTANTIATE(2)
-LANTERN_INSTANTIATE(3)
-#undef LANTERN_INSTANTIATE
+template void in_sub_steps(const IslandMove<2>&, int, const std::function<void(SubStep<2>&)>&);
+template void in_sub_steps(const IslandMove<3>&, int, const std::function<void(SubStep<3>&)>&);
 
 }  // namespace lantern::physics

@@ -224,9 +224,6 @@ class SubStep {
   bool touches_ = false;
 };
 
-extern template class SubStep<2>;
-extern template class SubStep<3>;
-
 // Moves the island in parts of which `sub_steps` make a whole step. Contacts are looked at once;
 // `solve` finds the impulses of a part and corrects positions, between its begin and its end. If
 // nothing touches, there are no parts: all fly, or move as their joints let them

@@ -103,45 +103,6 @@ bool is_half_space(const Flying<D>& body) {
   return std::holds_alternative<HalfSpace<D>>(body.shape);
 }
 
-}  // namespace
-
-template <int D>
-double fastest_spin(const Body<D>& body) {
-  const Spin<D> spin = angular_velocity(body);
-  double square = dot(spin, spin);
-  if constexpr (D == 3) {
-    if (body.kind == BodyKind::dynamic_body) {
-      // As L wanders, |w|^2 is a linear function of the square of L's middle component, and the
-      // largest where that is 0.
-      const Vec<3> l = glm::conjugate(body.orientation.q) * body.angular_momentum;
-      std::array<int, 3> axis{0, 1, 2};
-      const Vec<3>& m = body.inverse_inertia;
-      std::ranges::stable_sort(axis, {}, [&](int i) { return m[i]; });
-      square += (m[axis[1]] - m[axis[0]]) * (m[axis[2]] - m[axis[1]]) * l[axis[1]] * l[axis[1]];
-    }
-  }
-  return std::sqrt(square);
-}
-
-template <int D>
-double sure_advance(const Flying<D>& a, const Flying<D>& b, const Vec<D>& n, double depth,
-                    double within) {
-  double sure = 0;
-  const auto with = [&](const SeenFrom<D>& frame, bool as_ball) {
-    const double met = until_met(sides_of(a, n, frame, 1, as_ball),
-                                 sides_of(b, n, frame, -1, as_ball), depth, frame.within);
-    sure = std::max(sure, met);
-  };
-  with({nullptr, within}, false);
-  with({nullptr, within}, true);
-  if (is_half_space(a) || is_half_space(b)) return sure;  // their planes stand
-  for (const Flying<D>* own : {&a, &b})
-    if (own->fastest > 0) with({own, std::min(within, kMostTurn / own->fastest)}, false);
-  return sure;
-}
-
-namespace {
-
 // Acceleration of what turns, against spin^2 radius: a spin that wanders has more. I w' = L x w,
 // and no inertia is larger than the other two together, so |w'| <= w^2 / sqrt(3).
 template <int D>
@@ -320,6 +281,41 @@ class Approach {
 };
 
 }  // namespace
+
+template <int D>
+double fastest_spin(const Body<D>& body) {
+  const Spin<D> spin = angular_velocity(body);
+  double square = dot(spin, spin);
+  if constexpr (D == 3) {
+    if (body.kind == BodyKind::dynamic_body) {
+      // As L wanders, |w|^2 is a linear function of the square of L's middle component, and the
+      // largest where that is 0.
+      const Vec<3> l = glm::conjugate(body.orientation.q) * body.angular_momentum;
+      std::array<int, 3> axis{0, 1, 2};
+      const Vec<3>& m = body.inverse_inertia;
+      std::ranges::stable_sort(axis, {}, [&](int i) { return m[i]; });
+      square += (m[axis[1]] - m[axis[0]]) * (m[axis[2]] - m[axis[1]]) * l[axis[1]] * l[axis[1]];
+    }
+  }
+  return std::sqrt(square);
+}
+
+template <int D>
+double sure_advance(const Flying<D>& a, const Flying<D>& b, const Vec<D>& n, double depth,
+                    double within) {
+  double sure = 0;
+  const auto with = [&](const SeenFrom<D>& frame, bool as_ball) {
+    const double met = until_met(sides_of(a, n, frame, 1, as_ball),
+                                 sides_of(b, n, frame, -1, as_ball), depth, frame.within);
+    sure = std::max(sure, met);
+  };
+  with({nullptr, within}, false);
+  with({nullptr, within}, true);
+  if (is_half_space(a) || is_half_space(b)) return sure;  // their planes stand
+  for (const Flying<D>* own : {&a, &b})
+    if (own->fastest > 0) with({own, std::min(within, kMostTurn / own->fastest)}, false);
+  return sure;
+}
 
 template <int D>
 std::optional<TimeOfImpact> time_of_impact(const Encounter<D>& of) {

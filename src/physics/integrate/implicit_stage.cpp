@@ -280,8 +280,6 @@ void damped_kick(SmoothSystem<D>& system, SmoothState<D>& state, double time, Li
         fmt::format("body '{}': damping has no solution over {} s", culprit(system, state), time));
 }
 
-template class SmoothSystem<2>;
-template class SmoothSystem<3>;
 template SmoothState<2> implicit_stage(SmoothSystem<2>&, double, std::string_view, double,
                                        LinearSolver);
 template SmoothState<3> implicit_stage(SmoothSystem<3>&, double, std::string_view, double,

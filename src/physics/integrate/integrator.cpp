@@ -179,17 +179,6 @@ std::vector<Integrator> integrators_of(const WorldConfig<D>& config,
   return used;
 }
 
-template <int D>
-void find_increments_in_step(Integrator integrator, std::span<const Body<D>> bodies,
-                             const Forces<D>& forces, double h, std::vector<Increment<D>>& out,
-                             WorldWork& work) {
-  try {
-    find_increments(integrator, bodies, forces, h, out, work.force_evaluations);
-  } catch (const Refused& refused) {
-    throw Refused(fmt::format("{} in step {}", refused.what(), work.steps + 1));
-  }
-}
-
 // Whether there is a force, and a body that it could move.
 template <int D>
 bool any_force(std::span<const Body<D>> bodies, const Forces<D>& forces) {
@@ -223,18 +212,20 @@ template <int D>
 void find_increments_if_any(const WorldConfig<D>& config, std::span<const Body<D>> bodies,
                             const Forces<D>& forces, double h, std::vector<Increment<D>>& out,
                             WorldWork& work) {
-  if (!any_force(bodies, forces)) {
-    out.assign(bodies.size(), {});
-    return;
-  }
+  out.assign(bodies.size(), {});
+  if (!any_force(bodies, forces)) return;
+  const auto find = [&](Integrator by, std::span<const Body<D>> of,
+                        std::vector<Increment<D>>& found) {
+    try {
+      find_increments<D>(by, of, forces, h, found, work.force_evaluations);
+    } catch (const Refused& refused) {
+      throw Refused(fmt::format("{} in step {}", refused.what(), work.steps + 1));
+    }
+  };
   const std::vector<Integrator> used = integrators_of(config, bodies);
-  if (used.size() == 1) {
-    find_increments_in_step<D>(used[0], bodies, forces, h, out, work);
-    return;
-  }
+  if (used.size() == 1) return find(used[0], bodies, out);
   // No spring ties bodies of different methods (World::add_spring), so those of one method are all
   // that it needs to know: the others stand still meanwhile, as if they slept.
-  out.assign(bodies.size(), {});
   std::vector<Increment<D>> some;
   for (const Integrator integrator : used) {
     std::vector<Body<D>> its(bodies.begin(), bodies.end());
@@ -242,7 +233,7 @@ void find_increments_if_any(const WorldConfig<D>& config, std::span<const Body<D
       if (body.kind == BodyKind::dynamic_body &&
           body.integrator.value_or(config.integrator) != integrator)
         body.asleep = true;
-    find_increments_in_step<D>(integrator, its, forces, h, some, work);
+    find(integrator, its, some);
     for (std::size_t i = 0; i < its.size(); ++i)
       if (its[i].kind == BodyKind::dynamic_body && !its[i].asleep) out[i] = some[i];
   }

@@ -279,7 +279,4 @@ class SmoothSystem {
   bool any_damping_ = false;
 };
 
-extern template class SmoothSystem<2>;
-extern template class SmoothSystem<3>;
-
 }  // namespace lantern::physics

@@ -359,7 +359,6 @@ bool constrained_verlet(ConstrainedPart<D>& part) {
 }
 
 #define LANTERN_INSTANTIATE(D)                                   \
-  template class JointSystem<D>;                                 \
   template bool move_constrained(const IslandMove<D>&);          \
   template bool constrained_explicit_euler(ConstrainedPart<D>&); \
   template bool constrained_runge_kutta_4(ConstrainedPart<D>&);  \

@@ -398,9 +398,6 @@ class JointSystem {
   std::vector<double> speeds_, impulses_;
 };
 
-extern template class JointSystem<2>;
-extern template class JointSystem<3>;
-
 // Moves the island, whole or, where that does not converge, in parts. Joints' impulses are noted in
 // its rows. Velocities at the start that do not satisfy the joints are projected first, which only
 // takes energy.

@@ -142,9 +142,6 @@ struct JointRows {
   }
 };
 
-extern template struct JointRows<2>;
-extern template struct JointRows<3>;
-
 // The joints of an island solved all at once, between sweeps over its contacts: what light links
 // carry need not wait until single impulses have run from end to end. And how gaps are closed.
 template <int D>
@@ -313,8 +310,5 @@ class JointBlock {
   std::vector<Body<D>> kept_;
   std::vector<double> values_;  // what is missing, then impulses
 };
-
-extern template class JointBlock<2>;
-extern template class JointBlock<3>;
 
 }  // namespace lantern::physics
