@@ -13,7 +13,6 @@
 #include "base/memory.hpp"
 #include "base/stop.hpp"
 #include "geometry/not_finite.hpp"
-#include "physics/impact/impacts.hpp"
 #include "physics/step_islands.hpp"
 
 namespace lantern::physics {

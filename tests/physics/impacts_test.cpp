@@ -1,5 +1,5 @@
 // Impacts that are located in time, against closed forms.
-#include "physics/impact/impacts.hpp"
+#include "physics/impact/time_of_impact.hpp"
 
 #include <algorithm>
 #include <cmath>

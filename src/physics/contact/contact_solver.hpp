@@ -151,4 +151,10 @@ const ContactSolver& contact_solver(ContactMethod method);
 // name.
 ContactMethod add_contact_solver(const ContactSolver& solver);
 
+// Moves the island from impact to impact and on to the end; in between by the solver. At most
+// `budget` impacts are located; it shrinks by those that were. `log` is told of them.
+template <int D>
+void move_through_impacts(const IslandMove<D>& move, const ContactSolver& solver, int& budget,
+                          ImpactLog<D>& log);
+
 }  // namespace lantern::physics

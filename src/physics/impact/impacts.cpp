@@ -1,9 +1,9 @@
-#include "physics/impact/impacts.hpp"
-
+// Impacts: bodies that bounce or are fast meet at the very moment, not at the end of a step.
 #include <algorithm>
 #include <cmath>
 
 #include "base/stop.hpp"
+#include "physics/impact/time_of_impact.hpp"
 
 namespace lantern::physics {
 namespace {
