@@ -51,12 +51,13 @@ struct Body {
   double inverse_mass = 0;
   Spin<D> inverse_inertia{0.0};
 
+  bool is_dynamic() const { return kind == BodyKind::dynamic_body; }
   bool moves() const { return kind != BodyKind::static_body; }
   // Moved by what pushes it.
-  bool is_pushed() const { return kind == BodyKind::dynamic_body && !asleep; }
+  bool is_pushed() const { return is_dynamic() && !asleep; }
   // Moves now, so that it may meet or wake others: is not at rest.
   bool stirs() const {
-    if (kind == BodyKind::dynamic_body) return !asleep;
+    if (is_dynamic()) return !asleep;
     return moves() && (velocity != Vec<D>(0.0) || kinematic_spin != Spin<D>(0.0));
   }
   bool turns_about_every_axis() const {

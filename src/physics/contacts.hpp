@@ -94,7 +94,7 @@ std::vector<std::uint8_t> crushing(const std::vector<Contact<D>>& contacts, Body
     if (!(depth > 0 && impulse > 0)) continue;
     for (const BodyId id : {contact.a, contact.b}) {
       const Body<D>& body = body_of(id);
-      if (body.kind != BodyKind::dynamic_body) continue;
+      if (!body.is_dynamic()) continue;
       presses.push_back({id, i, contact.manifold.normal * (id == contact.a ? -1.0 : 1.0),
                          depth / thickness<D>(body.shape)});
       deep |= presses.back().depth > kCrushSettings.deep / 2;

@@ -86,12 +86,22 @@ Stretch<D> stretched(const Spring<D>& spring, const Vec<D>& between, const EndMo
 
 // The mass by which a body attracts others; 0 if it does not.
 template <int D>
-double attracting_mass(const Body<D>& body);
+double attracting_mass(const Body<D>& body) {
+  return body.inverse_mass > 0 ? 1 / body.inverse_mass : body.mass;
+}
 
 // Bodies that attract each other by `strength`, gravitation times both masses; `between` leads from
 // a to b.
 template <int D>
-Stretch<D> attracted(double strength, const Vec<D>& between);
+Stretch<D> attracted(double strength, const Vec<D>& between) {
+  Stretch<D> s;
+  s.length = glm::length(between);
+  if (!(s.length > 0)) return s;
+  s.direction = between / s.length;
+  s.tension = strength / s.length / s.length;
+  s.stiffness = -2 * s.tension / s.length;
+  return s;
+}
 
 // Where the body that a force names lies in a span of bodies, by its id.
 template <int D>

@@ -294,7 +294,7 @@ void turn_freely(Body<D>& body, double h, RotationMethod method, const Spin<D>& 
     return;
   }
   body.angular_momentum += lag;
-  if (D == 2 || body.kind != BodyKind::dynamic_body) {
+  if (D == 2 || !body.is_dynamic()) {
     body.orientation = freely_turned(body, h);  // nothing wanders in the plane
   } else if constexpr (D == 3) {
     if (!body.asleep && body.turns_about_every_axis()) {

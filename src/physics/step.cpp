@@ -226,8 +226,7 @@ struct World<D>::Step : World<D>::StepIslands {
         world.work_.asleep > 0 ||
         std::ranges::any_of(world.rested_, [](double seconds) { return seconds > 0; });
     for (std::size_t i = 0; i < world.bodies_.size(); ++i)
-      world.islands_[i] =
-          world.bodies_[i].kind == BodyKind::dynamic_body ? world.bodies_[root[i]].id : kNoIsland;
+      world.islands_[i] = world.bodies_[i].is_dynamic() ? world.bodies_[root[i]].id : kNoIsland;
     world.joint_memories_ = std::move(joint_memories);
     world.forces_.pushes = std::move(forces.pushes);
     world.touching_ = std::move(touching);
@@ -276,7 +275,7 @@ struct World<D>::Step : World<D>::StepIslands {
     for (const auto& entry : world.joints_)
       for (const BodyId id : {entry.second.a, entry.second.b}) held[place_of(id)] = true;
     for (std::size_t i = 0; i < moved.size(); ++i)
-      if (moved[i].kind == BodyKind::dynamic_body && !held[i]) return true;
+      if (moved[i].is_dynamic() && !held[i]) return true;
     return false;
   }
 
@@ -317,7 +316,7 @@ struct World<D>::Step : World<D>::StepIslands {
     found.b = place_of(pair.b);
     const Body<D>& a = moved[found.a];
     const Body<D>& b = moved[found.b];
-    if (a.kind != BodyKind::dynamic_body && b.kind != BodyKind::dynamic_body) return std::nullopt;
+    if (!a.is_dynamic() && !b.is_dynamic()) return std::nullopt;
     const double way =
         glm::length(velocity_of(b) - velocity_of(a)) * h + turning_way(a, h) + turning_way(b, h);
     // An impact with a third body may turn either of them towards the other.

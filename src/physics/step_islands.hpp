@@ -53,8 +53,7 @@ struct World<D>::StepIslands {
   void make_islands() {
     DisjointSets sets(moved.size());
     const auto unite = [&](std::uint32_t a, std::uint32_t b) {
-      if (moved[a].kind == BodyKind::dynamic_body && moved[b].kind == BodyKind::dynamic_body)
-        sets.unite(a, b);
+      if (moved[a].is_dynamic() && moved[b].is_dynamic()) sets.unite(a, b);
     };
     for (const NearPair& pair : near) unite(pair.a, pair.b);
     // What sleeps is not looked at: it hangs together as when it fell asleep.
@@ -68,7 +67,7 @@ struct World<D>::StepIslands {
     // What attracts hangs together over any distance.
     std::optional<std::uint32_t> first;
     for (std::uint32_t i = 0; forces.gravitation > 0 && i < moved.size(); ++i) {
-      if (moved[i].kind != BodyKind::dynamic_body) continue;
+      if (!moved[i].is_dynamic()) continue;
       if (!first) first = i;
       unite(*first, i);
     }
@@ -83,7 +82,7 @@ struct World<D>::StepIslands {
   // Which bodies, pairs and joints the solver is given together: those of each island, or of the
   // whole world. What neither touches nor is joined is in none of them, but flies.
   std::vector<Group> groups_to_solve(bool whole_world) const {
-    const auto dynamic = [&](std::uint32_t i) { return moved[i].kind == BodyKind::dynamic_body; };
+    const auto dynamic = [&](std::uint32_t i) { return moved[i].is_dynamic(); };
     const auto own = [&](std::uint32_t i) { return whole_world ? 0 : root[i]; };
     const auto owner = [&](std::uint32_t a, std::uint32_t b) { return own(dynamic(a) ? a : b); };
     const auto places = [&](const auto& tie) {
@@ -128,7 +127,7 @@ struct World<D>::StepIslands {
     const auto add = [&](BodyId id) { others.push_back(place_of(id)); };
     for (const std::size_t i : group.pairs)
       for (const std::uint32_t place : {near[i].a, near[i].b})
-        if (moved[place].kind != BodyKind::dynamic_body) others.push_back(place);
+        if (!moved[place].is_dynamic()) others.push_back(place);
     for (const std::size_t i : group.joints) {
       add(world.joints_[i].second.a);
       add(world.joints_[i].second.b);
@@ -177,8 +176,7 @@ struct World<D>::StepIslands {
 
   void bring_back(Island<D>& island, const Group& group) {
     for (std::size_t i = 0; i < island.places.size(); ++i)
-      if (island.bodies[i].kind == BodyKind::dynamic_body)
-        moved[island.places[i]] = std::move(island.bodies[i]);
+      if (island.bodies[i].is_dynamic()) moved[island.places[i]] = std::move(island.bodies[i]);
     for (const JointRows<D>& rows : island.joints)
       joint_memories[rows.place] = {rows.impulse, island.joint_seconds, rows.backoff};
     for (std::size_t i = 0; i < island.pairs.size(); ++i) {
@@ -201,7 +199,7 @@ struct World<D>::StepIslands {
         for (const BodyId id : {touch.record.a, touch.record.b}) {
           held[root[place_of(id)]] = true;
           const BodyId other = id == touch.record.a ? touch.record.b : touch.record.a;
-          if (moved[place_of(id)].kind != BodyKind::dynamic_body && moved[place_of(id)].stirs())
+          if (!moved[place_of(id)].is_dynamic() && moved[place_of(id)].stirs())
             restless[root[place_of(other)]] = true;
         }
       for (const auto& entry : world.joints_)

@@ -89,7 +89,7 @@ template <int D>
 BodyId World<D>::add(Body<D> body, const Spin<D>& angular_velocity) {
   check_body(body);
   derive_mass(body);
-  if (body.kind != BodyKind::dynamic_body) body.asleep = false;
+  if (!body.is_dynamic()) body.asleep = false;
   if (body.asleep) {
     body.velocity = Vec<D>(0.0);
     body.angular_momentum = Spin<D>(0.0);
@@ -184,7 +184,7 @@ void World<D>::set_angular_velocity(BodyId id, const Spin<D>& spin) {
 
 template <int D>
 void World<D>::spin(Body<D>& body, const Spin<D>& angular_velocity) {
-  if (body.kind == BodyKind::dynamic_body)
+  if (body.is_dynamic())
     body.angular_momentum = momentum_for(body, angular_velocity);
   else
     body.kinematic_spin = angular_velocity;
@@ -199,7 +199,7 @@ void World<D>::apply_impulse(BodyId id, const Vec<D>& impulse, const Vec<D>& at)
   const std::string who = fmt::format("body '{}'", body.name);
   require_finite<D>(impulse, who, "impulse");
   require_finite<D>(at, who, "point of the impulse");
-  if (body.kind != BodyKind::dynamic_body) return;
+  if (!body.is_dynamic()) return;
   Body<D> struck = body;
   struck.velocity += impulse * body.inverse_mass;
   if (body.inverse_inertia != Spin<D>(0.0))
@@ -254,7 +254,7 @@ void World<D>::forget_contacts_of(std::span<const BodyId> ids) {
 template <int D>
 void World<D>::sleep(BodyId id) {
   Body<D>& body = bodies_[index_of(id)];
-  if (body.kind != BodyKind::dynamic_body) return;
+  if (!body.is_dynamic()) return;
   ahead_.reset();
   may_rest_ = body.asleep = true;
   body.velocity = Vec<D>(0.0);
@@ -289,7 +289,7 @@ SpringId World<D>::add_spring(const Spring<D>& spring) {
   require_not_negative(spring.damping, who, "damping");
   const Integrator of_a = a.integrator.value_or(config_.integrator);
   const Integrator of_b = b.integrator.value_or(config_.integrator);
-  if (a.kind == BodyKind::dynamic_body && b.kind == BodyKind::dynamic_body && of_a != of_b)
+  if (a.is_dynamic() && b.is_dynamic() && of_a != of_b)
     throw Refused(fmt::format("spring between '{}' and '{}': one is moved by {}, the other by {}",
                               a.name, b.name, to_string(of_a), to_string(of_b)));
   wake_from(std::array{spring.a, spring.b});
@@ -304,7 +304,7 @@ JointId World<D>::add_joint(const Joint<D>& joint) {
   const Body<D>& a = bodies_[index_of(joint.a)];
   const Body<D>& b = bodies_[index_of(joint.b)];
   if (joint.a == joint.b) throw Refused(fmt::format("{}: joins a body to itself", who));
-  if (a.kind != BodyKind::dynamic_body && b.kind != BodyKind::dynamic_body)
+  if (!a.is_dynamic() && !b.is_dynamic())
     throw Refused(fmt::format("{}: neither of its bodies can be moved", who));
   require_finite<D>(joint.at_a, who, "at_a");
   require_finite<D>(joint.at_b, who, "at_b");

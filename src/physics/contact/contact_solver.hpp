@@ -125,7 +125,7 @@ void fly(Body<D>& body, const Increment<D>& increment, double h, RotationMethod 
                               ? body.kinematic_spin
                               : body.angular_momentum + increment.lag;
   if (turning == Spin<D>(0.0)) return;
-  if (body.kind == BodyKind::dynamic_body && body.inverse_inertia == Spin<D>(0.0)) return;
+  if (body.is_dynamic() && body.inverse_inertia == Spin<D>(0.0)) return;
   turn_freely(body, h, body.rotation.value_or(worlds), increment.lag);
   ++work.rotations_integrated;
 }

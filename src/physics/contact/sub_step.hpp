@@ -167,7 +167,7 @@ class SubStep {
       Body<D>& body = island.bodies[i];
       const SolverBody<D>& solved = island.solver_bodies[i];
       const Increment<D>& increment = island.increments[i];
-      if (body.kind != BodyKind::dynamic_body) {
+      if (!body.is_dynamic()) {
         fly(body, increment, h, config.rotation, work);
         continue;
       }

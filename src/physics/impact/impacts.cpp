@@ -168,7 +168,7 @@ class ImpactMotion {
   void let_struck_go() {
     const auto struck = [&](std::uint32_t i, double slow) {
       const Vec<D> change = island_.solver_bodies[i].velocity - island_.bodies[i].velocity;
-      return island_.bodies[i].kind == BodyKind::dynamic_body && glm::length(change) > slow;
+      return island_.bodies[i].is_dynamic() && glm::length(change) > slow;
     };
     for (IslandPair<D>& pair : island_.pairs)
       if (pair.rests > 0 && pair.rests < kImpactSettings.most_rests && pair.rows.restitution > 0 &&
@@ -207,7 +207,7 @@ class ImpactMotion {
     }
     if (impacts > 0) let_struck_go();
     for (std::size_t i = 0; i < island_.bodies.size(); ++i) {
-      if (island_.bodies[i].kind != BodyKind::dynamic_body) continue;
+      if (!island_.bodies[i].is_dynamic()) continue;
       island_.bodies[i].velocity = island_.solver_bodies[i].velocity;
       island_.bodies[i].angular_momentum += island_.solver_bodies[i].twist;
     }

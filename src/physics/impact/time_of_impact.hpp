@@ -176,7 +176,7 @@ double fastest_spin(const Body<D>& body) {
   const Spin<D> spin = angular_velocity(body);
   double square = dot(spin, spin);
   if constexpr (D == 3) {
-    if (body.kind == BodyKind::dynamic_body) {
+    if (body.is_dynamic()) {
       // As L wanders, |w|^2 is a linear function of the square of L's middle component, and the
       // largest where that is 0.
       const Vec<3> l = glm::conjugate(body.orientation.q) * body.angular_momentum;
@@ -295,7 +295,7 @@ class Approach {
     if (fastest == 0) return body;
     body.spin = angular_velocity(now);
     body.fastest = fastest;
-    body.swerve = fastest * fastest * (now.kind == BodyKind::dynamic_body ? kWandering<D> : 1);
+    body.swerve = fastest * fastest * (now.is_dynamic() ? kWandering<D> : 1);
     return body;
   }
   Body<D> placed_at(const Trajectory<D>& path, double t) const {

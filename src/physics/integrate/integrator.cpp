@@ -171,7 +171,7 @@ std::vector<Integrator> integrators_of(const WorldConfig<D>& config,
                                        std::span<const Body<D>> bodies) {
   std::vector<Integrator> used;
   for (const Body<D>& body : bodies) {
-    if (body.kind != BodyKind::dynamic_body) continue;
+    if (!body.is_dynamic()) continue;
     const Integrator its = body.integrator.value_or(config.integrator);
     if (std::ranges::find(used, its) == used.end()) used.push_back(its);
   }
@@ -230,12 +230,11 @@ void find_increments_if_any(const WorldConfig<D>& config, std::span<const Body<D
   for (const Integrator integrator : used) {
     std::vector<Body<D>> its(bodies.begin(), bodies.end());
     for (Body<D>& body : its)
-      if (body.kind == BodyKind::dynamic_body &&
-          body.integrator.value_or(config.integrator) != integrator)
+      if (body.is_dynamic() && body.integrator.value_or(config.integrator) != integrator)
         body.asleep = true;
     find(integrator, its, some);
     for (std::size_t i = 0; i < its.size(); ++i)
-      if (its[i].kind == BodyKind::dynamic_body && !its[i].asleep) out[i] = some[i];
+      if (its[i].is_dynamic() && !its[i].asleep) out[i] = some[i];
   }
 }
 

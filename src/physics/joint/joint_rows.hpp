@@ -112,7 +112,7 @@ struct JointRows {
   // distance l about the other by tension / l, and a body by the tension times its arm.
   double swing_squared(const Body<D>& body_a, const Body<D>& body_b, double tension) const {
     const auto swing = [&](const Body<D>& body, const Vec<D>& at) {
-      if (body.kind != BodyKind::dynamic_body || body.asleep) return 0.0;
+      if (!body.is_dynamic() || body.asleep) return 0.0;
       double most = 0;
       for (int i = 0; i < (D == 2 ? 1 : 3); ++i)
         most = std::max(most, spin_component(body.inverse_inertia, i));
@@ -271,7 +271,7 @@ class JointBlock {
   double way_of(const std::vector<Body<D>>& bodies) const {
     double most = 0;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-      if (bodies[i].kind != BodyKind::dynamic_body) continue;
+      if (!bodies[i].is_dynamic()) continue;
       const double turn = angle_between(bodies[i].orientation, kept_[i].orientation);
       most = std::max(most, glm::length(bodies[i].position - kept_[i].position) +
                                 turning_reach<D>(bodies[i].shape) * turn);
