@@ -20,7 +20,7 @@
 
 #include "physics/contact/contact_solver.hpp"
 #include "physics/contact/sub_step.hpp"
-#include "physics/linear/block_system.hpp"
+#include "physics/integrate/block_system.hpp"
 
 namespace lantern::physics {
 namespace {
@@ -85,11 +85,6 @@ class DirectSolve {
     int width = 1;
     Wrench share{1};
     double gain = 0;  // of impulse, that is found
-  };
-  struct Guess {  // of what presses and sticks, before the solve
-    double pn = 0;
-    Vec<D> pt{0.0};
-    bool sticks = false;
   };
 
   // Impulses for velocities that satisfy the rows that press, applied. False, with nothing changed,
@@ -336,19 +331,14 @@ class DirectSolve {
     kept_bodies_ = island.solver_bodies;
     kept_.clear();
     for (const IslandPair<D>& pair : island.pairs)
-      for (const ContactPoint<D>& p : pair.rows.points()) kept_.push_back({p.pn, p.pt, p.sticks});
+      for (const ContactPoint<D>& p : pair.rows.points()) kept_.push_back(p);
   }
 
   void take_guess_back(Island<D>& island) {
     island.solver_bodies = kept_bodies_;
     auto kept = kept_.begin();
     for (IslandPair<D>& pair : island.pairs)
-      for (ContactPoint<D>& p : pair.rows.points()) {
-        p.pn = kept->pn;
-        p.pt = kept->pt;
-        p.sticks = kept->sticks;
-        ++kept;
-      }
+      for (ContactPoint<D>& p : pair.rows.points()) p = *kept++;
   }
 
   std::vector<ConstraintRow<D>> rows_;
@@ -356,7 +346,7 @@ class DirectSolve {
   EnvelopeSystem system_;
   std::vector<double> values_;  // wanted, then impulses
   std::vector<SolverBody<D>> kept_bodies_;
-  std::vector<Guess> kept_;
+  std::vector<ContactPoint<D>> kept_;  // with the guess of what presses and sticks
 };
 
 }  // namespace

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "physics/integrate/block_system.hpp"
 #include "physics/integrate/smooth_system.hpp"
-#include "physics/linear/block_system.hpp"
 
 namespace lantern::physics {
 
