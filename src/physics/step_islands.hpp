@@ -184,7 +184,7 @@ struct World<D>::StepIslands {
       const IslandPair<D>& pair = island.pairs[i];
       if (!pair.touched) continue;
       touch_of[group.pairs[i]] = static_cast<std::uint32_t>(touching.size());
-      touching.push_back(pair.touch);
+      touching.push_back(pair);
     }
   }
 
@@ -259,8 +259,8 @@ struct World<D>::StepIslands {
     pair.reach = from.reach;
     pair.located = from.located;
     pair.pressed = !from.located;
-    if (from.touch != nullptr) pair.touch = *from.touch;
-    pair.touch.record = {moved[from.a].id, moved[from.b].id, {}, {}, {}};
+    if (from.touch != nullptr) static_cast<Touch<D>&>(pair) = *from.touch;
+    pair.record = {moved[from.a].id, moved[from.b].id, {}, {}, {}};
     if (from.manifold != kNone) pair.seen = &manifolds[from.manifold];
     return pair;
   }

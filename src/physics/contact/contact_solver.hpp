@@ -30,22 +30,21 @@ SolverBody<D> solver_body_of(const Body<D>& body) {
 
 // Two bodies that may touch during the step.
 template <int D>
-struct IslandPair {
+struct IslandPair : Touch<D> {  // what it remembers, and what the step tells
   ContactRows<D> rows;
   bool located = false;  // bouncing or fast: their impacts are located in time
   bool pressed = false;  // solved as a contact; an impact that is located needs no rows
   int rests = 0;         // how often it was located and too slow to bounce
   double slow = 0;       // approaches slower than this are no impacts
   double reach = 0;      // how near they must be to be looked at
-  Touch<D> touch;        // what it remembers, and what the step tells
   bool touched = false;
   const Manifold<D>* seen = nullptr;  // how they lie, within `reach`; null once they have moved
 
   bool may_press() const { return rows.count > 0; }
   void record_impulses() {
     for (std::size_t i = 0; i < rows.points().size(); ++i) {
-      touch.record.normal_impulses[i] += rows.room[i].pn;
-      touch.record.friction_impulses[i] += rows.room[i].pt;
+      this->record.normal_impulses[i] += rows.room[i].pn;
+      this->record.friction_impulses[i] += rows.room[i].pt;
     }
   }
 };
@@ -95,7 +94,7 @@ struct Island {
       manifold = &*made;
     }
     pair.rows.set_points(*manifold, a, b, axes[pair.rows.a], axes[pair.rows.b], remembered, scale);
-    renew_record(pair.touch.record, *manifold);
+    renew_record(pair.record, *manifold);
     work.contact_points += pair.rows.points().size();
     return true;
   }

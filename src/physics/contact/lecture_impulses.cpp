@@ -86,7 +86,7 @@ class LecturePass {
       system.AddBroadphaseCollision(&objects_[pair.rows.a], &objects_[pair.rows.b]);
     system.NarrowPhase();
     for (const CollisionDetection::CollisionInfo& info : system.GetAllCollisions()) {
-      pair_of(*info.a, *info.b).touch.record.normal_impulses[0] = info.impulse;
+      pair_of(*info.a, *info.b).record.normal_impulses[0] = info.impulse;
       const Vec<3> impulse = info.point.normal * info.impulse;
       turn(body_of(*info.a), cross(info.point.localA, -impulse));
       turn(body_of(*info.b), cross(info.point.localB, impulse));
@@ -123,8 +123,8 @@ class LecturePass {
     const ManifoldPoint<D> point = single_point(*manifold);
     IslandPair<D>& pair = pair_of(a, b);
     pair.touched = true;
-    pair.touch.record.manifold = {.normal = manifold->normal, .room = {}};
-    pair.touch.record.manifold.add(point);
+    pair.record.manifold = {.normal = manifold->normal, .room = {}};
+    pair.record.manifold.add(point);
     const Vec<3> at = in_space(point.position);
     info.point.localA = at - a.GetConstTransform().GetWorldPosition();
     info.point.localB = at - b.GetConstTransform().GetWorldPosition();

@@ -279,9 +279,9 @@ class SubSteps {
         pair.seen = nullptr;  // it is about to move
         continue;
       }
-      const double seconds = pair.touch.seconds;
+      const double seconds = pair.seconds;
       const double scale = seconds > 0 ? rescaled(scale_to, seconds) : 0;
-      island_.find_points(pair, pair.reach, seconds > 0 ? &pair.touch.memory : nullptr, scale,
+      island_.find_points(pair, pair.reach, seconds > 0 ? &pair.memory : nullptr, scale,
                           move_.work);
     }
   }
@@ -302,7 +302,7 @@ class SubSteps {
   void remember(double h) {
     for (IslandPair<D>& pair : island_.pairs) {
       stop_if_asked();
-      auto& [record, memory, seconds] = pair.touch;
+      auto& [record, memory, seconds] = static_cast<Touch<D>&>(pair);
       seconds = pair.rows.count > 0 ? h : 0;
       if (pair.rows.count == 0) continue;
       memory.manifold = record.manifold;
