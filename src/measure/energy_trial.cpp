@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "base/error.hpp"
-#include "physics/energy.hpp"
+#include "physics/forces.hpp"
 
 namespace lantern::measure {
 namespace {

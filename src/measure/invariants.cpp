@@ -4,7 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "physics/energy.hpp"
+#include "physics/forces.hpp"
 #include "physics/manifold.hpp"
 #include "run/players.hpp"
 

@@ -8,7 +8,7 @@
 #include "geometry/flat.hpp"
 #include "measure/peer.hpp"
 #include "measure/peer_modules.hpp"
-#include "physics/mass.hpp"
+#include "physics/body.hpp"
 
 namespace lantern::measure {
 namespace {

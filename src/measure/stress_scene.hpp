@@ -11,7 +11,7 @@
 #include "base/error.hpp"
 #include "geometry/not_finite.hpp"
 #include "measure/stress.hpp"
-#include "physics/energy.hpp"
+#include "physics/forces.hpp"
 #include "physics/world.hpp"
 
 namespace lantern::measure::stress {

@@ -64,10 +64,6 @@ class Box2dRun : public PeerRun {
             Vec<3>(0, 0, body.GetAngularVelocity())};
   }
 
-  std::pair<Vec<3>, Vec<3>> centre(std::size_t i) const override {
-    return {from_box2d(bodies_[i]->GetPosition()), from_box2d(bodies_[i]->GetLinearVelocity())};
-  }
-
   void push(std::size_t i, const Vec<3>& force, const Vec<3>& arm) override {
     const b2Vec2 f = to_box2d(force);
     if (!f.IsValid()) throw Refused("a spring's force is too large for single precision");
@@ -179,7 +175,7 @@ bool fits(double value) { return std::isfinite(number(value)); }
 
 std::optional<std::string> cannot(const PeerScene& scene, bool finer) {
   if (!scene.is_flat()) return "Box2D is flat";
-  if (finer && is_unconstrained(scene)) return kNothingToSolve;
+  if (finer && !scene.collides() && scene.links.empty()) return kNothingToSolve;
   for (const PeerBody& body : scene.bodies) {
     if (scene.collides() && std::holds_alternative<Capsule>(body.shape))
       return "body '" + body.name + "': Box2D 2.4 has no capsules";

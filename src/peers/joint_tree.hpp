@@ -13,12 +13,12 @@ namespace lantern::peers {
 // A body and how it hangs. Without a link it is free or never moves.
 struct Hanging {
   std::size_t body = 0;
-  std::optional<std::size_t> link;    // by which it hangs
-  std::optional<std::size_t> parent;  // on this body; nothing: on the world
-  bool is_rod = false;                // else a pin
-  Vec<3> at{0.0};                     // where the link holds it, from its centre, in its own axes
-  Vec<3> end{0.0};                    // the same in the world at the start
-  Vec<3> anchor{0.0};                 // the link's other end, there
+  std::optional<std::size_t> link = {};    // by which it hangs
+  std::optional<std::size_t> parent = {};  // on this body; nothing: on the world
+  bool is_rod = false;                     // else a pin
+  Vec<3> at{0.0};      // where the link holds it, from its centre, in its own axes
+  Vec<3> end{0.0};     // the same in the world at the start
+  Vec<3> anchor{0.0};  // the link's other end, there
 };
 
 class JointTree {
@@ -26,14 +26,14 @@ class JointTree {
   explicit JointTree(const PeerScene& scene)
       : scene_(scene), is_placed_(scene.bodies.size()), is_used_(scene.links.size()) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-      if (!scene.bodies[i].is_dynamic()) place({i, {}, {}, false, {}, {}, {}});
+      if (!scene.bodies[i].is_dynamic()) place({.body = i});
     for (std::size_t i = 0; i < scene.links.size(); ++i)
       if (!scene.links[i].b) hang_on(std::nullopt, i);
     grow(0);
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
       if (is_placed_[i]) continue;
       const std::size_t from = all_.size();
-      place({i, {}, {}, false, {}, {}, {}});
+      place({.body = i});
       grow(from);
     }
   }

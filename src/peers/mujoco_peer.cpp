@@ -189,14 +189,8 @@ class Mjcf {
   std::ostringstream out_;
 };
 
-struct ModelDeleter {
-  void operator()(mjModel* model) const { mj_deleteModel(model); }
-};
-struct DataDeleter {
-  void operator()(mjData* data) const { mj_deleteData(data); }
-};
-using Model = std::unique_ptr<mjModel, ModelDeleter>;
-using Data = std::unique_ptr<mjData, DataDeleter>;
+using Model = std::unique_ptr<mjModel, decltype([](mjModel* model) { mj_deleteModel(model); })>;
+using Data = std::unique_ptr<mjData, decltype([](mjData* data) { mj_deleteData(data); })>;
 
 // MuJoCo reads a model from a file only; this one is in memory.
 Model compiled(const std::string& file) {
@@ -246,7 +240,8 @@ class MujocoRun : public PeerRun {
   }
 
   PeerMotion motion(std::size_t i) const override {
-    if (!scene_.bodies[i].is_dynamic()) return motion_at_start(scene_.bodies[i]);
+    const PeerBody& body = scene_.bodies[i];
+    if (!body.is_dynamic()) return {body.position, body.velocity, body.orientation, body.turning};
     place_bodies();
     const int id = places_[i].id;
     const mjtNum *x = data_->xpos + 3 * id, *q = data_->xquat + 4 * id;

@@ -87,10 +87,6 @@ class PeerRun : public Simulation {
   virtual void step() = 0;
   virtual bool is_finite() const = 0;  // of all bodies
   virtual PeerMotion motion(std::size_t body) const = 0;
-  virtual std::pair<Vec<3>, Vec<3>> centre(std::size_t body) const {  // position, velocity
-    const PeerMotion now = motion(body);
-    return {now.position, now.velocity};
-  }
   virtual void push(std::size_t body, const Vec<3>& force, const Vec<3>& arm) = 0;
   virtual void set_velocity(std::size_t body, const Vec<3>& velocity) = 0;
   // Nothing if the peer keeps no whole turns itself.
@@ -125,7 +121,7 @@ class PeerRun : public Simulation {
   }
 
   void pull(const Attraction& attraction) {
-    const Vec<3> line = centre(attraction.b).first - centre(attraction.a).first;
+    const Vec<3> line = motion(attraction.b).position - motion(attraction.a).position;
     const double square = glm::dot(line, line);
     if (!(square > 0)) return;
     const Vec<3> force = line * (attraction.strength / (square * std::sqrt(square)));
@@ -134,11 +130,8 @@ class PeerRun : public Simulation {
   }
 
   End end(std::size_t body, const Vec<3>& at) const {
-    if (at == Vec<3>(0.0)) {
-      const auto [position, velocity] = centre(body);
-      return {position, velocity, Vec<3>(0.0)};
-    }
     const PeerMotion m = motion(body);
+    if (at == Vec<3>(0.0)) return {m.position, m.velocity, Vec<3>(0.0)};
     const Vec<3> arm = matrix(m.orientation) * at;
     return {m.position + arm, m.velocity + cross(m.spin, arm), arm};
   }
@@ -176,11 +169,6 @@ class PeerRun : public Simulation {
   mutable std::vector<Turn> turns_;  // when last looked at
 };
 
-// The motion of what the peer does not move.
-inline PeerMotion motion_at_start(const PeerBody& body) {
-  return {body.position, body.velocity, body.orientation, body.turning};
-}
-
 // What an engine makes of a shape: of a sphere, of either kind of box by its half sizes, of a
 // capsule, of a half-space.
 template <class OfSphere, class OfBox, class OfCapsule, class OfHalfSpace>
@@ -215,9 +203,6 @@ inline bool needs_continuous(const PeerScene& scene, const PeerBody& body, doubl
 // Whether there is nothing to solve, so that solvers and their efforts make no difference.
 inline constexpr const char* kNothingToSolve =
     "nothing touches or is jointed: it is as at the default effort";
-inline bool is_unconstrained(const PeerScene& scene) {
-  return !scene.collides() && scene.links.empty();
-}
 
 // A flat box is as deep as it is wide in an engine that knows no flat bodies.
 inline Vec<3> with_depth(Vec<3> half, bool is_flat) {

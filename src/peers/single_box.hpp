@@ -4,9 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.hpp"
-#include "geometry/box.hpp"
-
 namespace lantern::peers {
 
 inline float float_below(double x) {

@@ -8,7 +8,6 @@
 
 #include "base/error.hpp"
 #include "geometry/not_finite.hpp"
-#include "physics/mass.hpp"
 
 namespace lantern::physics {
 namespace {
@@ -137,7 +136,7 @@ void check_body(const Body<D>& body) {
   require_not_negative(body.material.friction, who, "friction");
   require_not_negative(body.linear_drag, who, "linear_drag");
   require_not_negative(body.angular_drag, who, "angular_drag");
-  if (body.kind == BodyKind::dynamic_body && std::holds_alternative<HalfSpace<D>>(body.shape))
+  if (body.is_dynamic() && std::holds_alternative<HalfSpace<D>>(body.shape))
     throw Refused(fmt::format("{}: shape is a half-space, which cannot be dynamic", who));
   if (!is_valid(body.box())) throw Refused(fmt::format("{}: its box is not finite", who));
 }
@@ -146,7 +145,7 @@ template <int D>
 void derive_mass(Body<D>& body) {
   body.inverse_mass = 0;
   body.inverse_inertia = Spin<D>(0.0);
-  if (body.kind != BodyKind::dynamic_body) return;
+  if (!body.is_dynamic()) return;
   MassProperties<D> properties =
       mass_of<D>(body.shape, body.mass > 0 && body.density == 0 ? 1 : body.density);
   if (body.mass > 0) properties = scaled_to<D>(properties, body.mass);

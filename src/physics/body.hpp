@@ -1,4 +1,4 @@
-// A rigid body and its state.
+// A rigid body and its state, its mass, and how it turns by itself.
 #pragma once
 
 #include <optional>
@@ -51,12 +51,13 @@ struct Body {
   double inverse_mass = 0;
   Spin<D> inverse_inertia{0.0};
 
+  bool is_dynamic() const { return kind == BodyKind::dynamic_body; }
   bool moves() const { return kind != BodyKind::static_body; }
   // Moved by what pushes it.
-  bool is_pushed() const { return kind == BodyKind::dynamic_body && !asleep; }
+  bool is_pushed() const { return is_dynamic() && !asleep; }
   // Moves now, so that it may meet or wake others: is not at rest.
   bool stirs() const {
-    if (kind == BodyKind::dynamic_body) return !asleep;
+    if (is_dynamic()) return !asleep;
     return moves() && (velocity != Vec<D>(0.0) || kinematic_spin != Spin<D>(0.0));
   }
   bool turns_about_every_axis() const {
@@ -136,5 +137,53 @@ template <int D>
 Vec<D> velocity_at(const Body<D>& body, const Vec<D>& arm) {
   return body.velocity + cross(angular_velocity(body), arm);
 }
+
+// Of a shape of even density.
+template <int D>
+struct MassProperties {
+  double mass = 0;
+  Spin<D> inertia{0.0};  // about the centre; in 3D about each of the body's own axes
+
+  bool operator==(const MassProperties&) const = default;
+};
+
+// `density` is mass a unit of area (2D) or volume (3D), finite and not negative. A half-space has
+// no end and so no finite mass; it gives mass 0 and inertia 0, which here means: nothing moves it.
+template <int D>
+MassProperties<D> mass_of(const Shape<D>& shape, double density);
+
+// The same shape at a given mass, finite and not negative. `properties` are of the shape at any
+// density above 0. A shape without area (2D) or volume (3D) has inertia 0 at every mass: contacts
+// never turn it.
+template <int D>
+MassProperties<D> scaled_to(MassProperties<D> properties, double mass);
+
+// How a body turns when nothing holds it.
+//
+// A free body keeps its angular momentum L, yet its angular velocity wanders, because inertia is
+// fixed to the body: a box thrown about its middle axis tumbles. In the body's axes, where L has
+// the components L1, L2, L3, the energy is L1^2/2I1 + L2^2/2I2 + L3^2/2I3.
+//
+// This is the orientation `h` seconds later (h may be negative: back in time), of a body whose
+// angular momentum in the world is L. Both dimensions: exact if the inertia about two axes is
+// equal, as in 2D and for spheres and square boxes. Any other body is turned by the splitting
+// `method`, or exactly, to rounding, where that would change the energy by more than a thousandth:
+// at any spin and step the energy is kept within that. A static or sleeping body does not turn, a
+// kinematic one turns by its spin. `method` must be one of the splittings.
+template <int D>
+Rotation<D> freely_turned(const Body<D>& body, const Spin<D>& angular_momentum, double h,
+                          RotationMethod method = RotationMethod::splitting_2);
+
+// The same with the body's own angular momentum.
+template <int D>
+Rotation<D> freely_turned(const Body<D>& body, double h) {
+  return freely_turned(body, body.angular_momentum, h);
+}
+
+// Turns the body by any of the methods, as if its angular momentum were more by `lag` meanwhile
+// (see integrator.hpp). Only `explicit_gyroscopic` changes it, which is wrong, and what it is there
+// to show.
+template <int D>
+void turn_freely(Body<D>& body, double h, RotationMethod method, const Spin<D>& lag = Spin<D>(0.0));
 
 }  // namespace lantern::physics

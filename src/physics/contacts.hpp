@@ -5,8 +5,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
+#include "base/stop.hpp"
 #include "physics/body.hpp"
 
 namespace lantern::physics {
@@ -41,6 +43,14 @@ void renew_record(Contact<D>& record, const Manifold<D>& manifold) {
   }
   record = renewed;
 }
+
+// What a step remembers of a pair that touched in it.
+template <int D>
+struct Touch {
+  Contact<D> record;   // what the step tells
+  Contact<D> memory;   // impulses of the last sub-step, which the next step begins with
+  double seconds = 0;  // of that sub-step; 0: there was none
+};
 
 struct ContactEvent {
   enum class Kind {
@@ -84,7 +94,7 @@ std::vector<std::uint8_t> crushing(const std::vector<Contact<D>>& contacts, Body
     if (!(depth > 0 && impulse > 0)) continue;
     for (const BodyId id : {contact.a, contact.b}) {
       const Body<D>& body = body_of(id);
-      if (body.kind != BodyKind::dynamic_body) continue;
+      if (!body.is_dynamic()) continue;
       presses.push_back({id, i, contact.manifold.normal * (id == contact.a ? -1.0 : 1.0),
                          depth / thickness<D>(body.shape)});
       deep |= presses.back().depth > kCrushSettings.deep / 2;
@@ -92,8 +102,7 @@ std::vector<std::uint8_t> crushing(const std::vector<Contact<D>>& contacts, Body
   }
   std::vector<std::uint8_t> found;
   if (!deep) return found;
-  std::stable_sort(presses.begin(), presses.end(),
-                   [](const Press& x, const Press& y) { return x.body < y.body; });
+  std::ranges::stable_sort(presses, {}, &Press::body);
   for (std::size_t i = 0; i < presses.size(); ++i)
     for (std::size_t j = i + 1; j < presses.size() && presses[j].body == presses[i].body; ++j) {
       if (!(presses[i].depth + presses[j].depth > kCrushSettings.deep)) continue;
@@ -104,6 +113,42 @@ std::vector<std::uint8_t> crushing(const std::vector<Contact<D>>& contacts, Body
   return found;
 }
 
+// A pair of which is told that it touches: its begin was an event, its end will be one.
+struct ToldPair {
+  Pair pair;
+  int frames_left = 0;  // steps without touch before its end is told
+};
+
+// What is new about the contacts, in order of ids as they and `told` are, which becomes that of
+// now; a pair that parts is said to have done so after `frames` steps.
+template <int D, class BodyOf>
+std::vector<ContactEvent> tell_events(const std::vector<Contact<D>>& contacts, int frames,
+                                      BodyOf&& body_of, std::vector<ToldPair>& told) {
+  const std::vector<std::uint8_t> crush = crushing<D>(contacts, body_of);
+  const std::vector<ToldPair> old = std::move(told);
+  std::vector<ContactEvent> events;
+  told.clear();
+  std::size_t i = 0, j = 0;
+  while (i < old.size() || j < contacts.size()) {
+    stop_if_asked();
+    const bool parted =
+        j == contacts.size() || (i < old.size() && old[i].pair < contacts[j].pair());
+    const bool known = parted || (i < old.size() && old[i].pair == contacts[j].pair());
+    const ToldPair now = {parted ? old[i].pair : contacts[j].pair(),
+                          (parted ? std::min(old[i].frames_left, frames) : frames) - 1};
+    if (parted && now.frames_left < 0)
+      events.push_back({ContactEvent::Kind::end, now.pair.a, now.pair.b});
+    else
+      told.push_back(now);
+    if (!parted)
+      events.push_back({known ? ContactEvent::Kind::stay : ContactEvent::Kind::begin, now.pair.a,
+                        now.pair.b, !crush.empty() && crush[j] != 0});
+    if (known) ++i;
+    if (!parted) ++j;
+  }
+  return events;
+}
+
 // When impacts were, and, for who asks, how that was found out. First where a body is at some
 // moment within a step.
 template <int D>
@@ -112,6 +157,11 @@ struct Pose {
   Vec<D> position{0.0};
   Rotation<D> orientation{};
 };
+
+template <int D>
+Pose<D> pose(const Body<D>& body) {
+  return {body.id, body.position, body.orientation};
+}
 
 // An impact that was located: the two are there when they meet. Times are seconds since the step
 // began.

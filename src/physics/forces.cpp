@@ -2,14 +2,13 @@
 #include "physics/forces.hpp"
 
 #include "base/stop.hpp"
-#include "physics/energy.hpp"
 
 namespace lantern::physics {
 namespace {
 
 template <int D>
 bool counts(const Body<D>& body) {
-  return body.kind == BodyKind::dynamic_body && body.inverse_mass > 0;
+  return body.is_dynamic() && body.inverse_mass > 0;
 }
 
 template <int D>
@@ -64,22 +63,6 @@ Stretch<D> stretched(const Spring<D>& spring, const Vec<D>& between, const EndMo
                         (a.velocity + cross(a.angular_velocity, s.arm_a));
   s.rate = glm::dot(motion, s.direction);
   s.tension = spring.stiffness * (s.length - spring.rest_length) + spring.damping * s.rate;
-  return s;
-}
-
-template <int D>
-double attracting_mass(const Body<D>& body) {
-  return body.inverse_mass > 0 ? 1 / body.inverse_mass : body.mass;
-}
-
-template <int D>
-Stretch<D> attracted(double strength, const Vec<D>& between) {
-  Stretch<D> s;
-  s.length = glm::length(between);
-  if (!(s.length > 0)) return s;
-  s.direction = between / s.length;
-  s.tension = strength / s.length / s.length;
-  s.stiffness = -2 * s.tension / s.length;
   return s;
 }
 
@@ -141,8 +124,6 @@ Spin<D> angular_momentum(std::span<const Body<D>> bodies) {
 #define LANTERN_INSTANTIATE(D)                                                           \
   template Stretch<D> stretched(const Spring<D>&, const Vec<D>&, const EndMotion<D>&,    \
                                 const EndMotion<D>&);                                    \
-  template double attracting_mass(const Body<D>&);                                       \
-  template Stretch<D> attracted(double, const Vec<D>&);                                  \
   template Energy energy(std::span<const Body<D>>, const Forces<D>&);                    \
   template Energy energy_of(const Body<D>&, std::span<const Body<D>>, const Forces<D>&); \
   template Vec<D> momentum(std::span<const Body<D>>);                                    \

@@ -1,5 +1,3 @@
-#include "physics/free_rotation.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 
 #include "base/check.hpp"
 #include "geometry/elliptic.hpp"
+#include "physics/body.hpp"
 
 namespace lantern::physics {
 namespace {
@@ -198,8 +197,7 @@ constexpr Limits limits_of(RotationMethod method) {
 
 Split split(const Vec<3>& inverse_inertia) {
   std::array<int, 3> order{0, 1, 2};
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int i, int j) { return inverse_inertia[i] < inverse_inertia[j]; });
+  std::ranges::stable_sort(order, {}, [&](int i) { return inverse_inertia[i]; });
   const double middle = inverse_inertia[order[1]];
   return {order[1],
           middle,
@@ -264,20 +262,13 @@ Rotation<3> turned_as_top(const Rotation<3>& r, const Vec<3>& inverse_inertia, c
   return turned(Rotation<3>{q}, l * (terms.middle * h));
 }
 
-// In the order of the enumerators.
-constexpr std::array<std::string_view, 3> kMethods = {"splitting_2", "splitting_4",
-                                                      "explicit_gyroscopic"};
-
 }  // namespace
 
 std::string_view to_string(RotationMethod method) {
-  return kMethods[static_cast<std::size_t>(method)];
-}
-
-std::optional<RotationMethod> rotation_method_named(std::string_view name) {
-  const auto* const found = std::ranges::find(kMethods, name);
-  if (found == kMethods.end()) return std::nullopt;
-  return static_cast<RotationMethod>(found - kMethods.begin());
+  using enum RotationMethod;
+  return method == splitting_2   ? "splitting_2"
+         : method == splitting_4 ? "splitting_4"
+                                 : "explicit_gyroscopic";
 }
 
 template <int D>
@@ -303,7 +294,7 @@ void turn_freely(Body<D>& body, double h, RotationMethod method, const Spin<D>& 
     return;
   }
   body.angular_momentum += lag;
-  if (D == 2 || body.kind != BodyKind::dynamic_body) {
+  if (D == 2 || !body.is_dynamic()) {
     body.orientation = freely_turned(body, h);  // nothing wanders in the plane
   } else if constexpr (D == 3) {
     if (!body.asleep && body.turns_about_every_axis()) {

@@ -56,8 +56,8 @@ void wake_together(std::vector<Body<D>>& bodies, std::vector<double>& rested,
   for (const Pair& link : links) {
     stop_if_asked();
     const std::uint32_t a = place_of(link.a), b = place_of(link.b);
-    if (bodies[b].kind == BodyKind::dynamic_body) linked[a].push_back(b);
-    if (bodies[a].kind == BodyKind::dynamic_body) linked[b].push_back(a);
+    if (bodies[b].is_dynamic()) linked[a].push_back(b);
+    if (bodies[a].is_dynamic()) linked[b].push_back(a);
   }
   std::vector<std::uint8_t> seen(bodies.size());
   while (!places.empty()) {

@@ -9,7 +9,6 @@
 namespace lantern::physics {
 
 using JointId = std::uint32_t;
-using SpringId = std::uint32_t;
 
 enum class JointKind {
   distance,  // the two points stay `length` apart: a rod
@@ -41,6 +40,14 @@ struct Backoff {
     wait = next;
     next = std::min(2 * next, kLongest);
   }
+};
+
+// What a step remembers of a joint.
+template <int D>
+struct JointMemory {
+  Vec<D> impulse{0.0};  // of the last sub-step, upon b, N s
+  double seconds = 0;   // of that sub-step; 0: there was none
+  Backoff backoff = {};
 };
 
 // Of a joint whose points are at `from` and `to`, in units of length: how far those of a pin are

@@ -13,9 +13,7 @@
 #include "base/memory.hpp"
 #include "base/stop.hpp"
 #include "geometry/not_finite.hpp"
-#include "physics/impact/impacts.hpp"
-#include "physics/islands.hpp"
-#include "physics/world.hpp"
+#include "physics/step_islands.hpp"
 
 namespace lantern::physics {
 namespace {
@@ -60,58 +58,29 @@ double coasting_reach(const Body<D>& body, double h) {
 }  // namespace
 
 template <int D>
-struct World<D>::Step {
-  // Two bodies that may touch. Of what an IslandPair holds only what is known before the island is
-  // moved: there may be millions.
-  struct NearPair {
-    std::uint32_t a = 0, b = 0;  // places among all bodies
-    double restitution = 0;
-    double friction = 0;
-    double reach = 0;
-    const Touch* touch = nullptr;    // of the step before, if they touched in it
-    std::uint32_t manifold = kNone;  // as they were found to lie; none of too many
-    bool located = false;
-  };
-  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
-  // What a solver is given together: places of bodies, of near pairs, of joints, of what pulls and
-  // pushes them; all ascending.
-  struct Group {
-    std::vector<std::uint32_t> bodies;
-    std::vector<std::size_t> pairs, joints, springs, pushes;
-  };
+struct World<D>::Step : World<D>::StepIslands {
+  using StepIslands::joint_memories, StepIslands::forces, StepIslands::near, StepIslands::manifolds;
+  using StepIslands::place_of;
+  using StepIslands::root, StepIslands::touching, StepIslands::touch_of, StepIslands::kNone;
+  using StepIslands::world, StepIslands::h, StepIslands::moved, StepIslands::rested;
+  using typename StepIslands::Group, typename StepIslands::NearPair;
 
-  World& world;
-  double h;
   std::vector<double> reach;  // of each body: how far its surface may come; at least as given
-  std::vector<Body<D>> moved = world.bodies_;
-  std::vector<double> rested = world.rested_;
-  std::vector<JointMemory> joint_memories = world.joint_memories_;
-  Forces<D> forces = world.forces_;
-  std::vector<TimedPush> pushes = {};
   std::vector<Increment<D>> anew = {};  // increments anew, since bodies woke in this step
   std::vector<Proxy<D>> boxes = {};     // of bodies, enlarged by how far each may come
   std::uint64_t narrow_pairs = 0;       // of the broad phase's, looked at by the narrow phase
-  std::vector<NearPair> near = {};      // in order of ids
   std::vector<Mat<D>> axes = {};        // of bodies, as the narrow phase sees them
-  std::vector<Manifold<D>> manifolds = {};
-  std::vector<std::uint32_t> root = {};         // of each body's island; static ones have their own
-  std::vector<std::uint32_t> local_place = {};  // of each body in the island that was gathered last
-  std::vector<Touch> touching = {};
-  std::vector<std::uint32_t> touch_of = {};  // of each near pair; kNone: it did not touch
-  bool struck = false;                       // an impact was located
+  bool struck = false;                  // an impact was located
   Outcome outcome = {.impacts = {{}, {}, world.outcome_.impacts.keeps_looks}};
 
   // The phases, in their order: see World::step.
   void find_forces() {
     std::vector<std::uint32_t> released;
-    for (const TimedPush& push : world.pushes_) {
-      if (push.until && *push.until <= world.time_ + kStepSettings.rounding * h)
-        released.push_back(place_of(push.push.body));
-      else
-        pushes.push_back(push);
-    }
-    forces.pushes.clear();
-    for (const TimedPush& push : pushes) forces.pushes.push_back(push.push);
+    std::erase_if(forces.pushes, [&](const Push<D>& push) {
+      const bool ends = push.until && *push.until <= world.time_ + kStepSettings.rounding * h;
+      if (ends) released.push_back(place_of(push.body));
+      return ends;
+    });
     wake(std::move(released));
     // Once a step, by looking ahead or in the first of several tries: they follow from the world as
     // it was before.
@@ -161,7 +130,7 @@ struct World<D>::Step {
     }
     // They are made when their islands are moved, and remembered for the next step.
     constexpr std::uint64_t kEach =
-        sizeof(NearPair) + sizeof(IslandPair<D>) + 2 * (sizeof(Touch) + sizeof(Contact<D>));
+        sizeof(NearPair) + sizeof(IslandPair<D>) + 2 * (sizeof(Touch<D>) + sizeof(Contact<D>));
     require_memory(kEach * near.size(), fmt::format("{} pairs that may touch", near.size()),
                    "take fewer bodies that overlap");
   }
@@ -188,37 +157,6 @@ struct World<D>::Step {
     return true;
   }
 
-  // Static and kinematic bodies do not join what touches them.
-  void make_islands() {
-    DisjointSets sets(moved.size());
-    const auto unite = [&](std::uint32_t a, std::uint32_t b) {
-      if (moved[a].kind == BodyKind::dynamic_body && moved[b].kind == BodyKind::dynamic_body)
-        sets.unite(a, b);
-    };
-    for (const NearPair& pair : near) unite(pair.a, pair.b);
-    // What sleeps is not looked at: it hangs together as when it fell asleep.
-    for (const Touch& touch : world.touching_) {
-      const std::uint32_t a = place_of(touch.record.a), b = place_of(touch.record.b);
-      if (moved[a].asleep && moved[b].asleep) unite(a, b);
-    }
-    for (const auto& entry : world.joints_)
-      unite(place_of(entry.second.a), place_of(entry.second.b));
-    for (const Spring<D>& spring : forces.springs) unite(place_of(spring.a), place_of(spring.b));
-    // What attracts hangs together over any distance.
-    std::optional<std::uint32_t> first;
-    for (std::uint32_t i = 0; forces.gravitation > 0 && i < moved.size(); ++i) {
-      if (moved[i].kind != BodyKind::dynamic_body) continue;
-      if (!first) first = i;
-      unite(*first, i);
-    }
-    root.clear();
-    for (std::size_t i = 0; i < moved.size(); ++i)
-      root.push_back(sets.root(static_cast<std::uint32_t>(i)));
-    world.work_.islands = 0;
-    for (std::size_t i = 0; i < moved.size(); ++i)
-      world.work_.islands += root[i] == i && moved[i].is_pushed();
-  }
-
   void solve_and_integrate() {
     const ContactSolver& solver = contact_solver(world.config_.contacts);
     std::vector<std::uint8_t> solved(moved.size());
@@ -226,16 +164,16 @@ struct World<D>::Step {
     touching.reserve(std::min(near.size(), world.touching_.size() + world.touching_.size() / 8));
     int budget = world.config_.impact_budget;
     const std::uint64_t located = world.work_.impacts_located;
-    for (const Group& group : groups_to_solve(solver.whole_world)) {
+    for (const Group& group : this->groups_to_solve(solver.whole_world)) {
       stop_if_asked();
-      Island<D> island = gather(group);
+      Island<D> island = this->gather(group);
       ++world.work_.islands_solved;
       const IslandMove<D> move{island, world.config_, h, h, world.work_};
       if (solver.whole_world)
         solver.solve.in<D>()(move);
       else
         move_through_impacts(move, solver, budget, outcome.impacts);
-      bring_back(island, group);
+      this->bring_back(island, group);
       for (const std::uint32_t i : group.bodies) solved[i] = moved[i].is_pushed();
     }
     struck = world.work_.impacts_located != located;
@@ -271,72 +209,14 @@ struct World<D>::Step {
     return stayed;
   }
 
-  // An island sleeps when all of it has been slow for a while and something holds it, or drag
-  // brakes it; a body that flies freely sleeps only if it does not move at all. What attracts each
-  // other never rests: something far away may come nearer.
-  void fall_asleep() {
-    world.work_.asleep = 0;
-    if (world.config_.may_sleep && !(forces.gravitation > 0)) {
-      std::vector<std::uint8_t> restless(moved.size()), held(moved.size());
-      for (const Touch& touch : touching)
-        for (const BodyId id : {touch.record.a, touch.record.b}) {
-          held[root[place_of(id)]] = true;
-          const BodyId other = id == touch.record.a ? touch.record.b : touch.record.a;
-          if (moved[place_of(id)].kind != BodyKind::dynamic_body && moved[place_of(id)].stirs())
-            restless[root[place_of(other)]] = true;
-        }
-      for (const auto& entry : world.joints_)
-        for (const BodyId id : {entry.second.a, entry.second.b}) held[root[place_of(id)]] = true;
-      for (std::size_t i = 0; i < moved.size(); ++i) {
-        const Body<D>& body = moved[i];
-        if (!body.is_pushed()) continue;
-        ++world.work_.rest_checks;
-        const bool still = body.velocity == Vec<D>(0.0) && body.angular_momentum == Spin<D>(0.0) &&
-                           increments()[i].kick == Vec<D>(0.0);
-        const bool braked = body.linear_drag > 0 && (body.angular_drag > 0 || !body.may_turn ||
-                                                     body.angular_momentum == Spin<D>(0.0));
-        rested[i] = (held[root[i]] || braked ? is_slow(i) : still) ? rested[i] + h : 0;
-        if (!(rested[i] >= world.config_.sleep_after)) restless[root[i]] = true;
-      }
-      for (std::size_t i = 0; i < moved.size(); ++i) {
-        Body<D>& body = moved[i];
-        if (!body.is_pushed() || restless[root[i]]) continue;
-        body.asleep = true;
-        body.velocity = Vec<D>(0.0);
-        body.angular_momentum = Spin<D>(0.0);
-      }
-    }
-    for (const Body<D>& body : moved) world.work_.asleep += body.asleep;
-  }
-
   // Contacts in order of ids, and what is new about them.
   void update_contact_events() {
-    order_touches();
-    for (const Touch& touch : touching) outcome.contacts.push_back(touch.record);
-
-    const std::vector<Contact<D>>& contacts = outcome.contacts;
-    const std::vector<std::uint8_t> crush =
-        crushing<D>(contacts, [&](BodyId id) -> const Body<D>& { return moved[place_of(id)]; });
-    const int frames = contact_solver(world.config_.contacts).frames_remembered;
-    const std::vector<Told>& old = world.outcome_.told;
-    std::size_t i = 0, j = 0;
-    while (i < old.size() || j < contacts.size()) {
-      stop_if_asked();
-      const bool parted =
-          j == contacts.size() || (i < old.size() && old[i].pair < contacts[j].pair());
-      const bool known = parted || (i < old.size() && old[i].pair == contacts[j].pair());
-      const Told now = {parted ? old[i].pair : contacts[j].pair(),
-                        (parted ? std::min(old[i].frames_left, frames) : frames) - 1};
-      if (parted && now.frames_left < 0)
-        outcome.events.push_back({ContactEvent::Kind::end, now.pair.a, now.pair.b});
-      else
-        outcome.told.push_back(now);
-      if (!parted)
-        outcome.events.push_back({known ? ContactEvent::Kind::stay : ContactEvent::Kind::begin,
-                                  now.pair.a, now.pair.b, !crush.empty() && crush[j] != 0});
-      if (known) ++i;
-      if (!parted) ++j;
-    }
+    this->order_touches();
+    for (const Touch<D>& touch : touching) outcome.contacts.push_back(touch.record);
+    outcome.told = world.outcome_.told;
+    outcome.events = tell_events<D>(
+        outcome.contacts, contact_solver(world.config_.contacts).frames_remembered,
+        [&](BodyId id) -> const Body<D>& { return moved[place_of(id)]; }, outcome.told);
   }
 
   void commit() {
@@ -346,17 +226,18 @@ struct World<D>::Step {
         world.work_.asleep > 0 ||
         std::ranges::any_of(world.rested_, [](double seconds) { return seconds > 0; });
     for (std::size_t i = 0; i < world.bodies_.size(); ++i)
-      world.islands_[i] =
-          world.bodies_[i].kind == BodyKind::dynamic_body ? world.bodies_[root[i]].id : kNoIsland;
+      world.islands_[i] = world.bodies_[i].is_dynamic() ? world.bodies_[root[i]].id : kNoIsland;
     world.joint_memories_ = std::move(joint_memories);
-    world.pushes_ = std::move(pushes);
     world.forces_.pushes = std::move(forces.pushes);
     world.touching_ = std::move(touching);
     world.outcome_ = std::move(outcome);
     world.ahead_.reset();
     world.time_ += h;
-    ++world.work_.steps;
-    world.work_.narrow_pairs += narrow_pairs;
+    WorldWork& work = world.work_;
+    ++work.steps;
+    work.narrow_pairs += narrow_pairs;
+    work.constraint_rows =
+        work.normal_rows + work.friction_rows + work.joint_rows + work.direct_rows;
   }
 
   // Over the whole step, if nothing touches.
@@ -386,22 +267,6 @@ struct World<D>::Step {
     return collides() && world.config_.continuous &&
            !contact_solver(world.config_.contacts).whole_world;
   }
-  std::uint32_t place_of(BodyId id) const { return static_cast<std::uint32_t>(world.index_of(id)); }
-
-  // Slow, and slow for another second if it is accelerated as in this step: a pendulum at its
-  // turning point is not at rest.
-  bool is_slow(std::size_t place) const {
-    const Body<D>& body = moved[place];
-    const Body<D>& before = world.bodies_[place];
-    const double gained = glm::length(body.velocity - before.velocity) / h;
-    const Spin<D> spin = angular_velocity(body), spin_before = angular_velocity(before);
-    const Spin<D> turned_faster = spin - spin_before;
-    const double spun = std::sqrt(dot(turned_faster, turned_faster)) / h;
-    // What is pushed out of another one moves, too, though it has no velocity.
-    const double way = glm::length(body.position - before.position) / h;
-    return std::max(glm::length(body.velocity), way) + gained <= world.config_.sleep_speed &&
-           std::sqrt(dot(spin, spin)) + spun <= world.config_.sleep_spin;
-  }
 
   // Whether anything flies, or may be met, where it would fly: not if joints hold all that moves.
   bool flies_anywhere() const {
@@ -410,7 +275,7 @@ struct World<D>::Step {
     for (const auto& entry : world.joints_)
       for (const BodyId id : {entry.second.a, entry.second.b}) held[place_of(id)] = true;
     for (std::size_t i = 0; i < moved.size(); ++i)
-      if (moved[i].kind == BodyKind::dynamic_body && !held[i]) return true;
+      if (moved[i].is_dynamic() && !held[i]) return true;
     return false;
   }
 
@@ -451,7 +316,7 @@ struct World<D>::Step {
     found.b = place_of(pair.b);
     const Body<D>& a = moved[found.a];
     const Body<D>& b = moved[found.b];
-    if (a.kind != BodyKind::dynamic_body && b.kind != BodyKind::dynamic_body) return std::nullopt;
+    if (!a.is_dynamic() && !b.is_dynamic()) return std::nullopt;
     const double way =
         glm::length(velocity_of(b) - velocity_of(a)) * h + turning_way(a, h) + turning_way(b, h);
     // An impact with a third body may turn either of them towards the other.
@@ -475,161 +340,8 @@ struct World<D>::Step {
     return found;
   }
 
-  IslandPair<D> island_pair(const NearPair& from) const {
-    IslandPair<D> pair;
-    pair.rows.a = from.a;
-    pair.rows.b = from.b;
-    pair.rows.restitution = from.restitution;
-    pair.rows.friction = from.friction;
-    pair.reach = from.reach;
-    pair.located = from.located;
-    pair.pressed = !from.located;
-    pair.record.a = pair.memory.a = moved[from.a].id;
-    pair.record.b = pair.memory.b = moved[from.b].id;
-    if (from.manifold != kNone) pair.seen = &manifolds[from.manifold];
-    if (from.touch != nullptr) {
-      pair.remembered = from.touch->seconds > 0;
-      pair.memory = from.touch->memory;
-      pair.seconds = from.touch->seconds;
-    }
-    return pair;
-  }
-
   void wake(std::vector<std::uint32_t> places) {
     wake_together<D>(moved, rested, std::move(places), world.links(), Disturbed::sleepers);
-  }
-
-  // Which bodies, pairs and joints the solver is given together: those of each island, or of the
-  // whole world. What neither touches nor is joined is in none of them, but flies.
-  std::vector<Group> groups_to_solve(bool whole_world) const {
-    const auto dynamic = [&](std::uint32_t i) { return moved[i].kind == BodyKind::dynamic_body; };
-    const auto own = [&](std::uint32_t i) { return whole_world ? 0 : root[i]; };
-    const auto owner = [&](std::uint32_t a, std::uint32_t b) { return own(dynamic(a) ? a : b); };
-    const auto places = [&](const auto& tie) {
-      return std::pair(place_of(tie.a), place_of(tie.b));
-    };
-    // Of each root the number of its group, if pairs or joints are to be solved in it.
-    std::vector<std::uint32_t> number(moved.size(), kNone);
-    for (const NearPair& pair : near) number[owner(pair.a, pair.b)] = 0;
-    for (const auto& [id, joint] : world.joints_) number[std::apply(owner, places(joint))] = 0;
-    std::vector<Group> groups;
-    for (std::uint32_t& n : number) {
-      if (n == kNone) continue;
-      n = static_cast<std::uint32_t>(groups.size());
-      groups.emplace_back();
-    }
-    const auto add = [&](std::uint32_t to, auto list, auto what) {
-      if (number[to] != kNone) (groups[number[to]].*list).push_back(what);
-    };
-    for (std::size_t i = 0; i < near.size(); ++i)
-      add(owner(near[i].a, near[i].b), &Group::pairs, i);
-    for (std::size_t i = 0; i < world.joints_.size(); ++i)
-      add(std::apply(owner, places(world.joints_[i].second)), &Group::joints, i);
-    for (std::size_t i = 0; i < forces.springs.size(); ++i) {
-      const auto [a, b] = places(forces.springs[i]);
-      if (whole_world || dynamic(a) || dynamic(b)) add(owner(a, b), &Group::springs, i);
-    }
-    for (std::size_t i = 0; i < forces.pushes.size(); ++i) {
-      const std::uint32_t pushed = place_of(forces.pushes[i].body);
-      if (whole_world || dynamic(pushed)) add(own(pushed), &Group::pushes, i);
-    }
-    for (std::uint32_t i = 0; i < moved.size(); ++i)
-      if (whole_world || dynamic(i)) add(own(i), &Group::bodies, i);
-    std::erase_if(groups, [&](const Group& group) {
-      return std::ranges::all_of(group.bodies, [&](std::uint32_t i) { return moved[i].asleep; });
-    });
-    return groups;
-  }
-
-  Island<D> gather(const Group& group) {
-    Island<D> island;
-    std::vector<std::uint32_t> others;  // static bodies, and ends of springs
-    const auto add = [&](BodyId id) { others.push_back(place_of(id)); };
-    for (const std::size_t i : group.pairs)
-      for (const std::uint32_t place : {near[i].a, near[i].b})
-        if (moved[place].kind != BodyKind::dynamic_body) others.push_back(place);
-    for (const std::size_t i : group.joints) {
-      add(world.joints_[i].second.a);
-      add(world.joints_[i].second.b);
-    }
-    island.forces.gravity = forces.gravity;
-    island.forces.gravitation = forces.gravitation;
-    if (forces.gravitation > 0)
-      for (const Body<D>& body : moved) add(body.id);
-    for (const std::size_t i : group.springs) {
-      const Spring<D>& spring = forces.springs[i];
-      island.forces.springs.push_back(spring);
-      add(spring.a);
-      add(spring.b);
-    }
-    for (const std::size_t i : group.pushes) island.forces.pushes.push_back(forces.pushes[i]);
-    // Once each, in their order.
-    std::ranges::sort(others);
-    others.erase(std::unique(others.begin(), others.end()), others.end());
-    island.places.reserve(group.bodies.size() + others.size());
-    std::ranges::set_union(group.bodies, others, std::back_inserter(island.places));
-    for (const std::uint32_t place : island.places) island.bodies.push_back(moved[place]);
-
-    local_place.resize(moved.size());
-    for (std::uint32_t i = 0; i < island.places.size(); ++i) local_place[island.places[i]] = i;
-    const auto local = [&](std::uint32_t place) { return local_place[place]; };
-    island.pairs.reserve(group.pairs.size());
-    for (const std::size_t i : group.pairs) {
-      stop_if_asked();
-      island.pairs.push_back(island_pair(near[i]));
-      ContactRows<D>& rows = island.pairs.back().rows;
-      rows.a = local(rows.a);
-      rows.b = local(rows.b);
-    }
-    for (const std::size_t i : group.joints) {
-      JointRows<D> rows{.joint = world.joints_[i].second, .place = static_cast<std::uint32_t>(i)};
-      rows.a = local(place_of(rows.joint.a));
-      rows.b = local(place_of(rows.joint.b));
-      const JointMemory& memory = world.joint_memories_[i];
-      rows.seconds = memory.seconds;
-      rows.backoff = memory.backoff;
-      if (memory.seconds > 0) rows.impulse = memory.impulse;
-      island.joints.push_back(rows);
-    }
-    return island;
-  }
-
-  void bring_back(Island<D>& island, const Group& group) {
-    for (std::size_t i = 0; i < island.places.size(); ++i)
-      if (island.bodies[i].kind == BodyKind::dynamic_body)
-        moved[island.places[i]] = std::move(island.bodies[i]);
-    for (const JointRows<D>& rows : island.joints)
-      joint_memories[rows.place] = {rows.impulse, island.joint_seconds, rows.backoff};
-    for (std::size_t i = 0; i < island.pairs.size(); ++i) {
-      stop_if_asked();
-      const IslandPair<D>& pair = island.pairs[i];
-      if (!pair.touched) continue;
-      touch_of[group.pairs[i]] = static_cast<std::uint32_t>(touching.size());
-      touching.push_back({pair.record, pair.memory, pair.remembered ? pair.seconds : 0});
-    }
-  }
-
-  // In order of ids, as the near pairs are, with those of bodies that slept through.
-  void order_touches() {
-    std::vector<Touch> slept, ordered;
-    const auto rests = [&](BodyId id) {
-      return !world.bodies_[place_of(id)].stirs() && !moved[place_of(id)].stirs();
-    };
-    for (const Touch& touch : world.touching_)
-      if (rests(touch.record.a) && rests(touch.record.b)) slept.push_back(touch);
-    ordered.reserve(touching.size() + slept.size());
-    auto next = slept.begin();
-    for (std::size_t i = 0; i < near.size(); ++i) {
-      stop_if_asked();
-      if (touch_of[i] == kNone) continue;
-      Touch& touch = touching[touch_of[i]];
-      while (next != slept.end() && next->record.pair() < touch.record.pair())
-        ordered.push_back(std::move(*next++));
-      if (next != slept.end() && next->record.pair() == touch.record.pair()) ++next;
-      ordered.push_back(std::move(touch));
-    }
-    ordered.insert(ordered.end(), next, slept.end());
-    touching = std::move(ordered);
   }
 };
 
@@ -648,7 +360,7 @@ void World<D>::step(double h) {
   std::vector<double> reach;
   try {
     for (int tries = 1;; ++tries) {
-      Step step{*this, h, std::move(reach)};
+      Step step{{*this, h}, std::move(reach)};
       step.find_forces();  // how all would fly on, and so how far each may come
       do {
         step.refresh_boxes();
@@ -661,7 +373,7 @@ void World<D>::step(double h) {
       // An impact may send a body farther than it was looked for. Then the step is made anew,
       // looking farther.
       if (tries == kStepSettings.most_tries || step.stayed_within_reach()) {
-        step.fall_asleep();
+        step.fall_asleep(step.increments());
         step.update_contact_events();
         step.commit();
         return;
@@ -695,7 +407,7 @@ void World<D>::store(std::span<const BodyId> ids, double h,
 template <int D>
 void World<D>::look_ahead(double h, const typename BroadPhase<D>::Watch& watch) {
   BroadPhase<D>& broad_phase = structure();
-  Step step{*this, h, {}};
+  Step step{{*this, h}, {}};
   step.reach.resize(bodies_.size());
   if (config_.contacts == ContactMethod::none)
     return broad_phase.build(step.enlarged_boxes(), watch);

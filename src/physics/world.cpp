@@ -58,27 +58,6 @@ Spin<3> momentum_for(const Body<3>& body, const Vec<3>& spin) {
   return r * l;
 }
 
-template <int D>
-void check_spring(const Spring<D>& spring, const std::string& who) {
-  if (spring.a == spring.b)
-    throw Refused(fmt::format("{}: both ends are on body {}", who, spring.a));
-  require_finite(spring.at_a, who, "at_a");
-  require_finite(spring.at_b, who, "at_b");
-  require_not_negative(spring.rest_length, who, "rest_length");
-  require_not_negative(spring.stiffness, who, "stiffness");
-  require_not_negative(spring.damping, who, "damping");
-}
-
-template <int D>
-void check_same_integrator(const Body<D>& a, const Body<D>& b, const WorldConfig<D>& config) {
-  const auto dynamic = BodyKind::dynamic_body;
-  const Integrator of_a = a.integrator.value_or(config.integrator);
-  const Integrator of_b = b.integrator.value_or(config.integrator);
-  if (a.kind != dynamic || b.kind != dynamic || of_a == of_b) return;
-  throw Refused(fmt::format("spring between '{}' and '{}': one is moved by {}, the other by {}",
-                            a.name, b.name, to_string(of_a), to_string(of_b)));
-}
-
 void add_to(Hash& hash, double value) { hash.add(value); }
 template <int D>
 void add_to(Hash& hash, const glm::vec<D, double>& value) {
@@ -110,7 +89,7 @@ template <int D>
 BodyId World<D>::add(Body<D> body, const Spin<D>& angular_velocity) {
   check_body(body);
   derive_mass(body);
-  if (body.kind != BodyKind::dynamic_body) body.asleep = false;
+  if (!body.is_dynamic()) body.asleep = false;
   if (body.asleep) {
     body.velocity = Vec<D>(0.0);
     body.angular_momentum = Spin<D>(0.0);
@@ -142,11 +121,9 @@ void World<D>::remove(std::span<const BodyId> ids) {
   for (const Spring<D>& spring : forces_.springs) disturb(spring);
   for (const auto& entry : joints_) disturb(entry.second);
   wake_from(disturbed);
-  erase_where([&](std::size_t i) { return goes(forces_.springs[i]); }, spring_ids_,
-              forces_.springs);
+  std::erase_if(forces_.springs, goes);
   erase_where([&](std::size_t i) { return goes(joints_[i].second); }, joint_memories_, joints_);
-  std::erase_if(pushes_, [&](const TimedPush& push) { return is_gone(push.push.body); });
-  list_pushes();
+  std::erase_if(forces_.pushes, [&](const Push<D>& push) { return is_gone(push.body); });
   forget_contacts_of(gone);
   erase_where([&](std::size_t i) { return is_gone(bodies_[i].id); }, rested_, islands_, bodies_);
   part_islands();
@@ -156,8 +133,7 @@ template <int D>
 const Body<D>* World<D>::find(BodyId id) const {
   if (id < bodies_.size() && bodies_[id].id == id)
     return &bodies_[id];  // as long as none is removed
-  const auto body = std::lower_bound(bodies_.begin(), bodies_.end(), id,
-                                     [](const Body<D>& b, BodyId wanted) { return b.id < wanted; });
+  const auto body = std::ranges::lower_bound(bodies_, id, {}, &Body<D>::id);
   return body != bodies_.end() && body->id == id ? &*body : nullptr;
 }
 
@@ -208,7 +184,7 @@ void World<D>::set_angular_velocity(BodyId id, const Spin<D>& spin) {
 
 template <int D>
 void World<D>::spin(Body<D>& body, const Spin<D>& angular_velocity) {
-  if (body.kind == BodyKind::dynamic_body)
+  if (body.is_dynamic())
     body.angular_momentum = momentum_for(body, angular_velocity);
   else
     body.kinematic_spin = angular_velocity;
@@ -223,7 +199,7 @@ void World<D>::apply_impulse(BodyId id, const Vec<D>& impulse, const Vec<D>& at)
   const std::string who = fmt::format("body '{}'", body.name);
   require_finite<D>(impulse, who, "impulse");
   require_finite<D>(at, who, "point of the impulse");
-  if (body.kind != BodyKind::dynamic_body) return;
+  if (!body.is_dynamic()) return;
   Body<D> struck = body;
   struck.velocity += impulse * body.inverse_mass;
   if (body.inverse_inertia != Spin<D>(0.0))
@@ -270,36 +246,19 @@ void World<D>::part_islands() {
 template <int D>
 void World<D>::forget_contacts_of(std::span<const BodyId> ids) {
   const auto is_of = [&](BodyId id) { return std::ranges::binary_search(ids, id); };
-  std::erase_if(touching_,
-                [&](const Touch& touch) { return is_of(touch.record.a) || is_of(touch.record.b); });
+  std::erase_if(touching_, [&](const Touch<D>& touch) {
+    return is_of(touch.record.a) || is_of(touch.record.b);
+  });
 }
 
 template <int D>
 void World<D>::sleep(BodyId id) {
   Body<D>& body = bodies_[index_of(id)];
-  if (body.kind != BodyKind::dynamic_body) return;
+  if (!body.is_dynamic()) return;
   ahead_.reset();
   may_rest_ = body.asleep = true;
   body.velocity = Vec<D>(0.0);
   body.angular_momentum = Spin<D>(0.0);
-}
-
-template <int D>
-void World<D>::wake(std::span<const BodyId> ids) {
-  for (const BodyId id : ids) index_of(id);
-  wake_from(ids);
-}
-
-template <int D>
-BroadPhase<D>& World<D>::structure() {
-  if (!broad_phase_) broad_phase_.emplace(config_.broad_phase);
-  return *broad_phase_;
-}
-
-template <int D>
-void World<D>::switch_broad_phase(const BroadPhaseConfig<D>& config) {
-  broad_phase_.emplace(config);
-  config_.broad_phase = config;
 }
 
 template <int D>
@@ -320,11 +279,22 @@ template <int D>
 SpringId World<D>::add_spring(const Spring<D>& spring) {
   const Body<D>& a = bodies_[index_of(spring.a)];
   const Body<D>& b = bodies_[index_of(spring.b)];
-  check_spring(spring, fmt::format("spring {}", next_spring_));
-  check_same_integrator(a, b, config_);
+  const std::string who = fmt::format("spring {}", next_spring_);
+  if (spring.a == spring.b)
+    throw Refused(fmt::format("{}: both ends are on body {}", who, spring.a));
+  require_finite<D>(spring.at_a, who, "at_a");
+  require_finite<D>(spring.at_b, who, "at_b");
+  require_not_negative(spring.rest_length, who, "rest_length");
+  require_not_negative(spring.stiffness, who, "stiffness");
+  require_not_negative(spring.damping, who, "damping");
+  const Integrator of_a = a.integrator.value_or(config_.integrator);
+  const Integrator of_b = b.integrator.value_or(config_.integrator);
+  if (a.is_dynamic() && b.is_dynamic() && of_a != of_b)
+    throw Refused(fmt::format("spring between '{}' and '{}': one is moved by {}, the other by {}",
+                              a.name, b.name, to_string(of_a), to_string(of_b)));
   wake_from(std::array{spring.a, spring.b});
   forces_.springs.push_back(spring);
-  spring_ids_.push_back(next_spring_);
+  forces_.springs.back().id = next_spring_;
   return next_spring_++;
 }
 
@@ -334,7 +304,7 @@ JointId World<D>::add_joint(const Joint<D>& joint) {
   const Body<D>& a = bodies_[index_of(joint.a)];
   const Body<D>& b = bodies_[index_of(joint.b)];
   if (joint.a == joint.b) throw Refused(fmt::format("{}: joins a body to itself", who));
-  if (a.kind != BodyKind::dynamic_body && b.kind != BodyKind::dynamic_body)
+  if (!a.is_dynamic() && !b.is_dynamic())
     throw Refused(fmt::format("{}: neither of its bodies can be moved", who));
   require_finite<D>(joint.at_a, who, "at_a");
   require_finite<D>(joint.at_b, who, "at_b");
@@ -348,12 +318,10 @@ JointId World<D>::add_joint(const Joint<D>& joint) {
 
 template <int D>
 void World<D>::remove_spring(SpringId id) {
-  const auto place = std::ranges::find(spring_ids_, id) - spring_ids_.begin();
-  if (place == std::ssize(spring_ids_)) return;
-  const auto spring = forces_.springs.begin() + place;
+  const auto spring = std::ranges::find(forces_.springs, id, &Spring<D>::id);
+  if (spring == forces_.springs.end()) return;
   wake_from(std::array{spring->a, spring->b});
   forces_.springs.erase(spring);
-  spring_ids_.erase(spring_ids_.begin() + place);
   part_islands();
 }
 
@@ -370,7 +338,7 @@ void World<D>::remove_joint(JointId id) {
 template <int D>
 std::vector<Pair> World<D>::links() const {
   std::vector<Pair> all;
-  for (const Touch& touch : touching_) all.push_back(touch.record.pair());
+  for (const Touch<D>& touch : touching_) all.push_back(touch.record.pair());
   for (const Spring<D>& spring : forces_.springs) all.push_back({spring.a, spring.b});
   for (const auto& entry : joints_) all.push_back({entry.second.a, entry.second.b});
   return all;
@@ -388,32 +356,22 @@ void World<D>::push(BodyId id, const Vec<D>& force, const Vec<D>& at,
   if (seconds && !(std::isfinite(*seconds) && *seconds > 0))
     throw Refused(fmt::format("{}: a push of {} seconds is not allowed", who, *seconds));
   wake_from(id);
-  TimedPush push{{id, arm, force}, std::nullopt};
-  if (seconds) push.until = time_ + *seconds;
-  pushes_.push_back(push);
-  list_pushes();
-}
-
-template <int D>
-void World<D>::list_pushes() {
-  forces_.pushes.clear();
-  for (const TimedPush& push : pushes_) forces_.pushes.push_back(push.push);
+  forces_.pushes.push_back({id, arm, force});
+  if (seconds) forces_.pushes.back().until = time_ + *seconds;
 }
 
 template <int D>
 void World<D>::clear_pushes() {
   std::vector<BodyId> pushed;
-  for (const TimedPush& push : pushes_) pushed.push_back(push.push.body);
+  for (const Push<D>& push : forces_.pushes) pushed.push_back(push.body);
   wake_from(pushed);
-  pushes_.clear();
-  list_pushes();
+  forces_.pushes.clear();
 }
 
 template <int D>
 void World<D>::clear_pushes(BodyId id) {
   if (find(id) != nullptr) wake_from(id);
-  std::erase_if(pushes_, [&](const TimedPush& push) { return push.push.body == id; });
-  list_pushes();
+  std::erase_if(forces_.pushes, [&](const Push<D>& push) { return push.body == id; });
 }
 
 template <int D>
@@ -447,7 +405,7 @@ std::uint64_t World<D>::hash() const {
     hash.add(std::uint64_t{joints_[i].first});
     add_to(hash, joint_memories_[i].impulse);
   }
-  for (const Touch& touch : touching_) {
+  for (const Touch<D>& touch : touching_) {
     hash.add(std::uint64_t{touch.record.a}).add(std::uint64_t{touch.record.b});
     add_to(hash, touch.memory);
   }

@@ -81,11 +81,17 @@ class World {
   // A sleeping body stands still and is skipped until something wakes it. Only dynamic bodies can
   // sleep; for others nothing happens. `wake` wakes all that touch or hang on them, too.
   void sleep(BodyId id);
-  void wake(std::span<const BodyId> ids);
+  void wake(std::span<const BodyId> ids) {
+    for (const BodyId id : ids) index_of(id);
+    wake_from(ids);
+  }
   void wake(BodyId id) { wake(std::span(&id, 1)); }
 
   // Goes on with another broad phase; the trajectory is the same, bit for bit.
-  void switch_broad_phase(const BroadPhaseConfig<D>& config);
+  void switch_broad_phase(const BroadPhaseConfig<D>& config) {
+    broad_phase_.emplace(config);
+    config_.broad_phase = config;
+  }
   // Goes on with another way to part bodies. Whether they touch at all is settled when the world is
   // made: throws Refused if either method, the old or the new, is `none`, and for a number that is
   // out of its range. What presses goes on pressing: the next step begins with the old impulses.
@@ -120,12 +126,7 @@ class World {
   // together, or that went on sleeping together. What has left or let go since has parted them.
   // kNoIsland of what only `place` or its own velocity moves, and of what no step has seen yet.
   const std::vector<BodyId>& islands() const { return islands_; }
-  // A pair of which is told that it touches: its begin was an event, its end will be one.
-  struct Told {
-    Pair pair;
-    int frames_left = 0;  // steps without touch before its end is told
-  };
-  const std::vector<Told>& told() const { return outcome_.told; }  // by pair
+  const std::vector<ToldPair>& told() const { return outcome_.told; }  // by pair
   // Its impacts that were located; of the looks by which they were, nothing unless they are kept.
   const ImpactLog<D>& impacts() const { return outcome_.impacts; }
   // From now on the looks of a step are kept, or not. Without, nobody spends time on them.
@@ -139,29 +140,15 @@ class World {
   std::uint64_t hash() const;
 
  private:
-  // What a step remembers of a pair that touched in it.
-  struct Touch {
-    Contact<D> record;   // what the step tells
-    Contact<D> memory;   // impulses of the last sub-step, which the next step begins with
-    double seconds = 0;  // of that sub-step; 0: there was none
-  };
   struct Outcome {  // what a step tells
     std::vector<Contact<D>> contacts = {};
     std::vector<ContactEvent> events = {};
-    std::vector<Told> told = {};  // by pair
+    std::vector<ToldPair> told = {};  // by pair
     std::vector<Pair> pairs = {};
     ImpactLog<D> impacts = {};
   };
-  struct TimedPush {
-    Push<D> push;
-    std::optional<double> until;
-  };
-  struct JointMemory {
-    Vec<D> impulse{0.0};  // of the last sub-step
-    double seconds = 0;   // of that sub-step
-    Backoff backoff = {};
-  };
-  struct Step;  // one step while it is made (step.cpp)
+  struct StepIslands;  // its part that is of islands (step_islands.hpp)
+  struct Step;         // one step while it is made (step.cpp)
   // What looking ahead found out for the next step.
   struct Ahead {
     double h = 0;
@@ -176,25 +163,25 @@ class World {
   void part_islands();
   void forget_contacts_of(std::span<const BodyId> ids);
   static void spin(Body<D>& body, const Spin<D>& angular_velocity);
-  void list_pushes();
-  BroadPhase<D>& structure();  // made when it is first needed
+  BroadPhase<D>& structure() {  // made when it is first needed
+    if (!broad_phase_) broad_phase_.emplace(config_.broad_phase);
+    return *broad_phase_;
+  }
 
   WorldConfig<D> config_;
   std::vector<Body<D>> bodies_;
   std::vector<double> rested_;   // seconds that each body has been slow
   bool may_rest_ = false;        // one of them is above 0, or a body sleeps: there may be who wakes
   std::vector<BodyId> islands_;  // of each body
-  Forces<D> forces_;             // its pushes are those of pushes_
-  std::vector<SpringId> spring_ids_;
-  std::vector<TimedPush> pushes_;
+  Forces<D> forces_;
   std::vector<std::pair<JointId, Joint<D>>> joints_;
-  std::vector<JointMemory> joint_memories_;
+  std::vector<JointMemory<D>> joint_memories_;
   BodyId next_id_ = 0;
   SpringId next_spring_ = 0;
   JointId next_joint_ = 0;
   double time_ = 0;
 
-  std::vector<Touch> touching_;  // by pair: of the last step, and of those that sleep
+  std::vector<Touch<D>> touching_;  // by pair: of the last step, and of those that sleep
   Outcome outcome_;
   std::optional<BroadPhase<D>> broad_phase_;
   std::optional<Ahead> ahead_;  // until anything changes

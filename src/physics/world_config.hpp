@@ -67,29 +67,28 @@ struct WorldCounter {
   std::string_view name;
   std::uint64_t WorldWork::*count;
 };
-inline constexpr std::array kWorldCounters = {
-    WorldCounter{"steps", &WorldWork::steps},
-    WorldCounter{"retries", &WorldWork::retries},
-    WorldCounter{"force_evaluations", &WorldWork::force_evaluations},
-    WorldCounter{"broad_phases", &WorldWork::broad_phases},
-    WorldCounter{"pair_tests", &WorldWork::pair_tests},
-    WorldCounter{"candidate_pairs", &WorldWork::candidate_pairs},
-    WorldCounter{"narrow_pairs", &WorldWork::narrow_pairs},
-    WorldCounter{"narrow_tests", &WorldWork::narrow_tests},
-    WorldCounter{"contact_points", &WorldWork::contact_points},
-    WorldCounter{"islands_solved", &WorldWork::islands_solved},
-    WorldCounter{"sub_steps", &WorldWork::sub_steps},
-    WorldCounter{"constraint_rows", &WorldWork::constraint_rows},
-    WorldCounter{"normal_rows", &WorldWork::normal_rows},
-    WorldCounter{"friction_rows", &WorldWork::friction_rows},
-    WorldCounter{"joint_rows", &WorldWork::joint_rows},
-    WorldCounter{"direct_rows", &WorldWork::direct_rows},
-    WorldCounter{"direct_solves", &WorldWork::direct_solves},
-    WorldCounter{"rotations_integrated", &WorldWork::rotations_integrated},
-    WorldCounter{"impact_looks", &WorldWork::impact_looks},
-    WorldCounter{"impacts_located", &WorldWork::impacts_located},
-    WorldCounter{"rest_checks", &WorldWork::rest_checks},
-};
+inline constexpr auto kWorldCounters =
+    std::to_array<WorldCounter>({{"steps", &WorldWork::steps},
+                                 {"retries", &WorldWork::retries},
+                                 {"force_evaluations", &WorldWork::force_evaluations},
+                                 {"broad_phases", &WorldWork::broad_phases},
+                                 {"pair_tests", &WorldWork::pair_tests},
+                                 {"candidate_pairs", &WorldWork::candidate_pairs},
+                                 {"narrow_pairs", &WorldWork::narrow_pairs},
+                                 {"narrow_tests", &WorldWork::narrow_tests},
+                                 {"contact_points", &WorldWork::contact_points},
+                                 {"islands_solved", &WorldWork::islands_solved},
+                                 {"sub_steps", &WorldWork::sub_steps},
+                                 {"constraint_rows", &WorldWork::constraint_rows},
+                                 {"normal_rows", &WorldWork::normal_rows},
+                                 {"friction_rows", &WorldWork::friction_rows},
+                                 {"joint_rows", &WorldWork::joint_rows},
+                                 {"direct_rows", &WorldWork::direct_rows},
+                                 {"direct_solves", &WorldWork::direct_solves},
+                                 {"rotations_integrated", &WorldWork::rotations_integrated},
+                                 {"impact_looks", &WorldWork::impact_looks},
+                                 {"impacts_located", &WorldWork::impacts_located},
+                                 {"rest_checks", &WorldWork::rest_checks}});
 
 // What was done between two moments of one world; `islands` and `asleep` are those of the later.
 inline WorldWork work_between(const WorldWork& before, WorldWork after) {

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "physics/energy.hpp"
-#include "physics/mass.hpp"
+#include "physics/body.hpp"
+#include "physics/forces.hpp"
 #include "run/watcher.hpp"
 
 namespace lantern::run {

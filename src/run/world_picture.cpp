@@ -7,7 +7,6 @@
 #include <span>
 
 #include "base/stop.hpp"
-#include "physics/energy.hpp"
 #include "physics/forces.hpp"
 #include "physics/joint.hpp"
 

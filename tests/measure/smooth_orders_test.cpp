@@ -11,7 +11,7 @@
 #include "measure/lantern_solver.hpp"
 #include "measure/problems.hpp"
 #include "measure/run.hpp"
-#include "physics/free_rotation.hpp"
+#include "physics/body.hpp"
 
 namespace lantern::measure {
 namespace {

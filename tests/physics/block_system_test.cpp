@@ -1,5 +1,5 @@
 // The sparse solver of the implicit methods: right-hand sides are made from solutions.
-#include "physics/linear/block_system.hpp"
+#include "physics/integrate/block_system.hpp"
 
 #include <gtest/gtest.h>
 

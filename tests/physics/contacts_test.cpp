@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "physics/energy.hpp"
+#include "physics/forces.hpp"
 #include "world_scene.hpp"
 
 namespace lantern::physics {

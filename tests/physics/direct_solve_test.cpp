@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
-#include "physics/linear/envelope_system.hpp"
+#include "physics/contact/solver_body.hpp"
 #include "world_scene.hpp"
 
 namespace lantern::physics {

@@ -7,7 +7,7 @@
 
 #include "base/random.hpp"
 #include "geometry/not_finite.hpp"
-#include "physics/energy.hpp"
+#include "physics/forces.hpp"
 #include "world_scene.hpp"
 
 namespace lantern::physics {

@@ -1,5 +1,3 @@
-#include "physics/free_rotation.hpp"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,7 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
-#include "physics/energy.hpp"
+#include "physics/body.hpp"
+#include "physics/forces.hpp"
 
 namespace lantern::physics {
 namespace {

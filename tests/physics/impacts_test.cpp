@@ -1,5 +1,5 @@
 // Impacts that are located in time, against closed forms.
-#include "physics/impact/impacts.hpp"
+#include "physics/impact/time_of_impact.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
-#include "physics/energy.hpp"
-#include "physics/free_rotation.hpp"
+#include "physics/body.hpp"
+#include "physics/forces.hpp"
 #include "world_scene.hpp"
 
 namespace lantern::physics {

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "physics/energy.hpp"
+#include "physics/forces.hpp"
 #include "physics/joint.hpp"
 #include "world_scene.hpp"
 

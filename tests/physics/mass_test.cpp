@@ -1,10 +1,9 @@
-#include "physics/mass.hpp"
-
 #include <cmath>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "physics/body.hpp"
 #include "physics/collide_oracle.hpp"
 
 namespace lantern::physics {

@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
-#include "physics/energy.hpp"
-#include "physics/free_rotation.hpp"
+#include "physics/body.hpp"
+#include "physics/forces.hpp"
 #include "physics/world_scene.hpp"
 
 namespace lantern::physics {
@@ -159,12 +159,6 @@ TEST(Methods, OnlyTheTextbookUpdateLosesAngularMomentum) {
     else
       EXPECT_EQ(drift, 0) << to_string(method) << ": nothing acts on the body";
   }
-}
-
-TEST(Methods, NamesOfRotationsAreFoundAgain) {
-  for (const RotationMethod method : kRotations)
-    EXPECT_EQ(rotation_method_named(to_string(method)), method);
-  EXPECT_EQ(rotation_method_named("splitting_3"), std::nullopt);
 }
 
 World<2> pile(ContactMethod contacts) {

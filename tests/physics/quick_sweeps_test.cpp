@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "physics/energy.hpp"
+#include "physics/forces.hpp"
 #include "physics/world.hpp"
 #include "world_scene.hpp"
 

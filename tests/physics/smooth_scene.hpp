@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "physics/energy.hpp"
-#include "physics/free_rotation.hpp"
+#include "physics/body.hpp"
+#include "physics/forces.hpp"
 #include "physics/integrate/integrator.hpp"
 
 namespace lantern::physics {

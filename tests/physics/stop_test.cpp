@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
+#include "physics/contact/solver_body.hpp"
 #include "physics/integrate/implicit_stage.hpp"
-#include "physics/linear/envelope_system.hpp"
 #include "physics/smooth_scene.hpp"
 #include "physics/world_scene.hpp"
 

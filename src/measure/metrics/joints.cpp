@@ -11,7 +11,7 @@
 #include "measure/forms/dormand_prince.hpp"
 #include "measure/forms/linkage.hpp"
 #include "measure/metrics/meters.hpp"
-#include "physics/mass.hpp"
+#include "physics/body.hpp"
 
 namespace lantern::measure {
 

@@ -7,7 +7,7 @@
 
 #include "base/check.hpp"
 #include "base/error.hpp"
-#include "physics/mass.hpp"
+#include "physics/body.hpp"
 
 namespace lantern::measure {
 namespace {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "measure/metrics/reading.hpp"
-#include "physics/mass.hpp"
+#include "physics/body.hpp"
 
 namespace lantern::measure {
 

@@ -81,12 +81,9 @@ struct ContactPoint {
 
 // What one sweep did.
 struct Sweep {
+  WorldWork* work;     // counts the rows that were solved
   double change = 0;   // largest change of an impulse
   double largest = 0;  // largest impulse
-  // How many were solved.
-  std::uint64_t normal_rows = 0;
-  std::uint64_t friction_rows = 0;
-  std::uint64_t joint_rows = 0;
 };
 
 // The contact of two bodies of an island.
@@ -178,7 +175,7 @@ struct ContactRows {
       apply(p, normal * (p.pn - before), body_a, body_b);
       sweep.change = std::max(sweep.change, std::abs(p.pn - before));
       sweep.largest = std::max(sweep.largest, p.pn);
-      ++sweep.normal_rows;
+      ++sweep.work->normal_rows;
     }
     if (friction == 0) return;
     for (ContactPoint<D>& p : points()) {
@@ -192,7 +189,7 @@ struct ContactRows {
       const Vec<D> impulse = p.pt - before;
       apply(p, impulse, body_a, body_b);
       sweep.change = std::max(sweep.change, glm::length(impulse));
-      sweep.friction_rows += D - 1;
+      sweep.work->friction_rows += D - 1;
     }
   }
 
@@ -231,7 +228,7 @@ struct ContactRows {
     for (ContactPoint<D>& p : points()) {
       if (p.inverse_normal_mass == 0) continue;
       const double parting =
-          glm::dot(relative_mean_velocity(body_a, p.arm_a, body_b, p.arm_b), normal);
+          glm::dot(relative_velocity(body_a.mean, p.arm_a, body_b.mean, p.arm_b), normal);
       const double wanted = p.wanted_mean_speed(h);
       const double before = p.correction;
       // Together with the impulse that is there already, it may push but not pull.
@@ -239,15 +236,15 @@ struct ContactRows {
       p.correction = std::max(before + (wanted - parting) / p.inverse_normal_mass, least);
       correct(p, normal * (p.correction - before), body_a, body_b);
       sweep.change = std::max(sweep.change, std::abs(p.correction - before));
-      ++sweep.normal_rows;
+      ++sweep.work->normal_rows;
     }
     for (ContactPoint<D>& p : points()) {
       if (!p.sticks || p.pn == 0 || p.inverse_tangent_mass == 0) continue;
-      const Vec<D> slip = across(relative_mean_velocity(body_a, p.arm_a, body_b, p.arm_b));
+      const Vec<D> slip = across(relative_velocity(body_a.mean, p.arm_a, body_b.mean, p.arm_b));
       const Vec<D> impulse = (p.wanted_slip - slip) / p.inverse_tangent_mass;
       correct(p, impulse, body_a, body_b);
       sweep.change = std::max(sweep.change, glm::length(impulse));
-      sweep.friction_rows += D - 1;
+      sweep.work->friction_rows += D - 1;
     }
   }
 
@@ -327,8 +324,5 @@ struct ContactRows {
     return change > 0 ? std::min(slip * used / change, 1.0) : 0;
   }
 };
-
-extern template struct ContactRows<2>;
-extern template struct ContactRows<3>;
 
 }  // namespace lantern::physics

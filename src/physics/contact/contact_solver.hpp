@@ -1,11 +1,133 @@
-// How bodies that touch are parted. Each solver is a function and a row that says what it is, in
-// one file; comparing two files shows the difference.
+// How bodies that touch are parted: bodies that hang together, while a step moves them, and what
+// moves them. Each solver is a function and a row that says what it is; comparing two shows the
+// difference.
 #pragma once
 
-#include "physics/contact/island.hpp"
-#include "physics/method_list.hpp"
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "physics/body.hpp"
+#include "physics/contact/contact_rows.hpp"
+#include "physics/integrate/integrator.hpp"
+#include "physics/joint/joint_rows.hpp"
+#include "physics/methods.hpp"
 
 namespace lantern::physics {
+
+// The state of a body as constraints see it.
+template <int D>
+SolverBody<D> solver_body_of(const Body<D>& body) {
+  SolverBody<D> solved;
+  solved.velocity = body.moves() ? body.velocity : Vec<D>(0.0);
+  if (body.asleep) solved.velocity = Vec<D>(0.0);
+  if (turns<D>(body.shape) && body.moves()) solved.spin = angular_velocity(body);
+  if (!body.is_pushed()) return solved;
+  solved.inverse_mass = body.inverse_mass;
+  if (body.inverse_inertia != Spin<D>(0.0)) solved.inverse_inertia = world_inverse_inertia(body);
+  return solved;
+}
+
+// Two bodies that may touch during the step.
+template <int D>
+struct IslandPair : Touch<D> {  // what it remembers, and what the step tells
+  ContactRows<D> rows;
+  bool located = false;  // bouncing or fast: their impacts are located in time
+  bool pressed = false;  // solved as a contact; an impact that is located needs no rows
+  int rests = 0;         // how often it was located and too slow to bounce
+  double slow = 0;       // approaches slower than this are no impacts
+  double reach = 0;      // how near they must be to be looked at
+  bool touched = false;
+  const Manifold<D>* seen = nullptr;  // how they lie, within `reach`; null once they have moved
+
+  bool may_press() const { return rows.count > 0; }
+  void record_impulses() {
+    for (std::size_t i = 0; i < rows.points().size(); ++i) {
+      this->record.normal_impulses[i] += rows.room[i].pn;
+      this->record.friction_impulses[i] += rows.room[i].pt;
+    }
+  }
+};
+
+template <int D>
+struct Island {
+  std::vector<Body<D>> bodies;        // by id: those that move together and those that they touch
+  std::vector<std::uint32_t> places;  // of the bodies in the world
+  Forces<D> forces;                   // those that act among them
+  std::vector<IslandPair<D>> pairs;   // by ids
+  std::vector<JointRows<D>> joints;   // by ids
+  // Of the sub-step that the joints' impulses are from; 0: of those that the step before has left,
+  // see JointRows.
+  double joint_seconds = 0;
+
+  // Scratch, kept for its memory.
+  std::vector<Mat<D>> axes;  // of the bodies where they are
+  std::vector<SolverBody<D>> solver_bodies;
+  std::vector<Increment<D>> increments;
+  std::vector<Motion<D>> kicked;  // after the forces, before the constraints
+  JointBlock<D> joint_block;
+
+  void find_axes() {
+    axes.clear();
+    for (const Body<D>& body : bodies) axes.push_back(axes_of(body));
+  }
+  void set_solver_bodies() {
+    find_axes();
+    solver_bodies.clear();
+    for (const Body<D>& body : bodies) solver_bodies.push_back(solver_body_of(body));
+  }
+
+  // The pair's points where its bodies are now, with the impulses of `remembered` scaled; none, and
+  // false, if they are farther apart than `margin`.
+  bool find_points(IslandPair<D>& pair, double margin, const Contact<D>* remembered, double scale,
+                   WorldWork& work) const {
+    const Body<D>& a = bodies[pair.rows.a];
+    const Body<D>& b = bodies[pair.rows.b];
+    pair.rows.count = 0;
+    const Manifold<D>* manifold = std::exchange(pair.seen, nullptr);
+    std::optional<Manifold<D>> made;
+    if (manifold == nullptr || margin != pair.reach) {
+      ++work.narrow_tests;
+      made = collide<D>({a.shape, a.position, a.orientation, axes[pair.rows.a]},
+                        {b.shape, b.position, b.orientation, axes[pair.rows.b]}, margin);
+      if (!made) return false;
+      manifold = &*made;
+    }
+    pair.rows.set_points(*manifold, a, b, axes[pair.rows.a], axes[pair.rows.b], remembered, scale);
+    renew_record(pair.record, *manifold);
+    work.contact_points += pair.rows.points().size();
+    return true;
+  }
+};
+
+// What a contact solver does: it moves the island by `h` of the step's `whole` seconds.
+template <int D>
+struct IslandMove {
+  Island<D>& island;
+  const WorldConfig<D>& config;
+  double h;
+  double whole;
+  WorldWork& work;
+};
+
+// What the bodies' free motion would be: x += h (v + kick) + drift, and so on. Static and kinematic
+// bodies, too. Turned by the body's own method, or by the world's.
+template <int D>
+void fly(Body<D>& body, const Increment<D>& increment, double h, RotationMethod worlds,
+         WorldWork& work) {
+  if (!body.moves() || body.asleep) return;
+  if (increment.kick != Vec<D>(0.0)) body.velocity += increment.kick;
+  body.position += body.velocity * h;
+  if (increment.drift != Vec<D>(0.0)) body.position += increment.drift;
+  body.angular_momentum += increment.twist;
+  const Spin<D> turning = body.kind == BodyKind::kinematic_body
+                              ? body.kinematic_spin
+                              : body.angular_momentum + increment.lag;
+  if (turning == Spin<D>(0.0)) return;
+  if (body.is_dynamic() && body.inverse_inertia == Spin<D>(0.0)) return;
+  turn_freely(body, h, body.rotation.value_or(worlds), increment.lag);
+  ++work.rotations_integrated;
+}
 
 // Moves the island under forces, joints and those of its pairs that are pressed: turns its bodies'
 // state into that at the end, and notes in each pair whether it touched and how hard it pressed.
@@ -27,5 +149,11 @@ const ContactSolver& contact_solver(ContactMethod method);
 // One more solver, which outlives all worlds; before any is made. What scenarios call it is its
 // name.
 ContactMethod add_contact_solver(const ContactSolver& solver);
+
+// Moves the island from impact to impact and on to the end; in between by the solver. At most
+// `budget` impacts are located; it shrinks by those that were. `log` is told of them.
+template <int D>
+void move_through_impacts(const IslandMove<D>& move, const ContactSolver& solver, int& budget,
+                          ImpactLog<D>& log);
 
 }  // namespace lantern::physics

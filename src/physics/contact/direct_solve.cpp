@@ -20,7 +20,7 @@
 
 #include "physics/contact/contact_solver.hpp"
 #include "physics/contact/sub_step.hpp"
-#include "physics/linear/block_system.hpp"
+#include "physics/integrate/block_system.hpp"
 
 namespace lantern::physics {
 namespace {
@@ -52,7 +52,7 @@ class DirectSolve {
     const int most = std::clamp(kDirectSettings.most_solved / pairs, kDirectSettings.fewest_sweeps,
                                 kDirectSettings.most_sweeps);
     bool settled = false;
-    Sweep sweep;
+    Sweep sweep{&step.work};
     for (int i = 0; i < most; ++i) {
       sweep = step.sweep_velocities(i);
       const double enough = settled ? kRowSettings.no_matter : kRowSettings.change;
@@ -86,11 +86,6 @@ class DirectSolve {
     Wrench share{1};
     double gain = 0;  // of impulse, that is found
   };
-  struct Guess {  // of what presses and sticks, before the solve
-    double pn = 0;
-    Vec<D> pt{0.0};
-    bool sticks = false;
-  };
 
   // Impulses for velocities that satisfy the rows that press, applied. False, with nothing changed,
   // if there are none, if it would take too much work, or if no set of rows is found that holds
@@ -111,7 +106,7 @@ class DirectSolve {
         return wanted - glm::dot(u, part.direction);
       });
       if (let_go(island)) continue;
-      apply_rows(rows_, values_, island.solver_bodies);
+      apply_rows(rows_, values_, island.solver_bodies, false);
       for (const RowPart& part : parts_) {
         const Vec<D> impulse = part.direction * part.gain;
         if (part.joint != nullptr)
@@ -137,8 +132,8 @@ class DirectSolve {
     }
     count_direct_solve(rows_.size(), step.work);
     find_gains([&](const RowPart& part) {
-      const Vec<D> u = relative_mean_velocity(island.solver_bodies[part.a], part.arm_a,
-                                              island.solver_bodies[part.b], part.arm_b);
+      const Vec<D> u = relative_velocity(island.solver_bodies[part.a].mean, part.arm_a,
+                                         island.solver_bodies[part.b].mean, part.arm_b);
       const double wanted = part.joint != nullptr ? 0  // see JointRows
                             : part.tangent < 0    ? part.point->wanted_mean_speed(step.h)
                                                : glm::dot(part.point->wanted_slip, part.direction);
@@ -148,7 +143,7 @@ class DirectSolve {
       if (part.point != nullptr && part.tangent < 0 &&
           part.point->correction + part.gain < -part.point->pn)
         return false;
-    correct_rows(rows_, values_, island.solver_bodies);
+    apply_rows(rows_, values_, island.solver_bodies, true);
     for (const RowPart& part : parts_)
       if (part.point != nullptr && part.tangent < 0) part.point->correction += part.gain;
     return true;
@@ -336,19 +331,14 @@ class DirectSolve {
     kept_bodies_ = island.solver_bodies;
     kept_.clear();
     for (const IslandPair<D>& pair : island.pairs)
-      for (const ContactPoint<D>& p : pair.rows.points()) kept_.push_back({p.pn, p.pt, p.sticks});
+      for (const ContactPoint<D>& p : pair.rows.points()) kept_.push_back(p);
   }
 
   void take_guess_back(Island<D>& island) {
     island.solver_bodies = kept_bodies_;
     auto kept = kept_.begin();
     for (IslandPair<D>& pair : island.pairs)
-      for (ContactPoint<D>& p : pair.rows.points()) {
-        p.pn = kept->pn;
-        p.pt = kept->pt;
-        p.sticks = kept->sticks;
-        ++kept;
-      }
+      for (ContactPoint<D>& p : pair.rows.points()) p = *kept++;
   }
 
   std::vector<ConstraintRow<D>> rows_;
@@ -356,7 +346,7 @@ class DirectSolve {
   EnvelopeSystem system_;
   std::vector<double> values_;  // wanted, then impulses
   std::vector<SolverBody<D>> kept_bodies_;
-  std::vector<Guess> kept_;
+  std::vector<ContactPoint<D>> kept_;  // with the guess of what presses and sticks
 };
 
 }  // namespace

@@ -119,13 +119,11 @@ class LecturePass {
     const auto manifold = collide(placed(a), placed(b), 0);
     if (!manifold) return false;
     ++work_.contact_points;
-    ++work_.constraint_rows;
     ++work_.normal_rows;
     const ManifoldPoint<D> point = single_point(*manifold);
     IslandPair<D>& pair = pair_of(a, b);
     pair.touched = true;
-    pair.record.manifold = {};
-    pair.record.manifold.normal = manifold->normal;
+    pair.record.manifold = {.normal = manifold->normal, .room = {}};
     pair.record.manifold.add(point);
     const Vec<3> at = in_space(point.position);
     info.point.localA = at - a.GetConstTransform().GetWorldPosition();

@@ -40,17 +40,18 @@ struct QuickSettings {
 };
 constexpr QuickSettings kQuickSettings;
 
-template <int D, class Motion, class Row>
-inline __attribute__((always_inline)) double speed_along(const Motion& a, const Motion& b,
+template <int D, class Row>
+inline __attribute__((always_inline)) double speed_along(const Motion<D>& a, const Motion<D>& b,
                                                          const Vec<D>& direction, const Row& row) {
   return glm::dot(b.velocity - a.velocity, direction) + dot(row.turn_b, b.spin) -
          dot(row.turn_a, a.spin);
 }
 
-template <int D, class Motion, class Row>
-inline __attribute__((always_inline)) void apply(Motion& a, Motion& b, const Vec<D>& direction,
-                                                 const Row& row, double inverse_mass_a,
-                                                 double inverse_mass_b, double impulse) {
+template <int D, class Row>
+inline __attribute__((always_inline)) void apply(Motion<D>& a, Motion<D>& b,
+                                                 const Vec<D>& direction, const Row& row,
+                                                 double inverse_mass_a, double inverse_mass_b,
+                                                 double impulse) {
   a.velocity -= direction * (impulse * inverse_mass_a);
   b.velocity += direction * (impulse * inverse_mass_b);
   a.spin -= row.gained_a * impulse;
@@ -110,24 +111,20 @@ class QuickSweeps {
     Vec<D> normal{0.0};
     std::array<Vec<D>, kTangents> across;
     std::array<Point, Manifold<D>::kMostPoints> room;
-  };
-  struct Motion {
-    Vec<D> velocity{0.0};
-    Spin<D> spin{0.0};
+    std::span<Point> points() { return {room.data(), static_cast<std::size_t>(count)}; }
   };
   struct Moving {
-    Motion real, pushed;
-    Motion old, way;  // of `real`
+    Motion<D> real, pushed = {};
+    Motion<D> old = {}, way = {};  // of `real`
   };
 
   void gather(const SubStep<D>& step) {
     const Island<D>& island = step.island;
     bodies_.clear();
-    for (const SolverBody<D>& body : island.solver_bodies)
-      bodies_.push_back({{body.velocity, body.spin}, {}, {}, {}});
+    for (const SolverBody<D>& body : island.solver_bodies) bodies_.push_back({body});
     if (contacts_.empty())
-      contacts_.resize(static_cast<std::size_t>(std::ranges::count_if(
-          island.pairs, [](const IslandPair<D>& pair) { return pair.rows.count > 0; })));
+      contacts_.resize(
+          static_cast<std::size_t>(std::ranges::count_if(island.pairs, &IslandPair<D>::may_press)));
     auto next = contacts_.begin();
     for (const IslandPair<D>& pair : island.pairs) {
       const ContactRows<D>& rows = pair.rows;
@@ -173,26 +170,22 @@ class QuickSweeps {
   // Returns the largest change of a relative speed.
   double sweep(WorldWork& work) {
     double largest = 0;
-    Sweep done;
     for (Contact& contact : contacts_) {
       stop_if_asked();
       Moving &a = bodies_[contact.a], &b = bodies_[contact.b];
-      for (int k = 0; k < contact.count; ++k) {
-        Point& point = contact.room[static_cast<std::size_t>(k)];
+      for (Point& point : contact.points()) {
         if (point.normal_mass == 0) continue;
         largest = std::max(largest, solve_normal(contact, point, a, b) / point.normal_mass);
-        ++done.normal_rows;
+        ++work.normal_rows;
       }
       if (contact.friction == 0) continue;
-      for (int k = 0; k < contact.count; ++k) {
-        Point& point = contact.room[static_cast<std::size_t>(k)];
+      for (Point& point : contact.points()) {
         if (point.tangent_mass == 0 || (point.pn == 0 && point.pt == decltype(point.pt){}))
           continue;
         largest = std::max(largest, solve_friction(contact, point, a, b) / point.tangent_mass);
-        done.friction_rows += kTangents;
+        work.friction_rows += kTangents;
       }
     }
-    count(done, work);
     return largest;
   }
 
@@ -203,8 +196,7 @@ class QuickSweeps {
   void begin_sweep() {
     for (Moving& body : bodies_) body.old = body.real;
     for (Contact& contact : contacts_)
-      for (int k = 0; k < contact.count; ++k) {
-        Point& point = contact.room[static_cast<std::size_t>(k)];
+      for (Point& point : contact.points()) {
         point.old_pn = point.pn;
         point.old_pt = point.pt;
       }
@@ -212,9 +204,8 @@ class QuickSweeps {
 
   void go_on_along_the_way() {
     double squared = 0;
-    for (const Contact& contact : contacts_)
-      for (int k = 0; k < contact.count; ++k) {
-        const Point& p = contact.room[static_cast<std::size_t>(k)];
+    for (Contact& contact : contacts_)
+      for (const Point& p : contact.points()) {
         squared += (p.pn - p.old_pn) * (p.pn - p.old_pn);
         for (std::size_t t = 0; t < kTangents; ++t)
           squared += (p.pt[t] - p.old_pt[t]) * (p.pt[t] - p.old_pt[t]);
@@ -224,8 +215,7 @@ class QuickSweeps {
     const bool again = more > 1;  // it got no better
     const double beta = again ? 0 : more;
     for (Contact& contact : contacts_)
-      for (int k = 0; k < contact.count; ++k) {
-        Point& p = contact.room[static_cast<std::size_t>(k)];
+      for (Point& p : contact.points()) {
         const double moved = p.pn - p.old_pn;
         p.pn += beta * p.way_pn;
         p.way_pn = again ? 0 : beta * p.way_pn + moved;
@@ -236,7 +226,8 @@ class QuickSweeps {
         }
       }
     for (Moving& body : bodies_) {
-      const Motion gained{body.real.velocity - body.old.velocity, body.real.spin - body.old.spin};
+      const Motion<D> gained{body.real.velocity - body.old.velocity,
+                             body.real.spin - body.old.spin};
       body.real.velocity += beta * body.way.velocity;
       body.real.spin += beta * body.way.spin;
       body.way.velocity = again ? Vec<D>(0.0) : beta * body.way.velocity + gained.velocity;
@@ -247,8 +238,7 @@ class QuickSweeps {
   void bring_back(SubStep<D>& step) {
     Island<D>& island = step.island;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      island.solver_bodies[i].velocity = bodies_[i].real.velocity;
-      island.solver_bodies[i].spin = bodies_[i].real.spin;
+      static_cast<Motion<D>&>(island.solver_bodies[i]) = bodies_[i].real;
       island.solver_bodies[i].twist = Spin<D>(0.0);
     }
     auto contact = contacts_.begin();
@@ -275,8 +265,8 @@ class QuickSweeps {
     step.do_no_work();
     step.find_mean_velocities();
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
-      island.solver_bodies[i].mean_velocity += bodies_[i].pushed.velocity;
-      island.solver_bodies[i].mean_spin += bodies_[i].pushed.spin;
+      island.solver_bodies[i].mean.velocity += bodies_[i].pushed.velocity;
+      island.solver_bodies[i].mean.spin += bodies_[i].pushed.spin;
     }
   }
 

@@ -5,62 +5,49 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <vector>
 
+#include "base/stop.hpp"
 #include "physics/body.hpp"
-#include "physics/linear/envelope_system.hpp"
 #include "physics/world_config.hpp"
 
 namespace lantern::physics {
 
 template <int D>
-struct SolverBody {
-  double inverse_mass = 0;
-  Inertia<D> inverse_inertia{0.0};
+struct Motion {
   Vec<D> velocity{0.0};
   Spin<D> spin{0.0};
+};
+
+template <int D>
+struct SolverBody : Motion<D> {
+  double inverse_mass = 0;
+  Inertia<D> inverse_inertia{0.0};
   Spin<D> twist{0.0};  // angular momentum gained from constraints
-  // How the body really moves over the sub-step: its mean velocities. They differ from the above by
+  // How the body really moves over the sub-step: its mean velocities. They differ from its own by
   // what pushes out penetration, which must not become motion (split impulses).
-  Vec<D> mean_velocity{0.0};
-  Spin<D> mean_spin{0.0};
+  Motion<D> mean;
   Spin<D> lag{0.0};           // of the angular momentum while the body turns, see Increment
   Spin<D> turning_spin{0.0};  // the mean spin that this gives
 
   void apply(const Vec<D>& impulse, const Vec<D>& arm) {
     const Spin<D> turn = cross(arm, impulse);
-    velocity += impulse * inverse_mass;
-    spin += inverse_inertia * turn;
+    this->velocity += impulse * inverse_mass;
+    this->spin += inverse_inertia * turn;
     twist += turn;
   }
-  // The same for an impulse of `size` along `direction`, of which is known how it turns the body.
-  void apply_along(const Vec<D>& direction, const Spin<D>& turn, const Spin<D>& gained,
-                   double size) {
-    velocity += direction * (size * inverse_mass);
-    spin += gained * size;
-    twist += turn * size;
-  }
-  void correct_along(const Vec<D>& direction, const Spin<D>& gained, double size) {
-    mean_velocity += direction * (size * inverse_mass);
-    mean_spin += gained * size;
-  }
   void correct(const Vec<D>& impulse, const Vec<D>& arm) {
-    mean_velocity += impulse * inverse_mass;
-    mean_spin += inverse_inertia * cross(arm, impulse);
+    mean.velocity += impulse * inverse_mass;
+    mean.spin += inverse_inertia * cross(arm, impulse);
   }
 };
 
 template <int D>
-Vec<D> relative_velocity(const SolverBody<D>& a, const Vec<D>& arm_a, const SolverBody<D>& b,
+Vec<D> relative_velocity(const Motion<D>& a, const Vec<D>& arm_a, const Motion<D>& b,
                          const Vec<D>& arm_b) {
   return (b.velocity + cross(b.spin, arm_b)) - (a.velocity + cross(a.spin, arm_a));
-}
-template <int D>
-Vec<D> relative_mean_velocity(const SolverBody<D>& a, const Vec<D>& arm_a, const SolverBody<D>& b,
-                              const Vec<D>& arm_b) {
-  return (b.mean_velocity + cross(b.mean_spin, arm_b)) -
-         (a.mean_velocity + cross(a.mean_spin, arm_a));
 }
 
 template <int D>
@@ -89,6 +76,82 @@ double inverse_effective_mass(const SolverBody<D>& a, const Vec<D>& arm_a, const
   const Spin<D> gained_b = b.inverse_inertia * turn_b;
   return a.inverse_mass + b.inverse_mass + dot(turn_a, gained_a) + dot(turn_b, gained_b);
 }
+
+// Symmetric positive definite linear equations, solved directly by Cholesky factors. Each line of
+// the factor begins where the matrix's does (an envelope: Jennings, "A Compact Storage Scheme",
+// 1966), so that a chain or a stack, numbered from end to end, costs time in proportion to its
+// length.
+class EnvelopeSystem {
+ public:
+  void clear() {
+    first_.clear();
+    start_.clear();
+    entries_.clear();
+    work_ = 0;
+  }
+
+  // Room for so many lines, if they are short.
+  void reserve(std::size_t lines) {
+    constexpr std::size_t kShort = 8;
+    first_.reserve(lines);
+    start_.reserve(lines);
+    entries_.reserve(lines * kShort);
+  }
+
+  // The next line has nothing before the column `first`, which is no further than its diagonal.
+  void add_line(std::size_t first) {
+    const std::size_t length = first_.size() - first + 1;
+    first_.push_back(first);
+    start_.push_back(entries_.size());
+    entries_.resize(entries_.size() + length);
+    work_ += static_cast<double>(length) * static_cast<double>(length) / 2;
+  }
+
+  std::size_t lines() const { return first_.size(); }
+  double work() const { return work_; }  // products that a factor takes, about
+
+  // Finds the factor of the matrix whose entries are matrix(line, column), asked for once each, up
+  // to the diagonal. False if it is not positive definite, or if of a line no more than the part
+  // `least` is left by what those before it say.
+  template <class Matrix>
+  bool factor(Matrix&& matrix, double least = 0) {
+    for (std::size_t i = 0; i < lines(); ++i) {
+      stop_if_asked();
+      double* line_i = &entries_[start_[i]];
+      for (std::size_t j = first_[i]; j <= i; ++j) {
+        const double* line_j = &entries_[start_[j]];
+        double value = matrix(i, j);
+        const double whole = value;
+        for (std::size_t k = std::max(first_[i], first_[j]); k < j; ++k)
+          value -= line_i[k - first_[i]] * line_j[k - first_[j]];
+        if (i == j && !(value > least * whole)) return false;
+        line_i[j - first_[i]] = i == j ? std::sqrt(value) : value / line_j[j - first_[j]];
+      }
+    }
+    return true;
+  }
+
+  // Replaces the right-hand side by the solution. After `factor`.
+  void solve(std::vector<double>& values) const {
+    for (std::size_t i = 0; i < lines(); ++i) {
+      stop_if_asked();
+      const double* line = &entries_[start_[i]];
+      double value = values[i];
+      for (std::size_t j = first_[i]; j < i; ++j) value -= line[j - first_[i]] * values[j];
+      values[i] = value / line[i - first_[i]];
+    }
+    for (std::size_t i = lines(); i-- > 0;) {
+      const double* line = &entries_[start_[i]];
+      values[i] /= line[i - first_[i]];
+      for (std::size_t j = first_[i]; j < i; ++j) values[j] -= line[j - first_[i]] * values[i];
+    }
+  }
+
+ private:
+  std::vector<std::size_t> first_, start_;  // of each line: its first column, and where it is kept
+  std::vector<double> entries_;             // of the factor
+  double work_ = 0;
+};
 
 // One condition, as rows are solved all at once. An impulse of 1 pushes b along the direction and
 // turns it by turn_b, and a the other way. Of bodies that cannot be moved (turned) masses (what is
@@ -125,20 +188,18 @@ struct ConstraintRow {
 // alone.
 template <int D>
 void apply_rows(const std::vector<ConstraintRow<D>>& rows, const std::vector<double>& impulses,
-                std::vector<SolverBody<D>>& bodies) {
+                std::vector<SolverBody<D>>& bodies, bool to_mean) {
+  const auto apply = [&](SolverBody<D>& body, const Vec<D>& direction, const Spin<D>& turn,
+                         const Spin<D>& gained, double size) {
+    Motion<D>& motion = to_mean ? body.mean : body;
+    motion.velocity += direction * (size * body.inverse_mass);
+    motion.spin += gained * size;
+    if (!to_mean) body.twist += turn * size;
+  };
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const ConstraintRow<D>& row = rows[i];
-    bodies[row.a].apply_along(row.direction, row.turn_a, row.gained_a, -impulses[i]);
-    bodies[row.b].apply_along(row.direction, row.turn_b, row.gained_b, impulses[i]);
-  }
-}
-template <int D>
-void correct_rows(const std::vector<ConstraintRow<D>>& rows, const std::vector<double>& impulses,
-                  std::vector<SolverBody<D>>& bodies) {
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const ConstraintRow<D>& row = rows[i];
-    bodies[row.a].correct_along(row.direction, row.gained_a, -impulses[i]);
-    bodies[row.b].correct_along(row.direction, row.gained_b, impulses[i]);
+    apply(bodies[row.a], row.direction, row.turn_a, row.gained_a, -impulses[i]);
+    apply(bodies[row.b], row.direction, row.turn_b, row.gained_b, impulses[i]);
   }
 }
 
@@ -184,7 +245,6 @@ bool factor_compliant(const std::vector<ConstraintRow<D>>& rows, double complian
 inline void count_direct_solve(std::size_t rows, WorldWork& work) {
   ++work.direct_solves;
   work.direct_rows += rows;
-  work.constraint_rows += rows;
 }
 
 }  // namespace lantern::physics

@@ -17,8 +17,9 @@
 #include <functional>
 
 #include "base/stop.hpp"
-#include "physics/contact/island.hpp"
-#include "physics/free_rotation.hpp"
+#include "physics/body.hpp"
+#include "physics/contact/contact_solver.hpp"
+#include "physics/joint/constrained_motion.hpp"
 
 namespace lantern::physics {
 
@@ -50,20 +51,14 @@ class SubStep {
     each_joint([&](JointRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b) {
       rows.refresh(island.bodies[rows.a], island.bodies[rows.b], a, b);
     });
-    touches_ = std::any_of(island.pairs.begin(), island.pairs.end(),
-                           [](const IslandPair<D>& pair) { return pair.rows.count > 0; });
+    touches_ = std::ranges::any_of(island.pairs, &IslandPair<D>::may_press);
     joints_at_once_ = island.joint_block.refresh(island.joints, island.solver_bodies);
     for (std::size_t i = 0; i < island.solver_bodies.size(); ++i) {
       SolverBody<D>& body = island.solver_bodies[i];
       body.velocity += island.increments[i].kick;
       body.spin += body.inverse_inertia * island.increments[i].twist;
     }
-    island.kicked.clear();
-    island.kicked_spins.clear();
-    for (const SolverBody<D>& body : island.solver_bodies) {
-      island.kicked.push_back(body.velocity);
-      island.kicked_spins.push_back(body.spin);
-    }
+    island.kicked.assign(island.solver_bodies.begin(), island.solver_bodies.end());
     each_joint([](auto& rows, auto& a, auto& b) { rows.warm_start(a, b); });
     each_pair([](auto& rows, auto& a, auto& b) { rows.warm_start(a, b); });
   }
@@ -71,7 +66,7 @@ class SubStep {
   // Once over all rows, joints last. Every other `turn` goes backwards, so that neither end of a
   // stack, nor side of a box, is preferred.
   Sweep sweep_velocities(int turn) {
-    Sweep sweep;
+    Sweep sweep{&work};
     if (!joints_at_once_)
       each_joint([&](auto& rows, auto& a, auto& b) { rows.solve_velocities(a, b, sweep); });
     for (std::size_t i = 0; i < island.pairs.size(); ++i) {
@@ -83,7 +78,6 @@ class SubStep {
     if (joints_at_once_)
       island.joint_block.solve_velocities(island.joints, island.solver_bodies, sweep, work);
     if (joints_at_once_ && !touches_) sweep.change = 0;
-    count(sweep, work);
     return sweep;
   }
 
@@ -96,12 +90,10 @@ class SubStep {
   // within it.
   void do_no_work() {
     double before = 0, after = 0, wanted = 0;
-    const auto before_of = [&](std::uint32_t i, const Vec<D>& arm) {
-      return island.kicked[i] + cross(island.kicked_spins[i], arm);
-    };
     const auto add = [&](const auto& rows, const auto& point, const Vec<D>& impulse) {
       const SolverBody<D>&a = island.solver_bodies[rows.a], &b = island.solver_bodies[rows.b];
-      before += glm::dot(impulse, before_of(rows.b, point.arm_b) - before_of(rows.a, point.arm_a));
+      before += glm::dot(impulse, relative_velocity(island.kicked[rows.a], point.arm_a,
+                                                    island.kicked[rows.b], point.arm_b));
       after += glm::dot(impulse, relative_velocity(a, point.arm_a, b, point.arm_b));
     };
     for (const JointRows<D>& rows : island.joints) add(rows, rows, rows.impulse);
@@ -116,8 +108,9 @@ class SubStep {
     const double share = std::clamp((wanted - before) / changed, 0.0, 1.0);
     for (std::size_t i = 0; i < island.solver_bodies.size(); ++i) {
       SolverBody<D>& body = island.solver_bodies[i];
-      body.velocity = island.kicked[i] + (body.velocity - island.kicked[i]) * share;
-      body.spin = island.kicked_spins[i] + (body.spin - island.kicked_spins[i]) * share;
+      const auto& [velocity, spin] = island.kicked[i];
+      body.velocity = velocity + (body.velocity - velocity) * share;
+      body.spin = spin + (body.spin - spin) * share;
       body.twist *= share;
     }
     for (JointRows<D>& rows : island.joints) rows.impulse *= share;
@@ -133,11 +126,11 @@ class SubStep {
     for (std::size_t i = 0; i < island.solver_bodies.size(); ++i) {
       SolverBody<D>& body = island.solver_bodies[i];
       const double lag = lag_of(i);
-      const Vec<D> pressed = body.velocity - island.kicked[i];
-      body.mean_velocity = body.velocity + increments[i].drift / h - pressed * lag;
+      const Vec<D> pressed = body.velocity - island.kicked[i].velocity;
+      body.mean.velocity = body.velocity + increments[i].drift / h - pressed * lag;
       body.lag = increments[i].lag;
       if (turns_alike(island.bodies[i])) body.lag -= body.twist * lag;
-      body.mean_spin = body.turning_spin = body.spin + body.inverse_inertia * body.lag;
+      body.mean.spin = body.turning_spin = body.spin + body.inverse_inertia * body.lag;
     }
   }
 
@@ -151,14 +144,13 @@ class SubStep {
   }
 
   Sweep sweep_positions() {
-    Sweep sweep;
+    Sweep sweep{&work};
     if (!joints_at_once_)
       each_joint([&](auto& rows, auto& a, auto& b) { rows.correct_positions(a, b, sweep); });
     each_pair([&](auto& rows, auto& a, auto& b) { rows.correct_positions(a, b, h, sweep); });
     if (joints_at_once_)
       island.joint_block.correct_positions(island.joints, island.solver_bodies, sweep, work);
     if (joints_at_once_ && !touches_) sweep.change = 0;
-    count(sweep, work);
     return sweep;
   }
 
@@ -175,16 +167,16 @@ class SubStep {
       Body<D>& body = island.bodies[i];
       const SolverBody<D>& solved = island.solver_bodies[i];
       const Increment<D>& increment = island.increments[i];
-      if (body.kind != BodyKind::dynamic_body) {
+      if (!body.is_dynamic()) {
         fly(body, increment, h, config.rotation, work);
         continue;
       }
       body.velocity = solved.velocity;
       body.angular_momentum += increment.twist + solved.twist;
-      body.position += solved.mean_velocity * h;
+      body.position += solved.mean.velocity * h;
       if (body.inverse_inertia == Spin<D>(0.0)) continue;
       const Spin<D> turning = body.angular_momentum + solved.lag;
-      const Spin<D> pushed = solved.mean_spin - solved.turning_spin;
+      const Spin<D> pushed = solved.mean.spin - solved.turning_spin;
       if (turning == Spin<D>(0.0) && pushed == Spin<D>(0.0)) continue;
       turn_freely(body, h, body.rotation.value_or(config.rotation), solved.lag);
       if (pushed != Spin<D>(0.0)) turn_with_momentum(body, Spin<D>(pushed * h));
@@ -233,8 +225,137 @@ class SubStep {
   bool touches_ = false;
 };
 
-extern template class SubStep<2>;
-extern template class SubStep<3>;
+// Impulses of what presses go with time, those of a blow do not. A blow in the shortest of
+// sub-steps must not be taken for a force, so a guess is only ever made smaller.
+inline double rescaled(double seconds, double old) { return std::min(seconds / old, 1.0); }
+
+template <int D>
+class SubSteps {
+ public:
+  SubSteps(const IslandMove<D>& move, const std::function<void(SubStep<D>&)>& solve)
+      : move_(move), island_(move.island), solve_(solve) {}
+
+  void run(int sub_steps) {
+    const double h = move_.h, whole = move_.whole;
+    const int count = std::max(1, static_cast<int>(std::ceil(h / whole * sub_steps - 1e-9)));
+    const double seconds = h / count;
+    look_for_contacts(move_.config.warm_start ? seconds : 0);
+    const bool pressed = std::ranges::any_of(island_.pairs, &IslandPair<D>::may_press);
+    if (!pressed && !island_.joints.empty() && move_constrained(move_)) return remember(h);
+    if (!pressed && island_.joints.empty()) {
+      fly_all();
+      return remember(h);
+    }
+    if (!island_.joints.empty()) {
+      scale_joint_impulses(seconds, whole / sub_steps);
+      return swing(seconds);
+    }
+    if (sub_steps > 1) move_.work.sub_steps += static_cast<std::uint64_t>(count);
+    for (int i = 0; i < count; ++i) make(seconds);
+    remember(seconds);
+  }
+
+ private:
+  void make(double seconds) {
+    SubStep<D> part(move_, seconds);
+    part.begin();
+    solve_(part);
+    part.end();
+  }
+
+  void fly_all() {
+    find_increments_if_any<D>(move_.config, island_.bodies, island_.forces, move_.h,
+                              island_.increments, move_.work);
+    for (std::size_t i = 0; i < island_.bodies.size(); ++i)
+      fly(island_.bodies[i], island_.increments[i], move_.h, move_.config.rotation, move_.work);
+  }
+
+  void look_for_contacts(double scale_to) {
+    island_.find_axes();
+    for (IslandPair<D>& pair : island_.pairs) {
+      stop_if_asked();
+      pair.rows.count = 0;
+      if (!pair.pressed) {
+        pair.seen = nullptr;  // it is about to move
+        continue;
+      }
+      const double seconds = pair.seconds;
+      const double scale = seconds > 0 ? rescaled(scale_to, seconds) : 0;
+      island_.find_points(pair, pair.reach, seconds > 0 ? &pair.memory : nullptr, scale,
+                          move_.work);
+    }
+  }
+
+  // Joints begin with impulses of the step's last sub-step, or else with those remembered from the
+  // step before, as if these were from none shorter than this step has.
+  void scale_joint_impulses(double sub_step, double longest) {
+    const bool first = island_.joint_seconds == 0;
+    const double scale =
+        move_.config.warm_start ? rescaled(sub_step, first ? 1 : island_.joint_seconds) : 0;
+    for (JointRows<D>& rows : island_.joints) {
+      if (first && rows.seconds > 0) rows.impulse /= std::max(rows.seconds, longest);
+      rows.impulse *= scale;
+    }
+  }
+
+  // What the next sub-step, perhaps of another step, begins with.
+  void remember(double h) {
+    for (IslandPair<D>& pair : island_.pairs) {
+      stop_if_asked();
+      auto& [record, memory, seconds] = static_cast<Touch<D>&>(pair);
+      seconds = pair.rows.count > 0 ? h : 0;
+      if (pair.rows.count == 0) continue;
+      memory.manifold = record.manifold;
+      for (std::size_t i = 0; i < pair.rows.points().size(); ++i) {
+        memory.normal_impulses[i] = pair.rows.room[i].pn;
+        memory.friction_impulses[i] = pair.rows.room[i].pt;
+      }
+    }
+    island_.joint_seconds = h;
+  }
+
+  // How fast the tension of joints, by impulses of `seconds`, swings what they hold.
+  double swing_of(double seconds) const {
+    double most = 0;
+    for (const JointRows<D>& rows : island_.joints)
+      most = std::max(most, rows.swing_squared(island_.bodies[rows.a], island_.bodies[rows.b],
+                                               glm::length(rows.impulse) / seconds));
+    return std::sqrt(most);
+  }
+
+  // Into how many sub-steps the seconds that are left are cut: so short as is asked for, and as the
+  // joints' swinging needs.
+  double parts_of(double left, double asked, double last) const {
+    const double needed = kJointSettings.most_swing / std::max(swing_of(last), 1e-300);
+    const double seconds =
+        std::max(std::min(asked, needed), kJointSettings.shortest_sub_step * move_.whole);
+    return std::ceil(left / std::min(asked, seconds) - 1e-9);
+  }
+
+  // Where joints hold bodies that others touch.
+  void swing(double asked) {
+    double last = asked;
+    for (double left = move_.h; left > 0;) {
+      const double parts = std::max(1.0, parts_of(left, asked, last));
+      const double seconds = left / parts;
+      for (JointRows<D>& rows : island_.joints) rows.impulse *= rescaled(seconds, last);
+      for (IslandPair<D>& pair : island_.pairs)
+        for (ContactPoint<D>& p : pair.rows.points()) {
+          p.pn *= rescaled(seconds, last);
+          p.pt *= rescaled(seconds, last);
+        }
+      make(seconds);
+      if (seconds < move_.h) ++move_.work.sub_steps;
+      last = seconds;
+      left = parts > 1 ? left - seconds : 0;
+    }
+    remember(last);
+  }
+
+  const IslandMove<D>& move_;
+  Island<D>& island_;
+  const std::function<void(SubStep<D>&)>& solve_;
+};
 
 // Moves the island in parts of which `sub_steps` make a whole step. Contacts are looked at once;
 // `solve` finds the impulses of a part and corrects positions, between its begin and its end. If
@@ -242,7 +363,9 @@ extern template class SubStep<3>;
 // (joint/constrained_motion.hpp).
 template <int D>
 void in_sub_steps(const IslandMove<D>& move, int sub_steps,
-                  const std::function<void(SubStep<D>&)>& solve);
+                  const std::function<void(SubStep<D>&)>& solve) {
+  SubSteps<D>(move, solve).run(sub_steps);
+}
 
 // Solves one part after another, all rows at once (direct_solve.cpp).
 template <int D>

@@ -1,9 +1,9 @@
-#include "physics/impact/impacts.hpp"
-
+// Impacts: bodies that bounce or are fast meet at the very moment, not at the end of a step.
 #include <algorithm>
 #include <cmath>
 
 #include "base/stop.hpp"
+#include "physics/impact/time_of_impact.hpp"
 
 namespace lantern::physics {
 namespace {
@@ -14,6 +14,16 @@ struct Impact {
   IslandPair<D>* pair = nullptr;
 };
 
+// A bounce that would end within a small share of `step` seconds is none. So a ball that bounces
+// lower and lower comes to rest after finitely many impacts. This is the speed of such a bounce.
+template <int D>
+double slowest_impact(const Trajectory<D>& a, const Trajectory<D>& b, double step) {
+  const double pull = 2 * glm::length(b.bend - a.bend) + a.held + b.held;
+  return std::max(
+      pull * step * kImpactSettings.shortest_bounce,
+      kImpactSettings.speed_by_rounding * (glm::length(a.velocity) + glm::length(b.velocity)));
+}
+
 template <int D>
 class ImpactMotion {
  public:
@@ -23,8 +33,7 @@ class ImpactMotion {
 
   void run() {
     double left = move_.h;
-    const bool any_located = std::any_of(island_.pairs.begin(), island_.pairs.end(),
-                                         [](const auto& pair) { return pair.located; });
+    const bool any_located = std::ranges::any_of(island_.pairs, &IslandPair<D>::located);
     while (any_located) {
       find_increments_if_any<D>(move_.config, island_.bodies, island_.forces, left,
                                 island_.increments, move_.work);
@@ -36,7 +45,9 @@ class ImpactMotion {
       }
       if (next->time > 0) solve(next->time);
       left -= next->time;
-      log_.moments.push_back(moment_of(*next->pair, move_.h - left));
+      const ContactRows<D>& met = next->pair->rows;
+      log_.moments.push_back(
+          {move_.h - left, pose(island_.bodies[met.a]), pose(island_.bodies[met.b])});
       const int impacts = resolve_impacts();
       move_.work.impacts_located += static_cast<std::uint64_t>(impacts);
       budget_ -= std::max(impacts, 1);
@@ -64,9 +75,8 @@ class ImpactMotion {
       p.separation = p.gap = 0;
     }
     for (int i = 0; i < kImpactSettings.most_point_sweeps; ++i) {
-      Sweep sweep;
+      Sweep sweep{&move_.work};
       rows.solve_velocities(a, b, 1, sweep);
-      count(sweep, move_.work);
       if (rows.count == 1 && rows.friction == 0) break;
       if (sweep.change <= kImpactSettings.change * sweep.largest) break;
     }
@@ -158,7 +168,7 @@ class ImpactMotion {
   void let_struck_go() {
     const auto struck = [&](std::uint32_t i, double slow) {
       const Vec<D> change = island_.solver_bodies[i].velocity - island_.bodies[i].velocity;
-      return island_.bodies[i].kind == BodyKind::dynamic_body && glm::length(change) > slow;
+      return island_.bodies[i].is_dynamic() && glm::length(change) > slow;
     };
     for (IslandPair<D>& pair : island_.pairs)
       if (pair.rests > 0 && pair.rests < kImpactSettings.most_rests && pair.rows.restitution > 0 &&
@@ -197,7 +207,7 @@ class ImpactMotion {
     }
     if (impacts > 0) let_struck_go();
     for (std::size_t i = 0; i < island_.bodies.size(); ++i) {
-      if (island_.bodies[i].kind != BodyKind::dynamic_body) continue;
+      if (!island_.bodies[i].is_dynamic()) continue;
       island_.bodies[i].velocity = island_.solver_bodies[i].velocity;
       island_.bodies[i].angular_momentum += island_.solver_bodies[i].twist;
     }
@@ -247,15 +257,6 @@ class ImpactMotion {
         first = Impact<D>{met->seconds, &pair};
     }
     return first;
-  }
-
-  // The bodies of the pair are where they meet, `time` seconds after the step began.
-  ImpactMoment<D> moment_of(const IslandPair<D>& pair, double time) const {
-    const auto pose = [&](std::uint32_t place) {
-      const Body<D>& body = island_.bodies[place];
-      return Pose<D>{body.id, body.position, body.orientation};
-    };
-    return {time, pose(pair.rows.a), pose(pair.rows.b)};
   }
 
   const IslandMove<D>& move_;

@@ -6,15 +6,157 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "physics/integrate/implicit_stage.hpp"
 #include "physics/integrate/smooth_system.hpp"
+#include "physics/joint/constrained_motion.hpp"
 
 namespace lantern::physics {
 
-// Each is in the file of its method.
-extern const Integration kExplicitEuler, kSemiImplicitEuler, kVelocityVerlet, kRungeKutta4,
-    kImplicitMidpoint, kImplicitEuler;
-
 namespace {
+
+// --- the methods that look at forces where bodies are already ---
+//
+// Forces are evaluated once a step, or as often as a method says; a step that is too long for the
+// stiffest spring blows up.
+
+// Explicit Euler: everything by what it was at the start of the step. A warning: an undamped spring
+// gains energy at every step, however short.
+template <int D>
+void explicit_euler(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out) {
+  const Pull<D> pull = system.evaluate(system.start());
+  for (const std::size_t i : system.movers()) {
+    const Vec<D> kick = h * pull.acceleration[i];
+    const Spin<D> twist = h * pull.torque[i];
+    out[i] = {kick, -h * kick, twist, -twist};  // flies with the velocity before the kick
+  }
+}
+constexpr Integration kExplicitEuler = {
+    .name = "explicit_euler",
+    .lag = 1,
+    .gains_energy = true,
+    .increments = {explicit_euler<2>, explicit_euler<3>},
+    .with_joints = {constrained_explicit_euler<2>, constrained_explicit_euler<3>}};
+
+// Semi-implicit (symplectic) Euler: forces of the start change the velocity, and the new velocity
+// moves the body. As cheap as explicit Euler, yet the energy of a spring stays bounded.
+template <int D>
+void semi_implicit_euler(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out) {
+  const Pull<D> pull = system.evaluate(system.start());
+  for (const std::size_t i : system.movers())
+    out[i] = {h * pull.acceleration[i], Vec<D>(0.0), h * pull.torque[i], Spin<D>(0.0)};
+}
+constexpr Integration kSemiImplicitEuler = {
+    .name = "semi_implicit_euler", .increments = {semi_implicit_euler<2>, semi_implicit_euler<3>}};
+
+// Velocity Verlet: half a kick, fly, half a kick (Swope and others, J. Chem. Phys. 76, 1982).
+//
+// Drag and damping need the velocity that the second half-kick is about to make. Taken from before
+// it they would cost an order and stability; so that half is implicit in the velocity alone. Forces
+// are linear in it, so one system of linear equations does. A half explicit and a half implicit
+// make damping c shrink a velocity by (1 - ch/2m)/(1 + ch/2m), never by more than 1: the only limit
+// left is that of the springs, omega h < 2.
+template <int D>
+void velocity_verlet(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out) {
+  SmoothState<D> state = system.start();
+  system.kick(state, system.evaluate(state), h / 2);
+  system.fly(state, state, h);
+  SmoothState<D> end = state;
+  if (system.any_damping()) {
+    damped_kick(system, end, h / 2);
+  } else {
+    const Pull<D> pull = system.evaluate(state);
+    for (const std::size_t i : system.movers()) {
+      end.kick[i] += h / 2 * pull.acceleration[i];
+      end.twist[i] += h / 2 * pull.torque[i];
+    }
+  }
+  for (const std::size_t i : system.movers()) {
+    const Vec<D> second = end.kick[i] - state.kick[i];
+    out[i] = {end.kick[i], -h * second, end.twist[i], state.twist[i] - end.twist[i]};
+  }
+}
+constexpr Integration kVelocityVerlet = {
+    .name = "velocity_verlet",
+    .order = 2,
+    .lag = 0.5,
+    .increments = {velocity_verlet<2>, velocity_verlet<3>},
+    .with_joints = {constrained_verlet<2>, constrained_verlet<3>}};
+
+// The classical method of Runge and Kutta (Kutta 1901): four looks at the forces, at the start, two
+// in the middle and one at the end, each from where the one before leads.
+template <int D>
+void runge_kutta_4(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out) {
+  SmoothState<D> state = system.start();
+  // A look from `time` after the start, on the way that the last state and its pull show.
+  const auto look = [&](const Pull<D>& pull, double time) {
+    system.fly(state, state, time);  // with the last velocities, before they are kicked anew
+    system.kick(state, pull, time);
+    return system.evaluate(state);
+  };
+  const Pull<D> one = system.evaluate(state);
+  const Pull<D> two = look(one, h / 2);
+  const Pull<D> three = look(two, h / 2);
+  const Pull<D> four = look(three, h);
+
+  // x1 = x0 + h v0 + h^2/6 (a1 + a2 + a3) and v1 = v0 + h/6 (a1 + 2 a2 + 2 a3 + a4), so that x1 -
+  // x0 - h v1 = -h^2/6 (a2 + a3 + a4).
+  for (const std::size_t i : system.movers()) {
+    const Vec<D> later = two.acceleration[i] + three.acceleration[i] + four.acceleration[i];
+    const Spin<D> later_torque = two.torque[i] + three.torque[i] + four.torque[i];
+    out[i].kick = h / 6 *
+                  (one.acceleration[i] + 2.0 * (two.acceleration[i] + three.acceleration[i]) +
+                   four.acceleration[i]);
+    out[i].drift = -h * h / 6 * later;
+    out[i].twist =
+        h / 6 * (one.torque[i] + 2.0 * (two.torque[i] + three.torque[i]) + four.torque[i]);
+    out[i].lag = -h / 6 * later_torque;
+  }
+}
+constexpr Integration kRungeKutta4 = {
+    .name = "runge_kutta_4",
+    .order = 4,
+    .lag = 0.5,
+    .increments = {runge_kutta_4<2>, runge_kutta_4<3>},
+    .with_joints = {constrained_runge_kutta_4<2>, constrained_runge_kutta_4<3>}};
+
+// --- the methods whose forces are those of a moment that is still to be found ---
+
+// Implicit midpoint: the forces are those halfway between the start and the end of the step. The
+// first half is a step of implicit Euler, the second repeats its kick. Symplectic and stable at any
+// step; the energy of linear springs is kept to rounding (Hairer, Lubich, Wanner, IV.2 and VI.4).
+template <int D>
+void implicit_midpoint(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out) {
+  const SmoothState<D> middle = implicit_stage(system, h / 2, "implicit_midpoint", h);
+  for (const std::size_t i : system.movers()) {
+    const Vec<D> half = middle.kick[i];
+    const Spin<D> half_twist = middle.twist[i];
+    out[i] = {2.0 * half, -h * half, 2.0 * half_twist, -half_twist};
+  }
+}
+constexpr Integration kImplicitMidpoint = {
+    .name = "implicit_midpoint",
+    .order = 2,
+    .lag = 0.5,
+    .implicit = true,
+    .increments = {implicit_midpoint<2>, implicit_midpoint<3>},
+    .with_joints = {constrained_implicit_midpoint<2>, constrained_implicit_midpoint<3>}};
+
+// Implicit Euler: the forces are those at the end of the step. Stable at any step, but it eats the
+// energy of every spring (Baraff and Witkin, "Large steps in cloth simulation", 1998; they stop
+// after one Newton iteration, this does not).
+template <int D>
+void implicit_euler(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out) {
+  const SmoothState<D> end = implicit_stage(system, h, "implicit_euler", h);
+  for (const std::size_t i : system.movers())
+    out[i] = {end.kick[i], Vec<D>(0.0), end.twist[i], Spin<D>(0.0)};
+}
+constexpr Integration kImplicitEuler = {
+    .name = "implicit_euler",
+    .implicit = true,
+    .increments = {implicit_euler<2>, implicit_euler<3>},
+    .with_joints = {constrained_implicit_euler<2>, constrained_implicit_euler<3>}};
+
+// --- all methods ---
 
 MethodList<Integrator, Integration>& methods() {
   static MethodList<Integrator, Integration> list = {&kExplicitEuler,    &kSemiImplicitEuler,
@@ -29,23 +171,12 @@ std::vector<Integrator> integrators_of(const WorldConfig<D>& config,
                                        std::span<const Body<D>> bodies) {
   std::vector<Integrator> used;
   for (const Body<D>& body : bodies) {
-    if (body.kind != BodyKind::dynamic_body) continue;
+    if (!body.is_dynamic()) continue;
     const Integrator its = body.integrator.value_or(config.integrator);
-    if (std::find(used.begin(), used.end(), its) == used.end()) used.push_back(its);
+    if (std::ranges::find(used, its) == used.end()) used.push_back(its);
   }
   if (used.empty()) used.push_back(config.integrator);
   return used;
-}
-
-template <int D>
-void find_increments_in_step(Integrator integrator, std::span<const Body<D>> bodies,
-                             const Forces<D>& forces, double h, std::vector<Increment<D>>& out,
-                             WorldWork& work) {
-  try {
-    find_increments(integrator, bodies, forces, h, out, work.force_evaluations);
-  } catch (const Refused& refused) {
-    throw Refused(fmt::format("{} in step {}", refused.what(), work.steps + 1));
-  }
 }
 
 // Whether there is a force, and a body that it could move.
@@ -53,7 +184,7 @@ template <int D>
 bool any_force(std::span<const Body<D>> bodies, const Forces<D>& forces) {
   const bool on_any = forces.gravity != Vec<D>(0.0) || forces.gravitation > 0 ||
                       !forces.springs.empty() || !forces.pushes.empty();
-  return std::any_of(bodies.begin(), bodies.end(), [&](const Body<D>& body) {
+  return std::ranges::any_of(bodies, [&](const Body<D>& body) {
     if (!body.is_pushed()) return false;
     return on_any || body.linear_drag > 0 || body.angular_drag > 0;
   });
@@ -81,28 +212,29 @@ template <int D>
 void find_increments_if_any(const WorldConfig<D>& config, std::span<const Body<D>> bodies,
                             const Forces<D>& forces, double h, std::vector<Increment<D>>& out,
                             WorldWork& work) {
-  if (!any_force(bodies, forces)) {
-    out.assign(bodies.size(), {});
-    return;
-  }
+  out.assign(bodies.size(), {});
+  if (!any_force(bodies, forces)) return;
+  const auto find = [&](Integrator by, std::span<const Body<D>> of,
+                        std::vector<Increment<D>>& found) {
+    try {
+      find_increments<D>(by, of, forces, h, found, work.force_evaluations);
+    } catch (const Refused& refused) {
+      throw Refused(fmt::format("{} in step {}", refused.what(), work.steps + 1));
+    }
+  };
   const std::vector<Integrator> used = integrators_of(config, bodies);
-  if (used.size() == 1) {
-    find_increments_in_step<D>(used[0], bodies, forces, h, out, work);
-    return;
-  }
+  if (used.size() == 1) return find(used[0], bodies, out);
   // No spring ties bodies of different methods (World::add_spring), so those of one method are all
   // that it needs to know: the others stand still meanwhile, as if they slept.
-  out.assign(bodies.size(), {});
   std::vector<Increment<D>> some;
   for (const Integrator integrator : used) {
     std::vector<Body<D>> its(bodies.begin(), bodies.end());
     for (Body<D>& body : its)
-      if (body.kind == BodyKind::dynamic_body &&
-          body.integrator.value_or(config.integrator) != integrator)
+      if (body.is_dynamic() && body.integrator.value_or(config.integrator) != integrator)
         body.asleep = true;
-    find_increments_in_step<D>(integrator, its, forces, h, some, work);
+    find(integrator, its, some);
     for (std::size_t i = 0; i < its.size(); ++i)
-      if (its[i].kind == BodyKind::dynamic_body && !its[i].asleep) out[i] = some[i];
+      if (its[i].is_dynamic() && !its[i].asleep) out[i] = some[i];
   }
 }
 

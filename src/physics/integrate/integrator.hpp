@@ -4,7 +4,7 @@
 //
 // A method gives each body's increment instead of its new state, so that contacts may change the
 // velocity in between: v += kick; (contacts change v); x += h v + drift. The orientation follows
-// the angular momentum by free rotation (free_rotation.hpp): L += twist; (contacts change L); turn
+// the angular momentum by free rotation (body.hpp): L += twist; (contacts change L); turn
 // freely for h with L + lag. Without the lag the turning is of first order in a changing torque,
 // whatever the method; with it, of the order of the method, but at most 2.
 #pragma once
@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "physics/forces.hpp"
-#include "physics/method_list.hpp"
+#include "physics/methods.hpp"
 #include "physics/world_config.hpp"
 
 namespace lantern::physics {

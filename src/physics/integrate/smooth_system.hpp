@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/stop.hpp"
-#include "physics/free_rotation.hpp"
+#include "physics/body.hpp"
 #include "physics/integrate/integrator.hpp"
 
 namespace lantern::physics {
@@ -52,12 +52,14 @@ class SmoothSystem {
       : bodies_(bodies),
         forces_(forces),
         evaluations_(evaluations),
+        number_(bodies.size()),
         moves_(bodies.size(), 0),
         turns_(bodies.size(), 0) {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       const Body<D>& body = bodies[i];
       if (!body.is_pushed() || !(body.inverse_mass > 0)) continue;
       moves_[i] = 1;
+      number_[i] = movers_.size();
       movers_.push_back(i);
       if (body.linear_drag > 0) any_damping_ = true;
     }
@@ -77,6 +79,7 @@ class SmoothSystem {
 
   // The bodies that forces move: dynamic, awake, not of infinite mass. In their order.
   const std::vector<std::size_t>& movers() const { return movers_; }
+  std::size_t number(std::size_t mover) const { return number_[mover]; }  // among these
   bool moves(std::size_t i) const { return moves_[i] != 0; }
   // Whether any force can turn the body. If not, its torque is not evaluated and is zero.
   bool turns(std::size_t i) const { return turns_[i] != 0; }
@@ -151,12 +154,6 @@ class SmoothSystem {
   // All forces, once. Counts as one evaluation.
   Pull<D> evaluate(const SmoothState<D>& state) {
     Pull<D> pull;
-    evaluate(state, pull);
-    return pull;
-  }
-
-  // The same, into the memory of a pull that there is.
-  void evaluate(const SmoothState<D>& state, Pull<D>& pull) {
     ++evaluations_;
     pull.acceleration.assign(bodies_.size(), Vec<D>(0.0));
     pull.torque.assign(bodies_.size(), Spin<D>(0.0));
@@ -179,6 +176,7 @@ class SmoothSystem {
     });
     for (std::size_t k = 0; k < pushed_.size(); ++k)
       apply(pushed_[k], forces_.pushes[k].at, forces_.pushes[k].force);
+    return pull;
   }
 
   Vec<D> velocity(const SmoothState<D>& state, std::size_t i) const {
@@ -271,7 +269,7 @@ class SmoothSystem {
   std::span<const Body<D>> bodies_;
   const Forces<D>& forces_;
   std::uint64_t& evaluations_;
-  std::vector<std::size_t> movers_;
+  std::vector<std::size_t> movers_, number_;
   std::vector<char> moves_;
   std::vector<char> turns_;
   std::vector<Ends> ends_;
@@ -280,8 +278,5 @@ class SmoothSystem {
   bool any_turns_ = false;
   bool any_damping_ = false;
 };
-
-extern template class SmoothSystem<2>;
-extern template class SmoothSystem<3>;
 
 }  // namespace lantern::physics

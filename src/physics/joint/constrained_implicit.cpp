@@ -2,7 +2,7 @@
 // impulses p of the joints:
 //
 //   A dv - J^T dp = momentum that is missing     A: the matrix of an implicit step
-//   J dv          = velocity that is missing     (motion_matrix.hpp)
+//   J dv          = velocity that is missing     (implicit_stage.hpp)
 //
 // by the Schur complement J A^-1 J^T, which is full. Joints push along their lines at the stage, as
 // springs do there: so a stiff spring beside a rod leaves nothing that would turn it. What their
@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "physics/integrate/motion_matrix.hpp"
+#include "physics/integrate/implicit_stage.hpp"
 #include "physics/joint/constrained_motion.hpp"
 
 namespace lantern::physics {
@@ -32,16 +32,7 @@ class ImplicitStage {
  public:
   using Row = std::array<double, B>;
 
-  ImplicitStage(ConstrainedPart<D>& part, double time)
-      : system_(part.system),
-        joints_(part.joints),
-        state_(part.state),
-        h_(part.h),
-        time_(time),
-        ties_(ties_of(part.joints)),
-        matrix_(system_, LinearSolver::by_size, ties_),
-        number_(system_.bodies().size(), 0) {
-    for (std::size_t n = 0; n < system_.movers().size(); ++n) number_[system_.movers()[n]] = n;
+  ImplicitStage(ConstrainedPart<D>& part, double time) : part_(part), time_(time) {
     for (std::size_t i = 0; i < joints_.rows().size(); ++i) schur_.add_line(0);
   }
 
@@ -110,7 +101,7 @@ class ImplicitStage {
     const auto& row = joints_.rows()[r];
     const auto add_to = [&](std::uint32_t i, const Spin<D>& turn, double by) {
       if (system_.moves(i))
-        add(momenta[number_[i]], row.direction, system_.turns(i) ? turn : Spin<D>(0.0), by);
+        add(momenta[system_.number(i)], row.direction, system_.turns(i) ? turn : Spin<D>(0.0), by);
     };
     add_to(row.a, row.turn_a, -impulse);
     add_to(row.b, row.turn_b, impulse);
@@ -120,7 +111,8 @@ class ImplicitStage {
     const auto& row = joints_.rows()[r];
     const auto of = [&](std::uint32_t i, const Spin<D>& turn) {
       if (!system_.moves(i)) return 0.0;
-      return along(velocities[number_[i]], row.direction, system_.turns(i) ? turn : Spin<D>(0.0));
+      return along(velocities[system_.number(i)], row.direction,
+                   system_.turns(i) ? turn : Spin<D>(0.0));
     };
     return of(row.b, row.turn_b) - of(row.a, row.turn_a);
   }
@@ -245,13 +237,13 @@ class ImplicitStage {
 
   static constexpr double kTolerance = 1e-13;  // of solutions that are found step by step
 
-  SmoothSystem<D>& system_;
-  JointSystem<D>& joints_;
-  SmoothState<D>& state_;
-  double h_, time_;
-  std::vector<Tie<D>> ties_;
-  MotionMatrix<D, B> matrix_;
-  std::vector<std::size_t> number_;  // of a body among the movers
+  ConstrainedPart<D>& part_;
+  SmoothSystem<D>& system_ = part_.system;
+  JointSystem<D>& joints_ = part_.joints;
+  SmoothState<D>& state_ = part_.state;
+  const double h_ = part_.h, time_;
+  std::vector<Tie<D>> ties_ = ties_of(joints_);
+  MotionMatrix<D, B> matrix_{system_, LinearSolver::by_size, ties_};
   EnvelopeSystem schur_;
   std::vector<std::vector<Row>> answers_;  // to an impulse of 1 in each row
   SmoothState<D> end_;

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "physics/energy.hpp"
+#include "physics/forces.hpp"
 
 namespace lantern::physics {
 namespace {
@@ -30,13 +30,7 @@ template <int D>
 class PartMotion {
  public:
   PartMotion(const IslandMove<D>& move, double h)
-      : island_(move.island),
-        config_(move.config),
-        h_(h),
-        work_(move.work),
-        system_(island_.bodies, island_.forces, work_.force_evaluations),
-        joints_(system_, island_.joints, work_),
-        state_(system_.start()) {}
+      : island_(move.island), config_(move.config), h_(h), work_(move.work) {}
 
   // Whether the joints can be solved here at all.
   bool is_suited() {
@@ -133,9 +127,9 @@ class PartMotion {
   const WorldConfig<D>& config_;
   double h_;
   WorldWork& work_;
-  SmoothSystem<D> system_;
-  JointSystem<D> joints_;
-  SmoothState<D> state_;
+  SmoothSystem<D> system_{island_.bodies, island_.forces, work_.force_evaluations};
+  JointSystem<D> joints_{system_, island_.joints, work_};
+  SmoothState<D> state_ = system_.start();
   double gap_ = 0, swing_ = 0;
 };
 
@@ -236,14 +230,7 @@ Vec<3> rotation_rate(const Vec<3>& u, const Vec<3>& spin) {
 template <int D>
 class RungeKutta {
  public:
-  RungeKutta(ConstrainedPart<D>& part, const Tableau& tableau)
-      : system_(part.system),
-        joints_(part.joints),
-        state_(part.state),
-        h_(part.h),
-        tableau_(tableau),
-        slopes_(system_.movers().size()),
-        sums_(system_.movers().size()) {}
+  RungeKutta(ConstrainedPart<D>& part, const Tableau& tableau) : part_(part), tableau_(tableau) {}
 
   bool run() {
     for (int look = 0; look < tableau_.looks; ++look) {
@@ -271,7 +258,7 @@ class RungeKutta {
   };
 
   void find_slopes(double weight) {
-    system_.evaluate(state_, pull_);
+    pull_ = system_.evaluate(state_);
     joints_.hold_accelerations(state_, pull_, weight * h_);
     for (std::size_t n = 0; n < slopes_.size(); ++n) {
       const std::size_t i = system_.movers()[n];
@@ -309,13 +296,14 @@ class RungeKutta {
     }
   }
 
-  SmoothSystem<D>& system_;
-  JointSystem<D>& joints_;
-  SmoothState<D>& state_;
-  double h_;
+  ConstrainedPart<D>& part_;
+  SmoothSystem<D>& system_ = part_.system;
+  JointSystem<D>& joints_ = part_.joints;
+  SmoothState<D>& state_ = part_.state;
+  const double h_ = part_.h;
   const Tableau& tableau_;
   Pull<D> pull_;
-  std::vector<Slope> slopes_, sums_;  // one a mover
+  std::vector<Slope> slopes_{system_.movers().size()}, sums_ = slopes_;  // one a mover
 };
 
 }  // namespace
@@ -362,7 +350,7 @@ bool constrained_verlet(ConstrainedPart<D>& part) {
   joints.look(state);
   if (!joints.factor()) return false;
   if (system.any_damping()) return constrained_damped_kick(part, h / 2);
-  system.evaluate(state, pull);
+  pull = system.evaluate(state);
   for (const std::size_t i : system.movers()) {
     state.kick[i] += h / 2 * pull.acceleration[i];
     state.twist[i] += h / 2 * pull.torque[i];
@@ -371,7 +359,6 @@ bool constrained_verlet(ConstrainedPart<D>& part) {
 }
 
 #define LANTERN_INSTANTIATE(D)                                   \
-  template class JointSystem<D>;                                 \
   template bool move_constrained(const IslandMove<D>&);          \
   template bool constrained_explicit_euler(ConstrainedPart<D>&); \
   template bool constrained_runge_kutta_4(ConstrainedPart<D>&);  \

@@ -1,16 +1,16 @@
 // Two boxes, or a box and a capsule, or capsules whose segments cross.
 //
-// 1. Separating axes (block_searches.cpp): along which direction do the cores overlap least? 2. A
+// 1. Separating axes (block_searches.hpp): along which direction do the cores overlap least? 2. A
 // face contact: the face that looks at the other block is the reference; the other block's
 //    face is clipped against its sides.
 // 3. Cores that are apart where no face looks at the other block: their closest points
-//    (block_searches.cpp).
+//    (block_searches.hpp).
 #include <algorithm>
 #include <array>
 #include <limits>
 #include <vector>
 
-#include "physics/narrow/cores.hpp"
+#include "physics/narrow/block_searches.hpp"
 
 namespace lantern::physics::narrow {
 namespace {
@@ -144,7 +144,7 @@ std::vector<int> widest_four(const Outline<3>& outline,
     double most = 0;
     for (int i = 0; i < outline.count; ++i) {
       const double m = measure(outline[i].point);
-      if (m <= most * (1 + 1e-6) || std::count(chosen.begin(), chosen.end(), i) != 0) continue;
+      if (m <= most * (1 + 1e-6) || std::ranges::count(chosen, i) != 0) continue;
       most = m, best = i;
     }
     if (best >= 0) chosen.push_back(best);
@@ -154,7 +154,7 @@ std::vector<int> widest_four(const Outline<3>& outline,
   const Vec<3> across = glm::cross(normal, outline[chosen.back()].point - first);
   add_best([&](const Vec<3>& p) { return glm::dot(p - first, across); });
   add_best([&](const Vec<3>& p) { return -glm::dot(p - first, across); });
-  std::sort(chosen.begin(), chosen.end());
+  std::ranges::sort(chosen);
   return chosen;
 }
 
@@ -353,7 +353,7 @@ template <int D>
 Contact<D> touch_blocks(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin,
                         NarrowTrace<D>& trace) {
   const double radii = a.radius + b.radius;
-  const SeparatingAxes<D> axes = separating_axes(a, b, margin, trace);
+  const SeparatingAxes<D> axes = AxisSearch<D>(a, b, margin, trace).run();
   if (axes.parted) return std::nullopt;
   const double bound = axes.greatest.separation;
 
@@ -366,7 +366,7 @@ Contact<D> touch_blocks(const PlacedCore<D>& a, const PlacedCore<D>& b, double m
     if (auto contact = contact_if_exact(axes.greatest, a, b, bound, rounding, margin))
       return contact;
 
-  const ClosestFeatures<D> closest = closest_features(a, b, axes.greatest, trace);
+  const ClosestFeatures<D> closest = ClosestSearch<D>(a, b, axes.greatest, trace).run();
   Direction<D> normal = direction_of(closest.points.b - closest.points.a, axes.greatest.normal);
   // Where the axis is as good, it is the better direction: it does not come of small differences.
   // Cores that meet have none but it.

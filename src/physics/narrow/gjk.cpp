@@ -73,10 +73,7 @@ constexpr int kMostSearches = 32;
 class GjkSearch {
  public:
   GjkSearch(const GjkCore& a, const GjkCore& b, const Vec<2>& origin, std::vector<GjkStep>* watch)
-      : a_(a), b_(b), origin_(origin), watch_(watch) {
-    const Vec<2> between = b.center - a.center;
-    size_ = glm::length(between) + a.half.x + a.half.y + b.half.x + b.half.y;
-  }
+      : a_(a), b_(b), origin_(origin), watch_(watch) {}
 
   GjkAnswer run() {
     // The first point is farthest along the way from one centre to the other.
@@ -120,11 +117,11 @@ class GjkSearch {
   }
   SupportPair in_world(const SupportPair& p) const { return {p.a + origin_, p.b + origin_}; }
 
-  const GjkCore& a_;
-  const GjkCore& b_;
+  const GjkCore &a_, &b_;
   Vec<2> origin_;
   std::vector<GjkStep>* watch_;
-  double size_ = 0;
+  const double size_ =
+      glm::length(b_.center - a_.center) + a_.half.x + a_.half.y + b_.half.x + b_.half.y;
 };
 
 }  // namespace

@@ -186,15 +186,13 @@ class BlockSystem {
     }
     for (std::size_t j = 0; j < count; ++j) {
       for (const std::size_t i : linked[j]) columns_[j].push_back({place_[i], Block{}});
-      std::sort(columns_[j].begin(), columns_[j].end());
+      std::ranges::sort(columns_[j]);
     }
     return true;
   }
 
   Block& entry(std::size_t column, std::size_t row) {
-    return std::lower_bound(columns_[column].begin(), columns_[column].end(), row,
-                            [](const auto& e, std::size_t r) { return e.first < r; })
-        ->second;
+    return std::ranges::lower_bound(columns_[column], row, {}, &BlockBelow::first)->second;
   }
 
   // block := block * (transposed factor)^-1

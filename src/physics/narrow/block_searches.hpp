@@ -1,27 +1,63 @@
 // Two searches over blocks: along which direction they overlap least, and where they are closest.
+#pragma once
+
 #include <array>
 #include <limits>
 
 #include "physics/narrow/cores.hpp"
 
 namespace lantern::physics::narrow {
-namespace {
+
+// The parts of the contact of two blocks: cores taken for boxes, capsules for boxes without
+// thickness. First a direction along which they were measured.
+template <int D>
+struct SeparatingAxis {
+  Vec<D> normal{0.0};                         // unit, from a to b
+  double separation = 0;                      // of the cores along it; below 0 they overlap
+  AxisAcross across = AxisAcross::face_of_a;  // never the closest points
+  int axis_a = 0;                             // of a's face or edge
+  int axis_b = 0;                             // of b's face or edge
+};
+
+template <int D>
+struct SeparatingAxes {
+  bool parted = false;         // one axis was enough; the others were not measured
+  SeparatingAxis<D> chosen;    // the one to build the contact on
+  SeparatingAxis<D> greatest;  // the one of the largest separation
+  SeparatingAxis<D> face;      // the best of a face; its normal is 0 if neither block has any
+};
+
+inline constexpr double kAxisBias = 1e-3;
+
+// The smallest half size of both that is not 0; 0 if all are.
+template <int D>
+double smallest_half(const PlacedCore<D>& a, const PlacedCore<D>& b) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const PlacedCore<D>* block : {&a, &b})
+    for (int i = 0; i < D; ++i)
+      if (block->half[i] > 0) least = std::min(least, block->half[i]);
+  return std::isfinite(least) ? least : 0;
+}
 
 // Edges that are nearer to parallel than this (the sine of their angle) have no axis of their own:
 // the product of two unit vectors is rounded by 1e-16, so its direction is good to 1e-10 here. What
 // is left out is an axis that the faces have already tried, but for a turn of 1e-6.
-constexpr double kParallel = 1e-6;
+inline constexpr double kParallel = 1e-6;
 
+// Gottschalk, Lin, Manocha (OBBTree, 1996). If the largest separation is above 0, the cores are at
+// least so far apart. If not, they overlap, and it is the least depth.
+//
+// Where two axes are nearly equal, as for boxes that lie flat on each other, rounding must not
+// choose. So a later kind of axis must be better than an earlier one by kAxisBias of the smallest
+// half size: faces of a, faces of b, edges, sides.
+//
+// It ends at the first axis along which the shapes, radii and all, are further apart than `margin`.
+// Boxes that lie the same way have the same axes, which are measured once.
 template <int D>
 class AxisSearch {
  public:
   AxisSearch(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin, NarrowTrace<D>& trace)
-      : a_(a),
-        b_(b),
-        offset_(b.center - a.center),
-        bias_(kAxisBias * smallest_half(a, b)),
-        margin_(margin),
-        trace_(trace) {}
+      : a_(a), b_(b), margin_(margin), trace_(trace) {}
 
   SeparatingAxes<D> run() {
     found_.parted = !try_all();
@@ -114,10 +150,9 @@ class AxisSearch {
     best_.separation = none;
   }
 
-  const PlacedCore<D>& a_;
-  const PlacedCore<D>& b_;
-  Vec<D> offset_;
-  double bias_;
+  const PlacedCore<D>&a_, &b_;
+  const Vec<D> offset_ = b_.center - a_.center;
+  const double bias_ = kAxisBias * smallest_half(a_, b_);
   SeparatingAxis<D> best_{Vec<D>(0.0), -std::numeric_limits<double>::infinity()};
   SeparatingAxes<D> found_;
   bool any_ = false;
@@ -145,6 +180,15 @@ Vec<D> closest_point(const PlacedCore<D>& block, const Vec<D>& point) {
   return block.world(glm::clamp(block.local(point), -block.half, block.half));
 }
 
+// The point of each core that is closest to the other one, if they are apart, and a name of the
+// features on which they lie. `axis` is one along which they are apart; the better it is, the less
+// work is left.
+template <int D>
+struct ClosestFeatures {
+  PointPair<D> points;
+  std::uint32_t feature = 0;
+};
+
 // Two convex bodies with flat faces are closest in a corner and a point of the other one, or in two
 // edges. They are tried one by one, but for those that lie too far back: if the closest points lie
 // u and v behind the fronts of their blocks along the axis,
@@ -157,12 +201,7 @@ class ClosestSearch {
  public:
   ClosestSearch(const PlacedCore<D>& a, const PlacedCore<D>& b, const SeparatingAxis<D>& axis,
                 NarrowTrace<D>& trace)
-      : a_(a),
-        b_(b),
-        axis_(axis),
-        trace_(trace),
-        reach_a_(a.reach(axis.normal)),
-        reach_b_(b.reach(axis.normal)) {}
+      : a_(a), b_(b), axis_(axis), trace_(trace) {}
 
   ClosestFeatures<D> run() {
     each_corner(a_, [&](const Vec<D>& corner, std::uint32_t name) {
@@ -217,48 +256,13 @@ class ClosestSearch {
     return reach_b_ + glm::dot(p - b_.center, axis_.normal);
   }
 
-  const PlacedCore<D>& a_;
-  const PlacedCore<D>& b_;
+  const PlacedCore<D>&a_, &b_;
   const SeparatingAxis<D>& axis_;
   NarrowTrace<D>& trace_;
-  double reach_a_, reach_b_;
+  const double reach_a_ = a_.reach(axis_.normal), reach_b_ = b_.reach(axis_.normal);
   double least_ = std::numeric_limits<double>::infinity();  // the square of the least distance
   double slack_ = std::numeric_limits<double>::infinity();
   ClosestFeatures<D> best_;
 };
-
-}  // namespace
-
-template <int D>
-double smallest_half(const PlacedCore<D>& a, const PlacedCore<D>& b) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const PlacedCore<D>* block : {&a, &b})
-    for (int i = 0; i < D; ++i)
-      if (block->half[i] > 0) least = std::min(least, block->half[i]);
-  return std::isfinite(least) ? least : 0;
-}
-
-template <int D>
-SeparatingAxes<D> separating_axes(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin,
-                                  NarrowTrace<D>& trace) {
-  return AxisSearch<D>(a, b, margin, trace).run();
-}
-
-template <int D>
-ClosestFeatures<D> closest_features(const PlacedCore<D>& a, const PlacedCore<D>& b,
-                                    const SeparatingAxis<D>& axis, NarrowTrace<D>& trace) {
-  return ClosestSearch<D>(a, b, axis, trace).run();
-}
-
-#define LANTERN_INSTANTIATE(D)                                                                   \
-  template double smallest_half(const PlacedCore<D>&, const PlacedCore<D>&);                     \
-  template SeparatingAxes<D> separating_axes(const PlacedCore<D>&, const PlacedCore<D>&, double, \
-                                             NarrowTrace<D>&);                                   \
-  template ClosestFeatures<D> closest_features(const PlacedCore<D>&, const PlacedCore<D>&,       \
-                                               const SeparatingAxis<D>&, NarrowTrace<D>&);
-
-LANTERN_INSTANTIATE(2)
-LANTERN_INSTANTIATE(3)
-#undef LANTERN_INSTANTIATE
 
 }  // namespace lantern::physics::narrow

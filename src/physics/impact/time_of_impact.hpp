@@ -1,16 +1,83 @@
 // When two bodies meet, and for how long they are sure not to.
+#pragma once
+
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
-#include "physics/free_rotation.hpp"
-#include "physics/impact/impacts.hpp"
+#include "physics/contact/contact_solver.hpp"
 
 namespace lantern::physics {
-namespace {
+
+// The numbers of impacts: how their times are found, and how the blows are resolved.
+struct ImpactSettings {
+  int most_advances = 200;  // towards one impact
+  double overshoot = 1.05;  // of the way to where they would meet at their speed
+  int most_cuts = 60;       // of the time between apart and overlapping
+  // Of the thinner one's thickness: points so near each other touch at a time; what gets no nearer
+  // in half of all advances is there.
+  double near = 1e-9;
+  double touches = 1e-15;             // of the sizes: so near is at the moment of the impact
+  double shortest_bounce = 1.0 / 32;  // of a step: one that would be shorter is none
+  int most_rests = 3;                 // in a step: a pair that rests so often does not bounce again
+  double speed_by_rounding = 1e-12;   // of both speeds: what approaches slower is at rest
+  int bouncing_rounds = 64;           // through all touching pairs, in one impact
+  int most_rounds = 96;               // the last ones without restitution
+  int most_point_sweeps = 200;        // over the points of one pair
+  double change = 1e-15;              // of the largest impulse: so small a one ends these sweeps
+  double touching = 4e-9;             // of the thinner one's: so near is struck, too
+  double gain_by_rounding = 1e-12;    // of the blow's energy: so small a gain of it is none
+};
+inline constexpr ImpactSettings kImpactSettings;
+
+// How a body flies for a while: x(t) = position + t velocity + t^2 bend.
+template <int D>
+struct Trajectory {
+  const Body<D>* body = nullptr;
+  Vec<D> velocity{0.0};
+  Vec<D> bend{0.0};
+  RotationMethod rotation = RotationMethod::splitting_2;
+  double held = 0;  // acceleration that forces would give it, if it did not rest on something
+};
+
+template <int D>
+double thinner(const Body<D>& a, const Body<D>& b) {
+  return std::min(thickness<D>(a.shape), thickness<D>(b.shape));
+}
+
+// Two bodies that may meet.
+template <int D>
+struct Encounter {
+  const Trajectory<D>&a, &b;
+  double within;                           // seconds
+  double slow;                             // what approaches more slowly is said to rest
+  double reach;                            // farther apart they are not looked at
+  WorldWork& work;                         // counts each look at the two, by the narrow phase
+  std::vector<ImpactLook<D>>* looks = {};  // is told each, if there is one,
+  double begun = 0;                        // so many seconds after its step began
+};
+
+struct TimeOfImpact {
+  double seconds = 0;
+  bool rests = false;  // too slow for an impact: from then on it is a contact
+};
+
+// A body at a moment of its free flight.
+template <int D>
+struct Flying {
+  Shape<D> shape{};
+  Vec<D> position{0.0};
+  Mat<D> axes{1.0};  // of its core, as columns
+  Vec<D> velocity{0.0};
+  Spin<D> spin{0.0};   // radians a second
+  double pull = 0;     // its centre is accelerated by so much, never more
+  double fastest = 0;  // it never spins faster
+  double swerve = 0;   // acceleration of a point that is 1 from the centre, by turning alone
+};
 
 // A plane that turns is followed for so many radians at most: what bounds it grows with time.
-constexpr double kMostTurn = 0.5;
+inline constexpr double kMostTurn = 0.5;
 // A corner seen along the normal: s + rate t, wrong by no more than bend t^2 / 2.
 struct Side {
   double at = 0, rate = 0, bend = 0;
@@ -79,7 +146,7 @@ Sides<D> sides_of(const Flying<D>& body, const Vec<D>& n, const SeenFrom<D>& fra
 }
 
 // When a gap g with the rate v, which shrinks by no more than bend t^2 / 2 besides, may be closed.
-double until_closed(double g, double v, double bend) {
+inline double until_closed(double g, double v, double bend) {
   if (bend == 0) return v < 0 ? g / -v : HUGE_VAL;
   const double root = std::sqrt(v * v + 2 * bend * g);
   return v > 0 ? (v + root) / bend : root - v > 0 ? 2 * g / (root - v) : 0;
@@ -103,26 +170,32 @@ bool is_half_space(const Flying<D>& body) {
   return std::holds_alternative<HalfSpace<D>>(body.shape);
 }
 
-}  // namespace
-
+// The most that a free body's spin becomes as it wanders: exact, since the energy and |L| are kept.
 template <int D>
 double fastest_spin(const Body<D>& body) {
   const Spin<D> spin = angular_velocity(body);
   double square = dot(spin, spin);
   if constexpr (D == 3) {
-    if (body.kind == BodyKind::dynamic_body) {
+    if (body.is_dynamic()) {
       // As L wanders, |w|^2 is a linear function of the square of L's middle component, and the
       // largest where that is 0.
       const Vec<3> l = glm::conjugate(body.orientation.q) * body.angular_momentum;
       std::array<int, 3> axis{0, 1, 2};
       const Vec<3>& m = body.inverse_inertia;
-      std::stable_sort(axis.begin(), axis.end(), [&](int i, int j) { return m[i] < m[j]; });
+      std::ranges::stable_sort(axis, {}, [&](int i) { return m[i]; });
       square += (m[axis[1]] - m[axis[0]]) * (m[axis[2]] - m[axis[1]]) * l[axis[1]] * l[axis[1]];
     }
   }
   return std::sqrt(square);
 }
 
+// Seconds, at most `within`, in which the two are sure not to touch. `normal` points from a to b
+// and nearly parts them; the better it does, the longer. What is no deeper than `depth` along it
+// counts as apart: touching bodies may part.
+//
+// They are apart as long as all corners are on their sides of a plane. Planes that stay as they
+// are, and such as turn with a or with b, are tried: the last is best for a corner near a face.
+// Along each corners fly on parabolas at worst.
 template <int D>
 double sure_advance(const Flying<D>& a, const Flying<D>& b, const Vec<D>& n, double depth,
                     double within) {
@@ -140,12 +213,10 @@ double sure_advance(const Flying<D>& a, const Flying<D>& b, const Vec<D>& n, dou
   return sure;
 }
 
-namespace {
-
 // Acceleration of what turns, against spin^2 radius: a spin that wanders has more. I w' = L x w,
 // and no inertia is larger than the other two together, so |w'| <= w^2 / sqrt(3).
 template <int D>
-constexpr double kWandering = D == 2 ? 1 : 1.58;
+inline constexpr double kWandering = D == 2 ? 1 : 1.58;
 
 template <int D>
 struct Gap {
@@ -224,7 +295,7 @@ class Approach {
     if (fastest == 0) return body;
     body.spin = angular_velocity(now);
     body.fastest = fastest;
-    body.swerve = fastest * fastest * (now.kind == BodyKind::dynamic_body ? kWandering<D> : 1);
+    body.swerve = fastest * fastest * (now.is_dynamic() ? kWandering<D> : 1);
     return body;
   }
   Body<D> placed_at(const Trajectory<D>& path, double t) const {
@@ -300,13 +371,11 @@ class Approach {
                  double gap) const {
     const auto points = manifold.points();
     const ManifoldPoint<D>& nearest =
-        *std::min_element(points.begin(), points.end(),
-                          [](const auto& p, const auto& q) { return p.separation < q.separation; });
+        *std::ranges::min_element(points, {}, &ManifoldPoint<D>::separation);
     const Vec<D> half = manifold.normal * (gap / 2);
-    of_.looks->push_back({of_.begun + t, pose_of(a), pose_of(b), nearest.position - half,
+    of_.looks->push_back({of_.begun + t, pose(a), pose(b), nearest.position - half,
                           nearest.position + half, gap, of_.begun + t});
   }
-  static Pose<D> pose_of(const Body<D>& body) { return {body.id, body.position, body.orientation}; }
   // Of the last look.
   void tell_free_until(double t) const {
     if (of_.looks != nullptr) of_.looks->back().free_until = of_.begun + std::min(t, of_.within);
@@ -321,8 +390,9 @@ class Approach {
   bool turns_ = false;
 };
 
-}  // namespace
-
+// The first moment at which the two bodies touch and approach; nothing if there is none. By
+// conservative advancement (Mirtich, "Impulse-based Dynamic Simulation", 1996): go on for as long
+// as they surely cannot touch.
 template <int D>
 std::optional<TimeOfImpact> time_of_impact(const Encounter<D>& of) {
   const std::size_t before = of.looks == nullptr ? 0 : of.looks->size();
@@ -332,23 +402,5 @@ std::optional<TimeOfImpact> time_of_impact(const Encounter<D>& of) {
       (*of.looks)[i].meets = (*of.looks)[i].time == of.begun + met->seconds;
   return met;
 }
-
-template <int D>
-double slowest_impact(const Trajectory<D>& a, const Trajectory<D>& b, double step) {
-  const double pull = 2 * glm::length(b.bend - a.bend) + a.held + b.held;
-  return std::max(
-      pull * step * kImpactSettings.shortest_bounce,
-      kImpactSettings.speed_by_rounding * (glm::length(a.velocity) + glm::length(b.velocity)));
-}
-
-#define LANTERN_INSTANTIATE(D)                                                                     \
-  template double fastest_spin(const Body<D>&);                                                    \
-  template double sure_advance(const Flying<D>&, const Flying<D>&, const Vec<D>&, double, double); \
-  template std::optional<TimeOfImpact> time_of_impact(const Encounter<D>&);                        \
-  template double slowest_impact(const Trajectory<D>&, const Trajectory<D>&, double);
-
-LANTERN_INSTANTIATE(2)
-LANTERN_INSTANTIATE(3)
-#undef LANTERN_INSTANTIATE
 
 }  // namespace lantern::physics

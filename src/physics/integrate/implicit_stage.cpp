@@ -1,48 +1,14 @@
-// The methods whose forces are those of a moment that is still to be found.
+// Velocities that agree with the forces they lead to, found by Newton's method.
+#include "physics/integrate/implicit_stage.hpp"
+
 #include <cmath>
 
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "physics/integrate/implicit_stage.hpp"
 #include "physics/joint/constrained_motion.hpp"
 
 namespace lantern::physics {
-
-// Implicit midpoint: the forces are those halfway between the start and the end of the step. The
-// first half is a step of implicit Euler, the second repeats its kick. Symplectic and stable at any
-// step; the energy of linear springs is kept to rounding (Hairer, Lubich, Wanner, IV.2 and VI.4).
-template <int D>
-void implicit_midpoint(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out) {
-  const SmoothState<D> middle = implicit_stage(system, h / 2, "implicit_midpoint", h);
-  for (const std::size_t i : system.movers()) {
-    const Vec<D> half = middle.kick[i];
-    const Spin<D> half_twist = middle.twist[i];
-    out[i] = {2.0 * half, -h * half, 2.0 * half_twist, -half_twist};
-  }
-}
-extern const Integration kImplicitMidpoint = {
-    .name = "implicit_midpoint",
-    .order = 2,
-    .lag = 0.5,
-    .implicit = true,
-    .increments = {implicit_midpoint<2>, implicit_midpoint<3>},
-    .with_joints = {constrained_implicit_midpoint<2>, constrained_implicit_midpoint<3>}};
-
-// Implicit Euler: the forces are those at the end of the step. Stable at any step, but it eats the
-// energy of every spring (Baraff and Witkin, "Large steps in cloth simulation", 1998; they stop
-// after one Newton iteration, this does not).
-template <int D>
-void implicit_euler(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out) {
-  const SmoothState<D> end = implicit_stage(system, h, "implicit_euler", h);
-  for (const std::size_t i : system.movers())
-    out[i] = {end.kick[i], Vec<D>(0.0), end.twist[i], Spin<D>(0.0)};
-}
-extern const Integration kImplicitEuler = {
-    .name = "implicit_euler",
-    .implicit = true,
-    .increments = {implicit_euler<2>, implicit_euler<3>},
-    .with_joints = {constrained_implicit_euler<2>, constrained_implicit_euler<3>}};
 
 namespace {
 
@@ -314,8 +280,6 @@ void damped_kick(SmoothSystem<D>& system, SmoothState<D>& state, double time, Li
         fmt::format("body '{}': damping has no solution over {} s", culprit(system, state), time));
 }
 
-template class SmoothSystem<2>;
-template class SmoothSystem<3>;
 template SmoothState<2> implicit_stage(SmoothSystem<2>&, double, std::string_view, double,
                                        LinearSolver);
 template SmoothState<3> implicit_stage(SmoothSystem<3>&, double, std::string_view, double,

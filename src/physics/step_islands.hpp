@@ -1,0 +1,284 @@
+// The islands of a step: which bodies hang together, what of them a solver is given and gives back,
+// and which of them fall asleep.
+#pragma once
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "base/stop.hpp"
+#include "physics/contact/contact_solver.hpp"
+#include "physics/islands.hpp"
+#include "physics/world.hpp"
+
+namespace lantern::physics {
+
+template <int D>
+struct World<D>::StepIslands {
+  // Two bodies that may touch. Of what an IslandPair holds only what is known before the island is
+  // moved: there may be millions.
+  struct NearPair {
+    std::uint32_t a = 0, b = 0;  // places among all bodies
+    double restitution = 0;
+    double friction = 0;
+    double reach = 0;
+    const Touch<D>* touch = nullptr;  // of the step before, if they touched in it
+    std::uint32_t manifold = kNone;   // as they were found to lie; none of too many
+    bool located = false;
+  };
+  static constexpr std::uint32_t kNone = ~std::uint32_t{0};
+  // What a solver is given together: places of bodies, of near pairs, of joints, of what pulls and
+  // pushes them; all ascending.
+  struct Group {
+    std::vector<std::uint32_t> bodies;
+    std::vector<std::size_t> pairs, joints, springs, pushes;
+  };
+
+  World& world;
+  double h;
+  std::vector<Body<D>> moved = world.bodies_;
+  std::vector<double> rested = world.rested_;
+  std::vector<JointMemory<D>> joint_memories = world.joint_memories_;
+  Forces<D> forces = world.forces_;
+  std::vector<NearPair> near = {};  // in order of ids
+  std::vector<Manifold<D>> manifolds = {};
+  std::vector<std::uint32_t> root = {};         // of each body's island; static ones have their own
+  std::vector<std::uint32_t> local_place = {};  // of each body in the island that was gathered last
+  std::vector<Touch<D>> touching = {};
+  std::vector<std::uint32_t> touch_of = {};  // of each near pair; kNone: it did not touch
+
+  std::uint32_t place_of(BodyId id) const { return static_cast<std::uint32_t>(world.index_of(id)); }
+
+  // Static and kinematic bodies do not join what touches them.
+  void make_islands() {
+    DisjointSets sets(moved.size());
+    const auto unite = [&](std::uint32_t a, std::uint32_t b) {
+      if (moved[a].is_dynamic() && moved[b].is_dynamic()) sets.unite(a, b);
+    };
+    for (const NearPair& pair : near) unite(pair.a, pair.b);
+    // What sleeps is not looked at: it hangs together as when it fell asleep.
+    for (const Touch<D>& touch : world.touching_) {
+      const std::uint32_t a = place_of(touch.record.a), b = place_of(touch.record.b);
+      if (moved[a].asleep && moved[b].asleep) unite(a, b);
+    }
+    for (const auto& entry : world.joints_)
+      unite(place_of(entry.second.a), place_of(entry.second.b));
+    for (const Spring<D>& spring : forces.springs) unite(place_of(spring.a), place_of(spring.b));
+    // What attracts hangs together over any distance.
+    std::optional<std::uint32_t> first;
+    for (std::uint32_t i = 0; forces.gravitation > 0 && i < moved.size(); ++i) {
+      if (!moved[i].is_dynamic()) continue;
+      if (!first) first = i;
+      unite(*first, i);
+    }
+    root.clear();
+    for (std::size_t i = 0; i < moved.size(); ++i)
+      root.push_back(sets.root(static_cast<std::uint32_t>(i)));
+    world.work_.islands = 0;
+    for (std::size_t i = 0; i < moved.size(); ++i)
+      world.work_.islands += root[i] == i && moved[i].is_pushed();
+  }
+
+  // Which bodies, pairs and joints the solver is given together: those of each island, or of the
+  // whole world. What neither touches nor is joined is in none of them, but flies.
+  std::vector<Group> groups_to_solve(bool whole_world) const {
+    const auto dynamic = [&](std::uint32_t i) { return moved[i].is_dynamic(); };
+    const auto own = [&](std::uint32_t i) { return whole_world ? 0 : root[i]; };
+    const auto owner = [&](std::uint32_t a, std::uint32_t b) { return own(dynamic(a) ? a : b); };
+    const auto places = [&](const auto& tie) {
+      return std::pair(place_of(tie.a), place_of(tie.b));
+    };
+    // Of each root the number of its group, if pairs or joints are to be solved in it.
+    std::vector<std::uint32_t> number(moved.size(), kNone);
+    for (const NearPair& pair : near) number[owner(pair.a, pair.b)] = 0;
+    for (const auto& [id, joint] : world.joints_) number[std::apply(owner, places(joint))] = 0;
+    std::vector<Group> groups;
+    for (std::uint32_t& n : number) {
+      if (n == kNone) continue;
+      n = static_cast<std::uint32_t>(groups.size());
+      groups.emplace_back();
+    }
+    const auto add = [&](std::uint32_t to, auto list, auto what) {
+      if (number[to] != kNone) (groups[number[to]].*list).push_back(what);
+    };
+    for (std::size_t i = 0; i < near.size(); ++i)
+      add(owner(near[i].a, near[i].b), &Group::pairs, i);
+    for (std::size_t i = 0; i < world.joints_.size(); ++i)
+      add(std::apply(owner, places(world.joints_[i].second)), &Group::joints, i);
+    for (std::size_t i = 0; i < forces.springs.size(); ++i) {
+      const auto [a, b] = places(forces.springs[i]);
+      if (whole_world || dynamic(a) || dynamic(b)) add(owner(a, b), &Group::springs, i);
+    }
+    for (std::size_t i = 0; i < forces.pushes.size(); ++i) {
+      const std::uint32_t pushed = place_of(forces.pushes[i].body);
+      if (whole_world || dynamic(pushed)) add(own(pushed), &Group::pushes, i);
+    }
+    for (std::uint32_t i = 0; i < moved.size(); ++i)
+      if (whole_world || dynamic(i)) add(own(i), &Group::bodies, i);
+    std::erase_if(groups, [&](const Group& group) {
+      return std::ranges::all_of(group.bodies, [&](std::uint32_t i) { return moved[i].asleep; });
+    });
+    return groups;
+  }
+
+  Island<D> gather(const Group& group) {
+    Island<D> island;
+    std::vector<std::uint32_t> others;  // static bodies, and ends of springs
+    const auto add = [&](BodyId id) { others.push_back(place_of(id)); };
+    for (const std::size_t i : group.pairs)
+      for (const std::uint32_t place : {near[i].a, near[i].b})
+        if (!moved[place].is_dynamic()) others.push_back(place);
+    for (const std::size_t i : group.joints) {
+      add(world.joints_[i].second.a);
+      add(world.joints_[i].second.b);
+    }
+    island.forces.gravity = forces.gravity;
+    island.forces.gravitation = forces.gravitation;
+    if (forces.gravitation > 0)
+      for (const Body<D>& body : moved) add(body.id);
+    for (const std::size_t i : group.springs) {
+      const Spring<D>& spring = forces.springs[i];
+      island.forces.springs.push_back(spring);
+      add(spring.a);
+      add(spring.b);
+    }
+    for (const std::size_t i : group.pushes) island.forces.pushes.push_back(forces.pushes[i]);
+    // Once each, in their order.
+    std::ranges::sort(others);
+    others.erase(std::unique(others.begin(), others.end()), others.end());
+    island.places.reserve(group.bodies.size() + others.size());
+    std::ranges::set_union(group.bodies, others, std::back_inserter(island.places));
+    for (const std::uint32_t place : island.places) island.bodies.push_back(moved[place]);
+
+    local_place.resize(moved.size());
+    for (std::uint32_t i = 0; i < island.places.size(); ++i) local_place[island.places[i]] = i;
+    const auto local = [&](std::uint32_t place) { return local_place[place]; };
+    island.pairs.reserve(group.pairs.size());
+    for (const std::size_t i : group.pairs) {
+      stop_if_asked();
+      island.pairs.push_back(island_pair(near[i]));
+      ContactRows<D>& rows = island.pairs.back().rows;
+      rows.a = local(rows.a);
+      rows.b = local(rows.b);
+    }
+    for (const std::size_t i : group.joints) {
+      JointRows<D> rows{.joint = world.joints_[i].second, .place = static_cast<std::uint32_t>(i)};
+      rows.a = local(place_of(rows.joint.a));
+      rows.b = local(place_of(rows.joint.b));
+      const JointMemory<D>& memory = world.joint_memories_[i];
+      rows.seconds = memory.seconds;
+      rows.backoff = memory.backoff;
+      if (memory.seconds > 0) rows.impulse = memory.impulse;
+      island.joints.push_back(rows);
+    }
+    return island;
+  }
+
+  void bring_back(Island<D>& island, const Group& group) {
+    for (std::size_t i = 0; i < island.places.size(); ++i)
+      if (island.bodies[i].is_dynamic()) moved[island.places[i]] = std::move(island.bodies[i]);
+    for (const JointRows<D>& rows : island.joints)
+      joint_memories[rows.place] = {rows.impulse, island.joint_seconds, rows.backoff};
+    for (std::size_t i = 0; i < island.pairs.size(); ++i) {
+      stop_if_asked();
+      const IslandPair<D>& pair = island.pairs[i];
+      if (!pair.touched) continue;
+      touch_of[group.pairs[i]] = static_cast<std::uint32_t>(touching.size());
+      touching.push_back(pair);
+    }
+  }
+
+  // An island sleeps when all of it has been slow for a while and something holds it, or drag
+  // brakes it; a body that flies freely sleeps only if it does not move at all. What attracts each
+  // other never rests: something far away may come nearer.
+  void fall_asleep(const std::vector<Increment<D>>& increments) {
+    world.work_.asleep = 0;
+    if (world.config_.may_sleep && !(forces.gravitation > 0)) {
+      std::vector<std::uint8_t> restless(moved.size()), held(moved.size());
+      for (const Touch<D>& touch : touching)
+        for (const BodyId id : {touch.record.a, touch.record.b}) {
+          held[root[place_of(id)]] = true;
+          const BodyId other = id == touch.record.a ? touch.record.b : touch.record.a;
+          if (!moved[place_of(id)].is_dynamic() && moved[place_of(id)].stirs())
+            restless[root[place_of(other)]] = true;
+        }
+      for (const auto& entry : world.joints_)
+        for (const BodyId id : {entry.second.a, entry.second.b}) held[root[place_of(id)]] = true;
+      for (std::size_t i = 0; i < moved.size(); ++i) {
+        const Body<D>& body = moved[i];
+        if (!body.is_pushed()) continue;
+        ++world.work_.rest_checks;
+        const bool still = body.velocity == Vec<D>(0.0) && body.angular_momentum == Spin<D>(0.0) &&
+                           increments[i].kick == Vec<D>(0.0);
+        const bool braked = body.linear_drag > 0 && (body.angular_drag > 0 || !body.may_turn ||
+                                                     body.angular_momentum == Spin<D>(0.0));
+        rested[i] = (held[root[i]] || braked ? is_slow(i) : still) ? rested[i] + h : 0;
+        if (!(rested[i] >= world.config_.sleep_after)) restless[root[i]] = true;
+      }
+      for (std::size_t i = 0; i < moved.size(); ++i) {
+        Body<D>& body = moved[i];
+        if (!body.is_pushed() || restless[root[i]]) continue;
+        body.asleep = true;
+        body.velocity = Vec<D>(0.0);
+        body.angular_momentum = Spin<D>(0.0);
+      }
+    }
+    for (const Body<D>& body : moved) world.work_.asleep += body.asleep;
+  }
+
+  // In order of ids, as the near pairs are, with those of bodies that slept through.
+  void order_touches() {
+    std::vector<Touch<D>> slept, ordered;
+    const auto rests = [&](BodyId id) {
+      return !world.bodies_[place_of(id)].stirs() && !moved[place_of(id)].stirs();
+    };
+    for (const Touch<D>& touch : world.touching_)
+      if (rests(touch.record.a) && rests(touch.record.b)) slept.push_back(touch);
+    ordered.reserve(touching.size() + slept.size());
+    auto next = slept.begin();
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      stop_if_asked();
+      if (touch_of[i] == kNone) continue;
+      Touch<D>& touch = touching[touch_of[i]];
+      while (next != slept.end() && next->record.pair() < touch.record.pair())
+        ordered.push_back(std::move(*next++));
+      if (next != slept.end() && next->record.pair() == touch.record.pair()) ++next;
+      ordered.push_back(std::move(touch));
+    }
+    ordered.insert(ordered.end(), next, slept.end());
+    touching = std::move(ordered);
+  }
+
+ private:
+  IslandPair<D> island_pair(const NearPair& from) const {
+    IslandPair<D> pair;
+    pair.rows.a = from.a;
+    pair.rows.b = from.b;
+    pair.rows.restitution = from.restitution;
+    pair.rows.friction = from.friction;
+    pair.reach = from.reach;
+    pair.located = from.located;
+    pair.pressed = !from.located;
+    if (from.touch != nullptr) static_cast<Touch<D>&>(pair) = *from.touch;
+    pair.record = {moved[from.a].id, moved[from.b].id, {}, {}, {}};
+    if (from.manifold != kNone) pair.seen = &manifolds[from.manifold];
+    return pair;
+  }
+
+  // Slow, and slow for another second if it is accelerated as in this step: a pendulum at its
+  // turning point is not at rest.
+  bool is_slow(std::size_t place) const {
+    const Body<D>& body = moved[place];
+    const Body<D>& before = world.bodies_[place];
+    const double gained = glm::length(body.velocity - before.velocity) / h;
+    const Spin<D> spin = angular_velocity(body), spin_before = angular_velocity(before);
+    const Spin<D> turned_faster = spin - spin_before;
+    const double spun = std::sqrt(dot(turned_faster, turned_faster)) / h;
+    // What is pushed out of another one moves, too, though it has no velocity.
+    const double way = glm::length(body.position - before.position) / h;
+    return std::max(glm::length(body.velocity), way) + gained <= world.config_.sleep_speed &&
+           std::sqrt(dot(spin, spin)) + spun <= world.config_.sleep_spin;
+  }
+};
+
+}  // namespace lantern::physics
