@@ -26,20 +26,12 @@ constexpr double kWide = 1e6;        // a tolerance of so many times what is exp
 
 // --- expectations ---
 
-// Of the whole script.
-std::vector<const StructureSpec*> structures_of(const ScenarioSpec& s) {
-  std::vector<const StructureSpec*> all = {&s.structure};
-  for (const Step& step : s.steps)
-    if (const auto* rebuild = std::get_if<Rebuild>(&step.verb)) all.push_back(&rebuild->structure);
-  return all;
-}
-
 // How deep trees become, if all structures of the script are trees that split down to a limit.
 std::optional<double> deepest(const ScenarioSpec& s) {
   using enum StructureKind;
   static constexpr std::array kSplitting = {quadtree, octree, kd_tree, lecture_quadtree};
   double depth = 0;
-  for (const StructureSpec* one : structures_of(s)) {
+  for (const StructureSpec* one : s.structures()) {
     if (std::ranges::find(kSplitting, one->kind) == kSplitting.end()) return std::nullopt;
     depth = std::max<double>(depth, one->max_depth);
   }
@@ -247,7 +239,7 @@ void notice_structures(const TableReader& file, Draft& draft) {
   const ScenarioSpec& s = draft.scenario;
   for (const Step& step : s.steps)
     if (std::holds_alternative<Compare>(step.verb)) return;
-  const std::vector<const StructureSpec*> all = structures_of(s);
+  const std::vector<const StructureSpec*> all = s.structures();
   std::vector<const TomlValue*> tables = file.tables("structure");
   const std::vector<const TomlValue*> steps = file.tables("step");
   for (std::size_t i = 0; i < steps.size(); ++i)

@@ -1,7 +1,6 @@
 // A scenario file from its bytes to plain values.
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <system_error>
@@ -14,7 +13,6 @@
 #include "base/hash.hpp"
 #include "language/sides.hpp"
 #include "language/tables/draft.hpp"
-#include "spatial/structure_kind.hpp"
 
 namespace lantern::language {
 namespace {
@@ -70,58 +68,6 @@ bool has_strange_table(const TomlTable& table) {
   });
 }
 
-// Settings of trees are refused where no tree that splits ever stands.
-void check_settings(const TableReader& file, Draft& draft) {
-  const auto splits = [](const StructureSpec& s) {
-    return s.kind != StructureKind::none && traits_of(s.kind).splits && s.why.empty();
-  };
-  const ScenarioSpec& s = draft.scenario;
-  if (!s.side.empty()) return;  // its table is one with what all sides share
-  if (s.structure.kind == StructureKind::none || splits(s.structure)) return;
-  for (const Step& step : s.steps)
-    if (const auto* rebuild = std::get_if<Rebuild>(&step.verb);
-        rebuild && splits(rebuild->structure))
-      return;
-  for (const TomlValue* value : file.tables("structure"))
-    for (const char* setting : {"capacity", "max_depth", "children", "no_progress_stop"})
-      if (const TomlEntry* entry = entry_of(std::get<TomlTable>(value->data), setting))
-        draft.problems.add(
-            entry->where,
-            fmt::format("a structure of kind '{}' has no '{}'",
-                        s.structure.why.empty() ? to_string(s.structure.kind) : "auto", setting),
-            "only trees that split have; leave it out, or take kind = \"quadtree\"");
-}
-
-// Settings of grids are refused where none ever stands, and cells of which there are too many.
-void check_grid(const TableReader& file, Draft& draft) {
-  constexpr double kMostCells = 2e6;
-  const ScenarioSpec& s = draft.scenario;
-  const bool grid = traits_of(s.structure.kind).has(Setting::cell);
-  if (!s.side.empty() || s.structure.kind == StructureKind::none) return;
-  const bool later = std::ranges::any_of(s.steps, [](const Step& step) {
-    const auto* rebuild = std::get_if<Rebuild>(&step.verb);
-    return rebuild && traits_of(rebuild->structure.kind).has(Setting::cell);
-  });
-  double cells = s.structure.cell > 0 && grid && !s.structure.open ? 1 : 0;
-  for (int i = 0; i < draft.dimension; ++i)
-    cells *= std::ceil(s.world.bounds.size()[i] / std::max(s.structure.cell, 1e-300));
-  for (const TomlValue* value : file.tables("structure"))
-    for (const char* setting : {"cell", "levels", "open"}) {
-      const TomlEntry* entry = entry_of(std::get<TomlTable>(value->data), setting);
-      if (entry && !grid && !later)
-        draft.problems.add(
-            entry->where,
-            fmt::format("a structure of kind '{}' has no '{}'",
-                        s.structure.why.empty() ? to_string(s.structure.kind) : "auto", setting),
-            "only kind = \"grid\" has");
-      else if (entry && std::string_view(setting) == "cell" && cells > kMostCells)
-        draft.problems.add(
-            entry->where,
-            fmt::format("the world has {:.3g} cells of this size, a grid may have 2000000", cells),
-            "take larger ones, or open = true");
-    }
-}
-
 void read_all(const TomlTable& table, const std::string& path, Draft& draft) {
   const TableReader file(table, kTop, language_table(""), draft.problems, 0);
   if (has_strange_table(table)) return;
@@ -140,8 +86,7 @@ void read_all(const TomlTable& table, const std::string& path, Draft& draft) {
   read_script(file, draft);
   if (draft.has_world) choose_structures(draft);
   check_panels(file, draft);
-  check_settings(file, draft);
-  check_grid(file, draft);
+  check_structures(file, draft);
   if (!draft.problems.any()) notice_idle(file, draft);
 }
 
@@ -219,8 +164,8 @@ Scenario parse_scenario(std::string_view text, const std::string& path) {
                        "[[step]] with do = \"show\"");
   } else {
     table = read_toml(draft.text, draft.problems);
-    const bool has_sides = std::ranges::find(table, "side", &TomlEntry::key) != table.end();
-    if (has_sides && !draft.problems.any()) return parse_sides(table, text, path, draft.problems);
+    if (entry_of(table, "side") && !draft.problems.any())
+      return parse_sides(table, text, path, draft.problems);
     if (!draft.problems.any()) read_all(table, path, draft);
   }
   draft.problems.raise(path, draft.text);

@@ -14,18 +14,12 @@ std::string json_schema();
 // The reference page, Markdown.
 std::string reference_page();
 
-// The scenarios that the page begins with; the examples of the verbs go on from them.
-std::string_view world_example();
-std::string_view atlas_example();
-std::string_view level_example();
-
-// Scenarios that show what a table of keys cannot.
-std::string_view map_example();
-std::string_view chart_example();
-std::string_view collisions_example();
-std::string looks_example();
-std::string pattern_example(std::string_view arrange);
-std::vector<std::string_view> arrange_names();
+// A scenario of src/language/examples/: the page begins with `world`, `atlas` and `level`; others
+// show what a table of keys cannot. Below "#: verb" stands there how the verb's example goes on.
+std::string_view example(std::string_view name);
+std::string_view example_of_verb(std::string_view verb);
+// The whole of what a verb's example goes on from, and itself.
+std::string example_up_to(std::string_view verb);
 
 // A picture of the page: the last frame of a scenario whose every part stands on it.
 struct ExamplePicture {
@@ -33,6 +27,5 @@ struct ExamplePicture {
   std::string text;
 };
 std::vector<ExamplePicture> example_pictures();
-bool verb_has_picture(std::string_view verb);
 
 }  // namespace lantern::language

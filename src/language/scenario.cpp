@@ -72,6 +72,13 @@ bool ScenarioSpec::shows_trails() const {
          });
 }
 
+std::vector<const StructureSpec*> ScenarioSpec::structures() const {
+  std::vector<const StructureSpec*> all = {&structure};
+  for (const Step& step : steps)
+    if (const auto* rebuild = std::get_if<Rebuild>(&step.verb)) all.push_back(&rebuild->structure);
+  return all;
+}
+
 Scenario::Scenario(ScenarioSpec spec) : ScenarioSpec(std::move(spec)) { Indices(*this).check(); }
 
 std::optional<ScenarioName> ScenarioName::of(std::string_view text) {

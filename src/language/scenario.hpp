@@ -142,6 +142,8 @@ struct ScenarioSpec {
   bool tells_sleepers() const;  // bodies may rest: those that do are told from those that do not
   bool has_body_of(BodyKind kind) const;
   bool shows_trails() const;  // on any frame
+  // Of the whole script: the first that stands, and those that are rebuilt.
+  std::vector<const StructureSpec*> structures() const;
 };
 
 // One that is right, and the only one that can be walked, explained, run or drawn: whatever is

@@ -236,7 +236,6 @@ class SidesReader {
 }  // namespace
 
 TableDoc side_table() {
-  using namespace keys;
   using S = ScenarioSpec;
   TableDoc table = {"side", "[[side]]",
                     "The script runs under each side's settings, on one clock, and the page sets "

@@ -148,7 +148,7 @@ struct WorldSpec {
 struct PlaneSpec {
   std::string name;
   Vec<3> point{0.0};
-  Vec<3> normal{0.0};
+  Vec<3> normal{1, 0, 0};
   std::string at;  // "root", or the way down from it: "front", "front.back", ...
   SourcePosition where;
 };

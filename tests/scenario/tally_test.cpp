@@ -327,7 +327,7 @@ TEST(Panels, AreDerivedUnlessGiven) {
   EXPECT_EQ(of(ghosts), (Panels{panel_named("world"), panel_named("tree")}));
   EXPECT_EQ(of(read_text(LANTERN_ROOT "/scenarios/kdtree_atlas.toml")),
             (Panels{panel_named("atlas"), panel_named("tree")}));
-  EXPECT_EQ(of(std::string(level_example())), (Panels{panel_named("world"), panel_named("tree")}));
+  EXPECT_EQ(of(std::string(example("level"))), (Panels{panel_named("world"), panel_named("tree")}));
   const DryRun given(good("panels = [\"tree\"]\n" + ghosts));
   EXPECT_EQ(given.scenario.panels, (Panels{panel_named("tree")}));
   EXPECT_FALSE(given.uses("world panel"));

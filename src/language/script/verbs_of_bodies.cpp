@@ -8,8 +8,6 @@
 namespace lantern::language {
 namespace {
 
-using namespace keys;
-
 void read_insert(Insert& insert, const TableReader& table, ScriptReading& script) {
   insert.bodies = script.bodies.take(table.names("bodies"), script.state.in_world, true,
                                      "is in the world already");
@@ -93,49 +91,15 @@ std::vector<VerbDoc> verbs_of_bodies() {
       verb<Insert>({.doc = "Bodies enter the world and the structure, one after another.",
                     .keys = {bodies_key(), pace_key(),
                              events_key({"test", "miss", "make_child", "store", "split",
-                                         "hand_down", "depth_limit", "no_progress", "rotate"})},
-                    .example = R"([[step]]
-do = "insert"
-bodies = ["blue"]
-pace = "event"
-events = ["split", "store"]
-caption = "Blue is the fourth."
-expect = { bodies = 4 }
-)"},
+                                         "hand_down", "depth_limit", "no_progress", "rotate"})}},
                    read_insert),
       verb<Emit>({.doc = "Bodies enter the world one after another while time passes: the first at "
                          "once, the others when later steps let time pass.",
                   .keys = {bodies_key(), key(KeyType::number, "every",
                                              "From one to the next, a whole number of time steps.",
-                                             must(), above(0, kHundredYears), in("s"))},
-                  .example = R"([[pattern]]
-name = "drop"
-count = 3
-radius = 0.4
-min = [2, 2]
-max = [2, 2]
-velocity = [24, 0]
-
-[[step]]
-do = "emit"
-bodies = ["drop1..drop3"]
-every = 0.1
-expect = { bodies = 5 }
-
-[[step]]
-do = "run"
-seconds = 0.2
-every = 12
-expect = { bodies = 7 }
-)"},
+                                             must(), above(0, kHundredYears), in("s"))}},
                  read_emit),
-      verb<Remove>({.doc = "Bodies leave the world and the structure.",
-                    .keys = {bodies_key()},
-                    .example = R"([[step]]
-do = "remove"
-bodies = ["blue", "drop"]
-expect = { bodies = 3 }
-)"},
+      verb<Remove>({.doc = "Bodies leave the world and the structure.", .keys = {bodies_key()}},
                    read_remove),
       verb<Move>(
           {.doc = "A body is put elsewhere, turned, or goes another way from now on.",
@@ -154,51 +118,24 @@ expect = { bodies = 3 }
                    pace_key(),
                    events_key({"leave", "test", "miss", "split", "store", "rotate"}),
                },
-           .groups = {{{"to"}, {"velocity"}, {"turned"}, {"spin"}}, false},
-           .example = R"([[step]]
-do = "move"
-body = "pink"
-to = [2, 2]
-velocity = [4, 0]
-expect = { position = { pink = [2, 2] } }
-)"},
+           .groups = {{{"to"}, {"velocity"}, {"turned"}, {"spin"}}, false}},
           read_move),
       verb<Sleep>({.doc = "Bodies fall asleep: nothing moves them until something wakes them.",
-                   .keys = {bodies_key()},
-                   .example = R"([[step]]
-do = "sleep"
-bodies = ["red"]
-expect = { asleep = ["red"] }
-)"},
+                   .keys = {bodies_key()}},
                   read_rest<true>),
-      verb<Wake>({.doc = "Bodies wake up.", .keys = {bodies_key()}, .example = R"([[step]]
-do = "wake"
-bodies = ["red"]
-expect = { awake = ["red"] }
-)"},
-                 read_rest<false>),
+      verb<Wake>({.doc = "Bodies wake up.", .keys = {bodies_key()}}, read_rest<false>),
       verb<ApplyForce>({.doc = "A force acts on a body from now on, until another takes its place; "
                                "one of zero ends it.",
                         .keys = {body_key(),
                                  key(&ApplyForce::force, "force", "In the world's axes.", must(),
                                      range(-kFar, kFar), in("N")),
-                                 at_key<ApplyForce>()},
-                        .example = R"([[step]]
-do = "force"
-body = "player"
-force = [-4, 0]
-)"},
+                                 at_key<ApplyForce>()}},
                        read_push<ApplyForce>),
       verb<ApplyImpulse>({.doc = "A body is struck once.",
                           .keys = {body_key(),
                                    key(&ApplyImpulse::impulse, "impulse", "In the world's axes.",
                                        must(), range(-kFar, kFar), in("N s")),
-                                   at_key<ApplyImpulse>()},
-                          .example = R"([[step]]
-do = "impulse"
-body = "pink"
-impulse = [2.56, 0]
-)"},
+                                   at_key<ApplyImpulse>()}},
                          read_push<ApplyImpulse>)};
 }
 

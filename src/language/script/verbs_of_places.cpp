@@ -9,8 +9,6 @@
 namespace lantern::language {
 namespace {
 
-using namespace keys;
-
 template <class V>
 void require_compiled(V&, const TableReader& table, ScriptReading& script) {
   if (!script.state.past.has<CompileLevel>())
@@ -63,42 +61,22 @@ void read_draw(DrawScreen& draw, const TableReader& table, ScriptReading& script
 
 std::vector<VerbDoc> verbs_of_levels() {
   return {
-      verb<CompileLevel>({.doc = "The level's walls become a BSP, whose leaves are the sectors. "
-                                 "Bodies of a scenario without a [structure] lie in it from then "
-                                 "on, each in every sector that its box reaches.",
-                          .keys = {pace_key(), events_key({"consider", "choose", "cut", "sector"})},
-                          .example = R"([[step]]
-do = "compile"
-pace = "event"
-events = ["choose", "cut"]
-caption = "{walls} walls, {sectors} sectors, {cuts:wall} cut in two."
-expect = { walls = 8 }
-)"}),
+      verb<CompileLevel>(
+          {.doc = "The level's walls become a BSP, whose leaves are the sectors. "
+                  "Bodies of a scenario without a [structure] lie in it from then "
+                  "on, each in every sector that its box reaches.",
+           .keys = {pace_key(), events_key({"consider", "choose", "cut", "sector"})}}),
       verb<Locate>({.doc = "In which sector of the compiled level is a point?",
-                    .keys = {point_key(&Locate::point, "point", "The point asked for.")},
-                    .example = R"([[step]]
-do = "locate"
-point = [2, 2]
-caption = "Sector {sector}, after {planes_tested:line}."
-)"},
+                    .keys = {point_key(&Locate::point, "point", "The point asked for.")}},
                    require_compiled<Locate>),
       verb<OrderFrom>({.doc = "The sectors of the compiled level, front to back.",
-                       .keys = {point_key(&OrderFrom::eye, "eye", "Where they are seen from.")},
-                       .example = R"([[step]]
-do = "order"
-eye = [2, 2]
-)"},
+                       .keys = {point_key(&OrderFrom::eye, "eye", "Where they are seen from.")}},
                       require_compiled<OrderFrom>),
       verb<See>({.doc = "Which sectors of the compiled level see which through the openings "
                         "between them: found once, and then only looked up.",
                  .keys = {pace_key(), events_key({"portals", "row"}),
                           key(&See::eye, "eye", "Whose sector's view is shown.", range(-kFar, kFar),
-                              written("[x, y]"), or_else("no sector's"))},
-                 .example = R"([[step]]
-do = "see"
-eye = [2, 2]
-caption = "{sectors_seen:sector} of {sectors} may be seen from here."
-)"},
+                              written("[x, y]"), or_else("no sector's"))}},
                 read_see)};
 }
 
@@ -112,25 +90,11 @@ std::vector<VerbDoc> verbs_of_atlases() {
                     key(&Pack::free_name, "free_name",
                         "Labels the largest free leaf that the last one leaves.", range(1, 24),
                         or_else("none")),
-                    pace_key(), events_key({"too_small", "used", "cut", "store", "refuse"})},
-           .example = R"([[step]]
-do = "pack"
-textures = ["A", "tile"]
-each = true
-free_name = "F"
-caption = "{texture} has its place: {textures:texture}, {free_area} px free."
-expect = { textures = 4, refused = 0 }
-)"},
+                    pace_key(), events_key({"too_small", "used", "cut", "store", "refuse"})}},
           read_pack),
       verb<AskRoom>({.doc = "The kD-tree's own question: has any free leaf room for this size?",
                      .keys = {key(KeyType::size, "size", "The width and height asked for.", must(),
-                                  range(1, kMostPixels), in("px"))},
-                     .example = R"([[step]]
-do = "ask_room"
-size = [128, 128]
-caption = "Is there room for 128 × 128? {free_leaves:leaf/leaves} free, none of them large enough."
-expect = { room = 0 }
-)"},
+                                  range(1, kMostPixels), in("px"))}},
                     read_ask_room),
       verb<DrawScreen>(
           {.doc = "Draws all elements of the [atlas]'s `screen`, and counts how often another "
@@ -141,13 +105,7 @@ expect = { room = 0 }
                 key(&DrawScreen::order, "order",
                     "`as_listed`, or `by_texture`: sorted so that equal textures follow each "
                     "other, but what lies over another element still comes after it."),
-                pace_key(), events_key({"bind", "draw"})},
-           .example = R"([[step]]
-do = "draw"
-order = "by_texture"
-caption = "{draws:element} of two textures: {bindings:binding}."
-expect = { draws = 3, bindings = 2 }
-)"},
+                pace_key(), events_key({"bind", "draw"})}},
           read_draw)};
 }
 

@@ -12,8 +12,6 @@
 namespace lantern::language {
 namespace {
 
-using namespace keys;
-
 // --- rebuild, sweep, compare ---
 
 std::vector<KeyDoc> structure_keys() {
@@ -172,31 +170,11 @@ void read_pair(V& verb, const TableReader& table, ScriptReading& script) {
 std::vector<VerbDoc> verbs_of_structures() {
   return {
       verb<Rebuild>({.doc = "The structure is made anew with the settings given; the others stay.",
-                     .keys = structure_keys(),
-                     .example = R"([[step]]
-do = "rebuild"
-kind = "bsp"
-planes = [{ name = "middle", point = [8, 0], normal = [1, 0] }]
-expect = { nodes = 3 }
-
-[[step]]
-do = "rebuild"
-kind = "quadtree"
-children = "eager"
-expect = { nodes = 5 }
-)"},
+                     .keys = structure_keys()},
                     read_rebuild),
       verb<Sweep>({.doc = "A `sort_and_sweep` finds its pairs: one frame for each body, in the "
                           "order in which they begin on the axis, then one of all.",
-                   .keys = {},
-                   .example = R"([[step]]
-do = "rebuild"
-kind = "sort_and_sweep"
-
-[[step]]
-do = "sweep"
-caption = "{pairs:pair} compared, {overlaps:overlap}."
-)"},
+                   .keys = {}},
                   read_sweep),
       verb<Compare>(
           {.doc = "Bodies stand alone in a world of their own, whether they are in this one or "
@@ -217,15 +195,7 @@ caption = "{pairs:pair} compared, {overlaps:overlap}."
                    key(&Compare::verdict, "verdict",
                        "What the row says in words. It may quote counts, as a caption does.",
                        range(0, 56)),
-               },
-           .example = R"([[step]]
-do = "compare"
-bodies = ["red", "pink", "blue"]
-row = "three ghosts"
-kinds = ["brute_force", "quadtree", "grid"]
-verdict = "Of {compared_pairs:pair} at best {least_work} compared."
-expect = { compared_bodies = 3, step_work = { brute_force = 3 } }
-)"},
+               }},
           read_compare),
       verb<CastRay>(
           {.doc = "Which bodies does a ray hit? The structure leaves out what it cannot hit.",
@@ -235,14 +205,7 @@ expect = { compared_bodies = 3, step_work = { brute_force = 3 } }
                     key(&CastRay::all, "hits",
                         "It stops at the `nearest` body, or goes through `all`.",
                         one_of({"nearest", "all"})),
-                    pace_key(), walk_events()},
-           .example = R"([[step]]
-do = "ray"
-from = [0, 6]
-to = [16, 6]
-caption = "{objects_tested:body/bodies} of {bodies} tested, {hits:hit}."
-expect = { hits_are = ["red"] }
-)"},
+                    pace_key(), walk_events()}},
           read_ray),
       verb<Cull>(
           {.doc = "Which bodies can a camera see? Whole nodes outside its view are left out.",
@@ -253,15 +216,7 @@ expect = { hits_are = ["red"] }
                         in("°")),
                     key(&Cull::near, "near", "It sees nothing nearer.", above(0, kFar)),
                     key(&Cull::far, "far", "It sees nothing farther.", above(0, kFar)), pace_key(),
-                    walk_events()},
-           .example = R"([[step]]
-do = "cull"
-eye = [0, 6]
-target = [16, 6]
-angle = 40
-far = 8
-expect = { hits_are = ["red"] }
-)"},
+                    walk_events()}},
           read_cull),
       verb<Query>(
           {.doc = "Which bodies overlap a box, or a disc or ball?",
@@ -271,43 +226,20 @@ expect = { hits_are = ["red"] }
                         range(-kFar, kFar)),
                     key(KeyType::number, "radius", "Of the disc or ball.", above(0, kFar)),
                     pace_key(), walk_events()},
-           .groups = {{{"min", "max"}, {"center", "radius"}}},
-           .example = R"([[step]]
-do = "query"
-min = [0, 4]
-max = [8, 9]
-expect = { hits_are = ["red"] }
-)"},
+           .groups = {{{"min", "max"}, {"center", "radius"}}}},
           read_query),
       verb<TestShapes>({.doc = "The shapes of all candidate pairs are tested, without comparing "
                                "boxes first, as the lecture's narrow phase does. Nothing moves.",
-                        .keys = {},
-                        .example = R"([[step]]
-do = "test_shapes"
-caption = "{shapes_tested:pair} tested, {touching} in contact."
-expect = { touching = 1 }
-)"},
+                        .keys = {}},
                        read_test_shapes),
       verb<Separate>({.doc = "Which axis parts two bodies? The narrow phase's own test, axis by "
                              "axis, until there is a gap; in a flat world.",
-                      .keys = {pair_key(), pace_key(), events_key({"axis"})},
-                      .example = R"([[step]]
-do = "separate"
-pair = ["red", "pink"]
-caption = "{axes_tested:axis/axes} tested: a gap of {gap}."
-expect = { axes_tested = 1 }
-)"},
+                      .keys = {pair_key(), pace_key(), events_key({"axis"})}},
                      read_pair<Separate>),
       verb<SearchDistance>(
           {.doc = "How far are two bodies apart? GJK finds it by asking for points of their "
                   "Minkowski difference, each farther towards the origin; in a flat world.",
-           .keys = {pair_key(), pace_key(), events_key({"support", "simplex"})},
-           .example = R"([[step]]
-do = "gjk"
-pair = ["red", "pink"]
-caption = "{gjk_steps:search/searches}: a distance of {distance}."
-expect = { distance = 4.724, tolerance = 0.001 }
-)"},
+           .keys = {pair_key(), pace_key(), events_key({"support", "simplex"})}},
           read_pair<SearchDistance>)};
 }
 

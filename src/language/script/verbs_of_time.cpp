@@ -38,8 +38,6 @@ std::uint64_t ScriptReading::read_ticks(const TableReader& table, const char* ke
 
 namespace {
 
-using namespace keys;
-
 // Counts the world steps and frames of the seconds that `key` gives. `every` is the step's own.
 void count_time(const TableReader& table, const char* key, int every, ScriptReading& script) {
   const std::uint64_t ticks = script.read_ticks(table, key);
@@ -126,15 +124,7 @@ std::vector<VerbDoc> verbs_of_time() {
                               "A whole number of time steps; the frames of all steps are at most "
                               "100000, and the time steps 1000000.",
                               must(), above(0, kHundredYears), in("s")),
-                          every_key<Run>()},
-                 .example = R"([[step]]
-do = "run"
-seconds = 0.5
-every = 6
-caption = "{time} s: pink runs to the right, {pairs:pair} to test."
-always = { bodies = 3 }
-expect = { position = { pink = [4.5, 2] } }
-)"},
+                          every_key<Run>()}},
                 read_run),
       verb<Wait>({.doc = "Time passes until something happens. If it has not happened in time, the "
                          "scenario fails.",
@@ -149,24 +139,9 @@ expect = { position = { pink = [4.5, 2] } }
                           key(&Wait::at_most, "at_most", "A whole number of time steps.", must(),
                               above(0, kHundredYears), in("s")),
                           every_key<Wait>(),
-                      },
-                  .example = R"([[step]]
-do = "wait"
-event = "touch"
-bodies = ["pink", "player"]
-at_most = 2
-every = 6
-caption = "After {time} s they touch: {contacts:contact}."
-expect = { contacts_are = [["pink", "player"]] }
-)"},
+                      }},
                  read_wait),
-      verb<Phases>({.doc = "One world step, phase by phase.",
-                    .keys = {pace_key(), phase_events()},
-                    .example = R"([[step]]
-do = "phases"
-pace = "event"
-caption = "Of {pairs:candidate pair}, {contacts} in contact."
-)"},
+      verb<Phases>({.doc = "One world step, phase by phase.", .keys = {pace_key(), phase_events()}},
                    read_phases),
       verb<SolveBy>(
           {.doc = "From now on, contacts are solved another way; the world must have some.",
@@ -184,12 +159,7 @@ caption = "Of {pairs:candidate pair}, {contacts} in contact."
                        "Sweeps over the velocities in a world step, and as many over the "
                        "positions.",
                        range(1, 1000), or_else("as it was")),
-               },
-           .example = R"([[step]]
-do = "solve_by"
-contacts = "impulse"
-iterations = 20
-)"},
+               }},
           read_solve_by)};
 }
 

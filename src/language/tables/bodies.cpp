@@ -208,7 +208,6 @@ void read_body(const TomlValue& value, Draft& draft, bool declared) {
 }
 
 std::vector<KeyDoc> body_keys(std::vector<KeyDoc> first) {
-  using namespace keys;
   using B = BodySpec;
   const std::vector<KeyDoc> shared = {
       key(&B::look, "look", "The character that is drawn.",
@@ -280,7 +279,6 @@ std::vector<KeyDoc> body_keys(std::vector<KeyDoc> first) {
 namespace {
 
 KeyDoc color_key() {
-  using namespace keys;
   return key(
       &BodySpec::color, "color",
       "1 red, 2 pink, 3 yellow, 4 blue, 5 green, 6 sky, 7 orange, 8 violet, in the light theme.",
@@ -290,7 +288,6 @@ KeyDoc color_key() {
 }  // namespace
 
 TableDoc body_table() {
-  using namespace keys;
   using B = BodySpec;
   TableDoc table = {
       "body", "[[body]]",
@@ -455,7 +452,6 @@ std::vector<std::string_view> Prototypes::names() const {
 }
 
 TableDoc prototype_table() {
-  using namespace keys;
   TableDoc table = {"prototype", "[[prototype]]",
                     "Keys that bodies share: whoever is `like` it has them, too, and its own keys "
                     "win. A prototype may be like another one."};

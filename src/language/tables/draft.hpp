@@ -91,6 +91,19 @@ inline TableReader open(const TomlValue& value, const TableDoc& doc, Draft& draf
                      draft.dimension, called);
 }
 
+// Calls f(table, spec) for each table of the key, with what its keys fill of a Spec, and its place.
+template <class Spec, class F>
+void for_each(const TableReader& from, std::string_view key, Draft& draft, F&& f,
+              std::string_view called = {}) {
+  for (const TomlValue* value : from.tables(key)) {
+    const TableReader table = open(*value, language_table(from.doc().find(key)->of), draft, called);
+    Spec spec;
+    table.fill(spec);
+    if constexpr (requires { spec.where; }) spec.where = draft.position(value->where);
+    f(table, spec);
+  }
+}
+
 // Each reads its part of the file into the draft, in this order.
 void read_world(const TableReader& file, Draft& draft);
 void read_display(const TableReader& file, Draft& draft);
@@ -115,6 +128,10 @@ void read_structures(const TableReader& file, Draft& draft);
 
 // The structure keys of a table, upon `base`: what is not given stays.
 StructureSpec read_structure(const TableReader& table, const StructureSpec& base, Draft& draft);
+
+// Settings of [structure] are refused that no structure of the script has, and cells of which there
+// are too many.
+void check_structures(const TableReader& file, Draft& draft);
 
 // The [[prototype]]s of the file, into the draft.
 void read_prototypes(const TableReader& file, Draft& draft);
@@ -145,6 +162,13 @@ void find_the_followed(Draft& draft);
 
 // Exactly one body of that name. Adds a problem and gives nothing for an unknown name or a pattern.
 std::optional<std::size_t> one_body(const Named& name, Draft& draft);
+
+// The same of the name that a key gives, if it does.
+inline std::optional<std::size_t> body_at(const TableReader& table, std::string_view key,
+                                          Draft& draft) {
+  const auto name = table.named(key);
+  return name ? one_body(*name, draft) : std::nullopt;
+}
 
 // Each name, but of a range, as "b1..b9", all that it stands for. Adds a problem for one that is
 // none, and leaves it out.

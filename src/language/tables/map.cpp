@@ -95,8 +95,8 @@ struct Block {
 
 class MapReader {
  public:
-  MapReader(const TableReader& table, Draft& draft) : table_(table), draft_(draft) {
-    table.fill(spec_);
+  MapReader(const TableReader& table, const MapSpec& spec, Draft& draft)
+      : table_(table), draft_(draft), spec_(spec) {
     text_ = table.get<std::string>("rows").value_or("");
     rows_ = rows_of(text_, table.place("rows"), draft.text);
   }
@@ -296,7 +296,6 @@ class MapReader {
 }  // namespace
 
 TableDoc map_table() {
-  using namespace keys;
   using M = MapSpec;
   TableDoc table = {
       "map", "[map]",
@@ -320,9 +319,10 @@ void read_map(const TableReader& file, Draft& draft) {
   for (const TomlValue* value : file.tables("map")) {
     if (!file.has("world"))
       draft.problems.add(value->where, "a map needs a [world]", "add [world] with size = [64, 64]");
-    const TableReader table = open(*value, language_table("map"), draft);
-    MapReader(table, draft).read();
   }
+  for_each<MapSpec>(file, "map", draft, [&](const TableReader& table, const MapSpec& spec) {
+    MapReader(table, spec, draft).read();
+  });
 }
 
 }  // namespace lantern::language

@@ -60,7 +60,6 @@ void read_lines(const TableReader& table, ChartSpec& chart, Draft& draft) {
 }  // namespace
 
 TableDoc chart_table() {
-  using namespace keys;
   using C = ChartSpec;
   TableDoc table = {"chart", "[chart]",
                     "Counts and measures as a picture. Each step with `plot` adds a point to the "
@@ -83,20 +82,15 @@ TableDoc chart_table() {
 
 void read_chart(const TableReader& file, Draft& draft) {
   if (file.has("chart")) draft.scenario.chart.emplace();
-  for (const TomlValue* value : file.tables("chart")) {
-    const TableReader table = open(*value, language_table("chart"), draft);
-    ChartSpec chart;
-    table.fill(chart);
-    chart.where = draft.position(value->where);
+  for_each<ChartSpec>(file, "chart", draft, [&](const TableReader& table, ChartSpec& chart) {
     if (table.is_good("x") && !chart.over_time()) check_number(*table.named("x"), draft);
     read_lines(table, chart, draft);
     check_axes(table, chart);
     draft.scenario.chart = std::move(chart);
-  }
+  });
 }
 
 TableDoc problem_table() {
-  using namespace keys;
   using P = ProblemSpec;
   TableDoc table = {"problem", "[problem]",
                     "A question whose answer is known, so that `lantern measure` can tell each "
@@ -123,19 +117,16 @@ TableDoc problem_table() {
 }
 
 void read_problem(const TableReader& file, Draft& draft) {
-  for (const TomlValue* value : file.tables("problem")) {
-    const TableReader table = open(*value, language_table("problem"), draft);
-    ProblemSpec problem;
-    table.fill(problem);
-    problem.where = draft.position(value->where);
-    for (const Named& method : table.names("methods"))
-      if (!method_named(method.name))
-        draft.problems.add(method.where, fmt::format("there is no method '{}'", method.name),
-                           [name = method.name] { return suggestion(name, method_names()); });
-    if (draft.scenario.bodies.empty())
-      draft.problems.add(value->where, "a [problem] needs bodies", "add a [[body]]");
-    draft.scenario.problem = std::move(problem);
-  }
+  for_each<ProblemSpec>(
+      file, "problem", draft, [&](const TableReader& table, ProblemSpec& problem) {
+        for (const Named& method : table.names("methods"))
+          if (!method_named(method.name))
+            draft.problems.add(method.where, fmt::format("there is no method '{}'", method.name),
+                               [name = method.name] { return suggestion(name, method_names()); });
+        if (draft.scenario.bodies.empty())
+          draft.problems.add(table.where(), "a [problem] needs bodies", "add a [[body]]");
+        draft.scenario.problem = std::move(problem);
+      });
 }
 
 }  // namespace lantern::language
