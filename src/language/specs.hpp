@@ -89,7 +89,6 @@ struct CodeSpec {
 
 inline std::vector<std::string_view> names(ShownNames) { return {"story", "all", "none"}; }
 
-enum class Children { lazy, eager };  // each made when something enters it, or all at a split
 enum class Pace { step, event };
 enum class Look { ghost, player, ball, bat, disc, box, person, demon, item };
 enum class Brain { none, follow, wander };  // who steers a body
@@ -160,7 +159,7 @@ struct StructureSpec {
   StructureKind kind = StructureKind::none;
   std::uint32_t capacity = 2;
   std::uint32_t max_depth = 6;
-  Children children = Children::lazy;
+  bool eager_children = false;  // all made at a split, else each when something enters it
   bool no_progress_stop = false;
   bool split_static = false;  // one structure for what never moves, one for what does
   double cell = 0;            // of a grid: side of the smallest cells; 0: what suits its bodies
@@ -378,7 +377,6 @@ inline EnumNames names(AtlasRule) { return {"first_fit", "best_texture"}; }
 inline EnumNames names(Following) { return {"auto", "reinsert", "refit"}; }
 inline EnumNames names(SweepAxis) { return {"widest", "x", "y", "z"}; }
 inline EnumNames names(Picture) { return {"pattern", "heart", "sword", "potion", "coin", "map"}; }
-inline EnumNames names(Children) { return {"lazy", "eager"}; }
 inline EnumNames names(Pace) { return {"step", "event"}; }
 inline EnumNames names(Look) {
   return {"ghost", "player", "ball", "bat", "disc", "box", "person", "demon", "item"};

@@ -111,7 +111,7 @@ TEST(Reference, DefaultsAreWhatTheParserTakes) {
   EXPECT_EQ(fallback("body", "color"), std::to_string(s.bodies[0].color));
   EXPECT_EQ(language_table("world").find("time_step")->otherwise, "1/60");
   EXPECT_EQ(s.world.time_step, 1.0 / 60);
-  EXPECT_EQ(s.structure.children, Children::lazy);
+  EXPECT_FALSE(s.structure.eager_children);
   EXPECT_EQ(s.pace, Pace::step);
   EXPECT_FALSE(s.structure.no_progress_stop);
   EXPECT_EQ(s.bodies[0].kind, BodyKind::dynamic_body);

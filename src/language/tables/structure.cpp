@@ -125,8 +125,9 @@ TableDoc structure_table() {
           "A leaf at this depth never splits; the root has depth 0. A tree may have 2000000 nodes "
           "and as many entries.",
           range(0, 32)),
-      key(&S::children, "children",
-          "Made when something enters them (`lazy`), or all at a split (`eager`)."),
+      key(&S::eager_children, "children",
+          "Made when something enters them (`lazy`), or all at a split (`eager`).",
+          one_of({"lazy", "eager"})),
       key(&S::no_progress_stop, "no_progress_stop",
           "A leaf whose bodies all share one point does not split: that would separate none."),
       key(&S::split_static, "split_static",
