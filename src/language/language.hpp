@@ -13,7 +13,7 @@
 #include <typeinfo>
 #include <vector>
 
-#include "language/text/toml_tree.hpp"
+#include "language/text/problems.hpp"
 
 namespace lantern::language {
 

@@ -1,5 +1,3 @@
-#include "language/panel.hpp"
-
 #include <utility>
 
 #include <fmt/format.h>
@@ -8,6 +6,7 @@
 #include "base/own_name.hpp"
 #include "language/language.hpp"
 #include "language/reference.hpp"
+#include "language/specs.hpp"
 #include "language/tables/draft.hpp"
 
 namespace lantern::language {

@@ -1,7 +1,5 @@
 // [[side]]: the same script under other settings. What the file says to each side is made as a file
 // of its own and read like any other, so that all checks of the language hold for every side.
-#include "language/sides.hpp"
-
 #include <algorithm>
 #include <array>
 #include <set>
@@ -12,6 +10,7 @@
 #include "language/keys/key.hpp"
 #include "language/keys/table_reader.hpp"
 #include "language/scenario.hpp"
+#include "language/tables/draft.hpp"
 
 namespace lantern::language {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "frame/frame.hpp"
-#include "language/panel.hpp"
+#include "language/specs.hpp"
 
 namespace lantern::run {
 

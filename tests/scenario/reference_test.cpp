@@ -12,7 +12,7 @@
 #include "base/random.hpp"
 #include "language/counts.hpp"
 #include "language/language.hpp"
-#include "language/text/toml_tree.hpp"
+#include "language/text/problems.hpp"
 #include "scenario/parsing.hpp"
 
 namespace lantern::run {

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 
 #include "language/reference.hpp"
-#include "language/verbs.hpp"
+#include "language/scenario.hpp"
 #include "physics/world_config.hpp"
 #include "run/engine.hpp"
 #include "scenario/directing.hpp"

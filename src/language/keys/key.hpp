@@ -15,8 +15,8 @@
 
 #include <fmt/format.h>
 
+#include "language/keys/table_reader.hpp"
 #include "language/language.hpp"
-#include "language/text/toml_value.hpp"
 
 namespace lantern::language {
 

@@ -10,8 +10,8 @@
 #include "embedded/examples.hpp"
 #include "language/counts.hpp"
 #include "language/language.hpp"
-#include "language/panel.hpp"
-#include "language/sides.hpp"
+#include "language/specs.hpp"
+#include "language/tables/draft.hpp"
 
 namespace lantern::language {
 namespace {

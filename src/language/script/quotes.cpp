@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include "base/grouped.hpp"
-#include "language/script/caption.hpp"
+#include "language/counts.hpp"
 #include "language/script/script_reading.hpp"
-#include "language/sides.hpp"
+#include "language/tables/draft.hpp"
 
 namespace lantern::language {
 namespace {

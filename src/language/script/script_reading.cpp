@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "language/reference.hpp"
-#include "language/verbs.hpp"
+#include "language/scenario.hpp"
 
 namespace lantern::language {
 

@@ -1,5 +1,3 @@
-#include "language/text/toml_tree.hpp"
-
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -8,6 +6,8 @@
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
+
+#include "language/text/problems.hpp"
 
 namespace lantern::language {
 namespace {
