@@ -9,7 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "frame/frame.hpp"
+#include "frame/parts/asked.hpp"
+#include "frame/parts/panels.hpp"
 #include "geometry/angle.hpp"
 
 namespace lantern::frame {

@@ -3,6 +3,11 @@
 #include <algorithm>
 
 #include "frame/part_fields.hpp"
+#include "frame/parts/asked.hpp"
+#include "frame/parts/atlas.hpp"
+#include "frame/parts/level.hpp"
+#include "frame/parts/motion.hpp"
+#include "frame/parts/panels.hpp"
 
 namespace lantern::frame {
 namespace {

@@ -29,7 +29,7 @@
 #include "base/hash.hpp"
 #include "base/json_writer.hpp"
 #include "base/stop.hpp"
-#include "frame/parts.hpp"
+#include "frame/frame.hpp"
 #include "geometry/box.hpp"
 #include "spatial/structure.hpp"
 

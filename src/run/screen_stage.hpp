@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "atlas/binder.hpp"
-#include "frame/frame.hpp"
+#include "frame/parts/atlas.hpp"
 
 namespace lantern::run {
 

@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "frame/parts/atlas.hpp"
+#include "frame/parts/level.hpp"
 #include "language/reference.hpp"
 #include "language/scenario.hpp"
 #include "physics/world_config.hpp"

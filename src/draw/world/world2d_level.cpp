@@ -10,6 +10,7 @@
 #include "draw/pen.hpp"
 #include "draw/staging.hpp"
 #include "draw/world/world2d_parts.hpp"
+#include "frame/parts/level.hpp"
 #include "geometry/segment.hpp"
 
 namespace lantern::draw {

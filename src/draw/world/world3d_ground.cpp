@@ -7,6 +7,7 @@
 #include "draw/number_text.hpp"
 #include "draw/pen.hpp"
 #include "draw/world/world3d_parts.hpp"
+#include "frame/parts/asked.hpp"
 #include "geometry/polygon.hpp"
 
 namespace lantern::draw {
