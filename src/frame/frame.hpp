@@ -102,7 +102,7 @@ struct FramePlace {
   Vec<3> position{0.0};
   double angle = 0;  // radians, of a flat world
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v("position", r.position).flat_world("orientation", r.angle);
   }
 };
@@ -183,7 +183,7 @@ struct FrameContact {
     double separation = 0;  // below 0 they overlap
     double impulse = 0;     // along the normal, N s, over the last world step
 
-    static decltype(auto) fields(const auto& r, auto&& v) {
+    static auto fields(auto& r, auto&& v) {
       return v("position", r.position)("separation", r.separation)("impulse", r.impulse);
     }
   };
@@ -193,7 +193,7 @@ struct FrameContact {
   bool begins = false;   // they did not touch a step before
   bool crushes = false;  // one of them, against a third
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v("pair", r.pair)("normal", r.normal)("points", r.points)("begins", r.begins)("crushes",
                                                                                          r.crushes);
   }
@@ -207,7 +207,7 @@ struct FrameRuler {
   std::optional<double> before;  // what it is compared with: as long as it was when the step began
   std::string text;              // what is measured; may be empty
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v("from", r.from)("to", r.to)("length", r.length)("before", r.before).drawn(r.text);
   }
 };
@@ -226,7 +226,7 @@ struct Camera {
   double field_of_view = 0.7;  // radians, from bottom to top
   bool goes_round = false;     // on some frame of the scenario: the picture fits all directions
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v("eye", r.eye)("target", r.target).drawn(r.field_of_view, r.goes_round);
   }
 };
@@ -251,9 +251,7 @@ struct FrameQuestion {
   std::string asked;
   std::string answer;  // counts filled in
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("asked", r.asked)("answer", r.answer);
-  }
+  static auto fields(auto& r, auto&& v) { return v("asked", r.asked)("answer", r.answer); }
 };
 
 // How the structure was told to be, and what its panels need beside the nodes.
@@ -269,7 +267,7 @@ struct FrameStructure {
   std::uint32_t array_size = 0;  // slots of the array that all leaves share
   bool may_sleep = true;         // some body of this world can fall asleep
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v.drawn(r.settings, r.capacity, r.grid_levels, r.hashed, r.swept_to, r.sweep_axis,
                    r.pool_size, r.array_size, r.may_sleep);
   }

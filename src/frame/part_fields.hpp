@@ -1,6 +1,6 @@
 // Lists of fields. A struct that frames tell says all its members once, in one expression:
 //
-//   static decltype(auto) fields(const auto& r, auto&& v) {
+//   static auto fields(auto& r, auto&& v) {
 //     return v("from", r.from)("hits", r.hits).drawn(r.color);
 //   }
 //

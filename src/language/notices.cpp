@@ -295,8 +295,8 @@ void notice_bodies(Draft& draft) {
 
 void notice_prototypes(const TableReader& file, Draft& draft) {
   const auto text_in = [](const TomlValue& table, std::string_view key) {
-    const TomlEntry* entry = entry_of(std::get<TomlTable>(table.data), key);
-    return entry ? std::get<std::string>(entry->value.data) : std::string();
+    const auto* text = value_of<std::string>(std::get<TomlTable>(table.data), key);
+    return text ? *text : std::string();
   };
   std::set<std::string> used;
   for (const char* owner : {"prototype", "body", "pattern"})

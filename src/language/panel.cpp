@@ -5,8 +5,6 @@
 #include "base/check.hpp"
 #include "base/own_name.hpp"
 #include "language/language.hpp"
-#include "language/reference.hpp"
-#include "language/specs.hpp"
 #include "language/tables/draft.hpp"
 
 namespace lantern::language {

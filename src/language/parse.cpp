@@ -13,7 +13,6 @@
 #include "base/file.hpp"
 #include "base/hash.hpp"
 #include "language/keys/key.hpp"
-#include "language/scenario.hpp"
 #include "language/tables/draft.hpp"
 
 namespace lantern::language {
@@ -192,14 +191,12 @@ Glance glance_at(const std::string& path) try {
   Glance glance;
   glance.name = std::filesystem::path(path).stem().string();
   if (problems.any() || table.empty()) return glance;
-  if (const TomlEntry* name = entry_of(table, "name"))
-    if (const auto* text = std::get_if<std::string>(&name->value.data)) glance.name = *text;
+  if (const auto* name = value_of<std::string>(table, "name")) glance.name = *name;
   glance.is_scenario = std::ranges::any_of(
       table, [](const TomlEntry& entry) { return language_table("").find(entry.key) != nullptr; });
-  if (const TomlEntry* lecture = entry_of(table, "lecture"))
-    if (const auto* place = std::get_if<std::int64_t>(&lecture->value.data);
-        place && std::in_range<std::uint32_t>(*place))
-      glance.lecture = static_cast<std::uint32_t>(*place);
+  if (const auto* place = value_of<std::int64_t>(table, "lecture");
+      place && std::in_range<std::uint32_t>(*place))
+    glance.lecture = static_cast<std::uint32_t>(*place);
   return glance;
 } catch (const IoError&) {
   return {};

@@ -8,8 +8,6 @@
 
 #include "language/counts.hpp"
 #include "language/keys/key.hpp"
-#include "language/keys/table_reader.hpp"
-#include "language/scenario.hpp"
 #include "language/tables/draft.hpp"
 
 namespace lantern::language {
@@ -26,8 +24,7 @@ TomlEntry* entry(TomlTable& table, std::string_view key) {
   return found == table.end() ? nullptr : &*found;
 }
 const TomlEntry* entry(const TomlTable& table, std::string_view key) {
-  const auto found = std::ranges::find(table, key, &TomlEntry::key);
-  return found == table.end() ? nullptr : &*found;
+  return entry_of(table, key);
 }
 
 void take_out(TomlTable& table, std::string_view key) {

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "language/language.hpp"
-#include "language/reference.hpp"
 #include "run/director.hpp"
 #include "scenario/parsing.hpp"
 

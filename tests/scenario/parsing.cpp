@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "language/reference.hpp"
+#include "language/language.hpp"
 
 namespace lantern::run {
 

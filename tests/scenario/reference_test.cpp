@@ -1,6 +1,4 @@
 // The published page and schema say what the parser does.
-#include "language/reference.hpp"
-
 #include <algorithm>
 #include <regex>
 #include <set>

@@ -12,7 +12,7 @@
 
 #include "frame/parts/atlas.hpp"
 #include "frame/parts/level.hpp"
-#include "language/reference.hpp"
+#include "language/language.hpp"
 #include "language/scenario.hpp"
 #include "physics/world_config.hpp"
 #include "run/engine.hpp"

@@ -13,15 +13,11 @@ struct FrameRay {
     BodyId body = 0;
     Vec<3> position{0.0};
 
-    static decltype(auto) fields(const auto& r, auto&& v) {
-      return v("body", r.body)("position", r.position);
-    }
+    static auto fields(auto& r, auto&& v) { return v("body", r.body)("position", r.position); }
   };
   std::vector<Hit> hits;  // in order along the ray
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("from", r.from)("to", r.to)("hits", r.hits);
-  }
+  static auto fields(auto& r, auto&& v) { return v("from", r.from)("to", r.to)("hits", r.hits); }
 };
 
 // A view that bodies are culled against. In a flat world a wedge: `corners` goes round it. In a
@@ -31,9 +27,7 @@ struct FrameView {
   Vec<3> eye{0.0};
   std::vector<Vec<3>> corners;
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("eye", r.eye)("corners", r.corners);
-  }
+  static auto fields(auto& r, auto&& v) { return v("eye", r.eye)("corners", r.corners); }
 };
 
 // A region that was asked for what it overlaps.
@@ -41,9 +35,7 @@ struct FrameQuery {
   Box<3> box;
   double radius = 0;  // above 0: a disc or ball about the box's centre
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("box", r.box)("radius", r.radius);
-  }
+  static auto fields(auto& r, auto&& v) { return v("box", r.box)("radius", r.radius); }
 };
 
 // What a ray, view or region was, and what it found.
@@ -54,7 +46,7 @@ struct FrameFinding {
   std::vector<FrameQuery> queries;
   std::vector<BodyId> hits;  // of a ray in order along it
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v.when(!r.rays.empty(), "rays", r.rays)
         .when(!r.views.empty(), "views", r.views)
         .when(!r.queries.empty(), "queries", r.queries)
@@ -72,7 +64,7 @@ struct FrameAxis {
   // axis, then the second's.
   std::array<Vec<2>, 4> ends{};
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v("direction", r.direction)("separation", r.separation)("across", r.across)
         .drawn(r.face, r.ends);
   }
@@ -90,7 +82,7 @@ struct FrameSeparation {
   double gap() const;      // along the answer, or else the newest axis; 0 if they overlap
   double overlap() const;  // the least so far; 0 if they are apart
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v("axes", r.axes)("answer", r.answer).drawn(r.a, r.b);
   }
 };
@@ -111,7 +103,7 @@ struct FrameSearch {
   bool taken = true;           // the last one's point has entered the simplex
   std::optional<GjkAnswer> answer;
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v("searches", r.steps).drawn(r.a, r.b, r.taken, r.answer);
   }
 };
@@ -124,7 +116,7 @@ struct FrameDifference {
   std::vector<Vec<2>> corners;  // convex, counter-clockwise
   double radius = 0;            // round them, of round shapes
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v("difference", r.corners)("radius", r.radius).drawn(r.a, r.b);
   }
 };

@@ -18,7 +18,7 @@ struct FrameTexture {
   int x = 0;            // of a packed one, upper left corner
   int y = 0;
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v("id", r.id)("name", r.name)("size", r.width, r.height)
         .or_null(r.packed, "position", r.x, r.y)("refused", r.refused)
         .drawn(r.color, r.picture, r.packed, r.turned);
@@ -30,7 +30,7 @@ struct FrameTextures {
   static constexpr std::string_view kName = "textures";
   std::vector<FrameTexture> textures;
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v.when(!r.textures.empty(), "textures", r.textures);
   }
   void add_state(Hash& hash) const;
@@ -46,7 +46,7 @@ struct FrameElement {
   bool drawn = true;  // by the way that is under way; before the first one all are shown
   bool lit = false;   // the frame is about it
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v("texture", r.texture)("position", r.x, r.y)("drawn", r.drawn)
         .drawn(r.width, r.height, r.lit);
   }
@@ -57,7 +57,7 @@ struct FrameDraw {
   bool binds = false;  // another image had to be bound before it
   bool done = false;   // else it is bound and not yet drawn
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v("element", r.element)("binds", r.binds)("done", r.done);
   }
 };
@@ -68,7 +68,7 @@ struct FrameWay {
   std::vector<FrameDraw> draws;
   std::uint64_t bindings = 0;
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v.words("from", r.from_atlas, "textures", "atlas")
         .words("order", r.by_texture, "as_listed", "by_texture")("bindings", r.bindings)("draws",
                                                                                          r.draws);
@@ -86,7 +86,7 @@ struct FrameScreen {
   std::uint32_t bound = kNone;         // a texture, while it is drawn from
   bool atlas_bound = false;            // or the atlas
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v("size", r.width, r.height)("elements", r.elements)("ways", r.ways)
         .drawn(r.planned, r.bound, r.atlas_bound);
   }

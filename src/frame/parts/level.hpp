@@ -13,7 +13,7 @@ struct FrameWall {
   std::uint32_t node = kNone;  // of frame.nodes: where it lies, once it does
   Mark mark = Mark::quiet;
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v("wall", r.wall)("from", r.from)("to", r.to)
         .when(r.node != kNone, "node", r.node)
         .drawn(r.mark);
@@ -27,9 +27,7 @@ struct FramePortal {
   std::uint32_t a = 0;  // the sectors' nodes, of frame.nodes
   std::uint32_t b = 0;
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("from", r.from)("to", r.to)("nodes", r.a, r.b);
-  }
+  static auto fields(auto& r, auto&& v) { return v("from", r.from)("to", r.to)("nodes", r.a, r.b); }
 };
 using FrameSight = FramePortal;
 
@@ -40,7 +38,7 @@ struct FrameLevel {
   std::vector<FramePortal> portals;  // once a step asked who sees whom
   std::vector<FrameSight> sights;    // of the sector whose view has just been found
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v.when(!r.walls.empty(), "walls", r.walls)
         .when(!r.portals.empty(), "portals", r.portals)
         .when(!r.sights.empty(), "sights", r.sights)

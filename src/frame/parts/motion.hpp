@@ -17,7 +17,7 @@ struct FrameLook {
   bool meets = false;     // this is the moment
   int number = 1;         // of the looks at this pair, from 1: not all of them are told
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v("pair", r.pair)("a", r.a)("b", r.b)("time", r.time)("gap", r.gap)(
                "free_until", r.free_until)("meets", r.meets)
         .drawn(r.on_a, r.on_b, r.number);
@@ -44,7 +44,7 @@ struct FrameLink {
   Vec<3> to{0.0};
   double strain = 0;  // (length - rest) / rest; 0 for a pin
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v("kind", r.kind)("from", r.from)("to", r.to)("strain", r.strain);
   }
 };
@@ -63,7 +63,7 @@ struct FrameForce {
   Vec<3> force{0.0};  // N
   bool of_spring = false;
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v("body", r.body)("at", r.at)("force", r.force)("of_spring", r.of_spring);
   }
 };
@@ -83,7 +83,7 @@ struct FrameIsland {
   std::vector<BodyId> bodies;  // ascending
   bool asleep = false;
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v("number", r.number)("bodies", r.bodies)("asleep", r.asleep);
   }
 };
@@ -101,7 +101,7 @@ struct FrameIslands {
   std::vector<FrameIsland> islands;  // in order of their numbers
   std::vector<FrameEdge> edges;      // in order of ids
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v.when(!r.islands.empty(), "islands", r.islands).drawn(r.edges);
   }
 };

@@ -14,9 +14,7 @@ struct FrameSeries {
   std::vector<Vec<2>> points;  // in the order of the steps
   int color = 0;               // of the body; 0: whichever is next
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v.drawn(r.name, r.points, r.color);
-  }
+  static auto fields(auto& r, auto&& v) { return v.drawn(r.name, r.points, r.color); }
 };
 
 // How often each structure, or each step, counted something, as bars.
@@ -41,7 +39,7 @@ struct FrameChart {
   std::vector<FrameSeries> series;
   std::vector<FrameBar> bars;
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v.drawn(r.x_name, r.y_name, r.logarithmic, r.over_time, r.seconds, r.least, r.most,
                    r.x_unit, r.y_unit, r.series, r.bars);
   }
@@ -54,9 +52,7 @@ struct FrameTrace {
   std::vector<Vec<2>> points;     // seconds since the part began, and the count
   std::optional<double> seconds;  // of the part; none: the script does not say
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v.drawn(r.name, r.points, r.seconds);
-  }
+  static auto fields(auto& r, auto&& v) { return v.drawn(r.name, r.points, r.seconds); }
 };
 
 // A function of the lecture's own source, and which of its lines the frame is about.
@@ -70,7 +66,7 @@ struct FrameCollision {
     bool touches = false;    // in it
     bool begins = false;     // its begin was told in it
 
-    static decltype(auto) fields(const auto& r, auto&& v) {
+    static auto fields(auto& r, auto&& v) {
       return v("step", r.step)("frames_left", r.frames_left)("touches", r.touches)("begins",
                                                                                    r.begins);
     }
@@ -78,9 +74,7 @@ struct FrameCollision {
   Pair pair;
   std::vector<Moment> moments;  // in order
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("pair", r.pair)("moments", r.moments);
-  }
+  static auto fields(auto& r, auto&& v) { return v("pair", r.pair)("moments", r.moments); }
 };
 
 // All of them since a part of the script began.
@@ -92,7 +86,7 @@ struct FrameCollisions {
   std::uint64_t now = 0;               // world steps so far
   std::optional<std::uint64_t> steps;  // of the part; none: the script does not say
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v("collisions", r.rows).drawn(r.remembered, r.first, r.now, r.steps);
   }
 };
@@ -131,7 +125,7 @@ struct FrameComparison {
           ->work.step();
     }
 
-    static decltype(auto) fields(const auto& r, auto&& v) {
+    static auto fields(auto& r, auto&& v) {
       return v("row", r.name)("answer", r.answer)("bodies", r.bodies)("testable_pairs", r.testable)(
                  "kinds", r.cells)
           .drawn(r.marks);
@@ -142,7 +136,7 @@ struct FrameComparison {
   std::vector<std::string> all_names;  // of the rows, of the whole script
   std::vector<Row> rows;               // so far
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v.when(!r.rows.empty(), "comparison", r.rows).drawn(r.kinds, r.all_names);
   }
 };

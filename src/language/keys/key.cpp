@@ -7,7 +7,6 @@
 
 #include "base/check.hpp"
 #include "geometry/angle.hpp"
-#include "language/language.hpp"
 #include "language/scenario.hpp"
 
 namespace lantern::language {
@@ -51,9 +50,8 @@ KeyDoc made(KeyType type, std::string_view name, std::string_view meaning,
 KeyDoc made(const MemberKind& kind, const std::type_info& owner, std::size_t offset,
             const void* initial, std::string_view name, std::string_view meaning,
             std::initializer_list<Note> notes) {
-  KeyDoc doc{.key = name, .type = kind.type, .doc = meaning};
-  if (kind.choices) doc.choices = kind.choices();
-  for (const Note& note : notes) add(note, doc);
+  KeyDoc doc = made(kind.type, name, meaning, notes);
+  if (kind.choices && doc.choices.empty()) doc.choices = kind.choices();
   doc.owner = &owner;
   doc.offset = offset;
   doc.fill = kind.fill;

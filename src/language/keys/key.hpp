@@ -16,7 +16,6 @@
 #include <fmt/format.h>
 
 #include "language/keys/table_reader.hpp"
-#include "language/language.hpp"
 
 namespace lantern::language {
 

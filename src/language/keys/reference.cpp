@@ -1,5 +1,4 @@
-#include "language/reference.hpp"
-
+// What is printed of the language: the reference page with its examples, and the JSON Schema.
 #include <algorithm>
 #include <cmath>
 
@@ -10,7 +9,6 @@
 #include "embedded/examples.hpp"
 #include "language/counts.hpp"
 #include "language/language.hpp"
-#include "language/specs.hpp"
 #include "language/tables/draft.hpp"
 
 namespace lantern::language {
@@ -213,72 +211,6 @@ std::string_view file_with(std::string_view mark) {
   return {};
 }
 
-}  // namespace
-
-std::string_view example(std::string_view name) {
-  const auto files = examples::files();
-  const auto file = std::ranges::find(files, name, &decltype(files)::value_type::first);
-  LANTERN_CHECK(file == files.end(), ==, false);
-  return file->second.substr(0, file->second.find(kMark));
-}
-
-std::string_view example_of_verb(std::string_view verb) {
-  const std::string mark = mark_of(verb);
-  const std::string_view text = file_with(mark), own = text.substr(text.find(mark) + mark.size());
-  return own.substr(0, own.find(kMark));
-}
-
-std::string example_up_to(std::string_view verb) {
-  const std::string_view whole = file_with(mark_of(verb));
-  std::string text(whole.substr(0, whole.find(kMark, whole.find(mark_of(verb)) + 1)));
-  for (std::size_t at = 0; (at = text.find(kMark.substr(1))) != text.npos;)
-    text.erase(at, text.find('\n', at) + 1 - at);
-  return text;
-}
-
-std::vector<ExamplePicture> example_pictures() {
-  std::vector<ExamplePicture> all = {{"looks", std::string(example("looks"))}};
-  for (const std::string_view arrange : arrangements())
-    all.push_back({fmt::format("arrange_{}", arrange), pattern_example(arrange)});
-  all.push_back({"map", std::string(example("map"))});
-  for (const PanelKind& kind : panel_kinds())
-    all.push_back({fmt::format("panel_{}", kind.name),
-                   fmt::format("panels = [\"{}\"]\n{}", kind.name,
-                               kind.example ? kind.example() : std::string(example("world")))});
-  for (const TableDoc& verb : language_verbs())
-    if (verb_has_picture(verb.name))
-      all.push_back({fmt::format("do_{}", verb.name), example_up_to(verb.name)});
-  return all;
-}
-
-std::string reference_page() {
-  std::string page = introduction();
-  for (const TableDoc& table : language_tables())
-    if (table.name != "step" && table.name != "expect") page += table_section(table);
-  page += "\n## What happens\n";
-  page += table_section(language_table("step"));
-  page +=
-      "\nA body is used as a script would: inserted before it is moved or removed, and not twice. "
-      "Each example\nbelow goes on from the three scenarios above; append them in this order.\n";
-  for (const TableDoc& verb : language_verbs()) page += verb_section(verb);
-  page += "\n## What is expected and said\n";
-  page += table_section(language_table("expect"));
-  page += fmt::format(
-      "\n### Captions\n\nAt most {} letters. Placeholders are filled in with what the engine "
-      "found.\n\n{}",
-      kMostCaption, text_rows());
-  page += "\n### Counts of a world\n\n" + world_count_rows();
-  page +=
-      "\n### Measures of one body\n\nWritten with the body's name, as `energy.bob`: in the chart, "
-      "in `at_most` and `at_least`, and in captions.\n\n" +
-      count_rows("measure", known_body_measures(), [](const CountDoc&) { return true; });
-  page += "\n### Counts of an atlas\n\n" +
-          count_rows("count", known_counts(), [](const CountDoc& doc) { return doc.for_atlas(); });
-  return page;
-}
-
-namespace {
-
 using Json = nlohmann::ordered_json;
 
 // Whole numbers without a point.
@@ -438,6 +370,68 @@ Json part_schema(std::string_view name) {
 }
 
 }  // namespace
+
+std::string_view example(std::string_view name) {
+  const auto files = examples::files();
+  const auto file = std::ranges::find(files, name, &decltype(files)::value_type::first);
+  LANTERN_CHECK(file == files.end(), ==, false);
+  return file->second.substr(0, file->second.find(kMark));
+}
+
+std::string_view example_of_verb(std::string_view verb) {
+  const std::string mark = mark_of(verb);
+  const std::string_view text = file_with(mark), own = text.substr(text.find(mark) + mark.size());
+  return own.substr(0, own.find(kMark));
+}
+
+std::string example_up_to(std::string_view verb) {
+  const std::string_view whole = file_with(mark_of(verb));
+  std::string text(whole.substr(0, whole.find(kMark, whole.find(mark_of(verb)) + 1)));
+  for (std::size_t at = 0; (at = text.find(kMark.substr(1))) != text.npos;)
+    text.erase(at, text.find('\n', at) + 1 - at);
+  return text;
+}
+
+std::vector<ExamplePicture> example_pictures() {
+  std::vector<ExamplePicture> all = {{"looks", std::string(example("looks"))}};
+  for (const std::string_view arrange : arrangements())
+    all.push_back({fmt::format("arrange_{}", arrange), pattern_example(arrange)});
+  all.push_back({"map", std::string(example("map"))});
+  for (const PanelKind& kind : panel_kinds())
+    all.push_back({fmt::format("panel_{}", kind.name),
+                   fmt::format("panels = [\"{}\"]\n{}", kind.name,
+                               kind.example ? kind.example() : std::string(example("world")))});
+  for (const TableDoc& verb : language_verbs())
+    if (verb_has_picture(verb.name))
+      all.push_back({fmt::format("do_{}", verb.name), example_up_to(verb.name)});
+  return all;
+}
+
+std::string reference_page() {
+  std::string page = introduction();
+  for (const TableDoc& table : language_tables())
+    if (table.name != "step" && table.name != "expect") page += table_section(table);
+  page += "\n## What happens\n";
+  page += table_section(language_table("step"));
+  page +=
+      "\nA body is used as a script would: inserted before it is moved or removed, and not twice. "
+      "Each example\nbelow goes on from the three scenarios above; append them in this order.\n";
+  for (const TableDoc& verb : language_verbs()) page += verb_section(verb);
+  page += "\n## What is expected and said\n";
+  page += table_section(language_table("expect"));
+  page += fmt::format(
+      "\n### Captions\n\nAt most {} letters. Placeholders are filled in with what the engine "
+      "found.\n\n{}",
+      kMostCaption, text_rows());
+  page += "\n### Counts of a world\n\n" + world_count_rows();
+  page +=
+      "\n### Measures of one body\n\nWritten with the body's name, as `energy.bob`: in the chart, "
+      "in `at_most` and `at_least`, and in captions.\n\n" +
+      count_rows("measure", known_body_measures(), [](const CountDoc&) { return true; });
+  page += "\n### Counts of an atlas\n\n" +
+          count_rows("count", known_counts(), [](const CountDoc& doc) { return doc.for_atlas(); });
+  return page;
+}
 
 std::string json_schema() {
   Json root = Json::object(

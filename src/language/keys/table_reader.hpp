@@ -16,7 +16,6 @@
 #include "geometry/vec.hpp"
 #include "language/language.hpp"
 #include "language/specs.hpp"
-#include "language/text/problems.hpp"
 
 namespace lantern::language {
 

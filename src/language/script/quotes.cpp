@@ -4,9 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/grouped.hpp"
-#include "language/counts.hpp"
 #include "language/script/script_reading.hpp"
-#include "language/tables/draft.hpp"
 
 namespace lantern::language {
 namespace {

@@ -7,8 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "language/reference.hpp"
-#include "language/scenario.hpp"
+#include "language/language.hpp"
 
 namespace lantern::language {
 

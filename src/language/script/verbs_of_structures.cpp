@@ -1,7 +1,6 @@
 // Verbs about the structure and what it finds, as they are read: `rebuild`, `sweep` and `compare`;
 // `ray`, `cull` and `query`, which it is asked; `test_shapes`, `separate` and `gjk`, the narrow
 // phase.
-#include <tuple>
 
 #include <fmt/format.h>
 

@@ -12,8 +12,6 @@
 
 #include "language/keys/table_reader.hpp"
 #include "language/scenario.hpp"
-#include "language/specs.hpp"
-#include "language/text/problems.hpp"
 
 namespace lantern::language {
 

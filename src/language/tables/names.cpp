@@ -148,11 +148,6 @@ void find_the_followed(Draft& draft) {
 
 namespace {
 
-const std::string* text_of(const TomlTable& table, std::string_view key) {
-  const TomlEntry* entry = entry_of(table, key);
-  return entry ? std::get_if<std::string>(&entry->value.data) : nullptr;
-}
-
 // Of each of these, a body has one: its own stands against a prototype's.
 constexpr std::array<std::array<std::string_view, 4>, 5> kRivals = {{
     {"radius", "half_size", "capsule", "ground"},
@@ -184,7 +179,8 @@ class Chains {
   Chains(std::span<const TomlValue* const> tables, Draft& draft) : draft_(draft) {
     for (const TomlValue* value : tables) {
       const TomlTable& table = std::get<TomlTable>(value->data);
-      if (const std::string* name = text_of(table, "name")) tables_.emplace(*name, &table);
+      if (const std::string* name = value_of<std::string>(table, "name"))
+        tables_.emplace(*name, &table);
     }
   }
 
@@ -201,7 +197,7 @@ class Chains {
       if (e.key != "name" && e.key != "like" && language_table("prototype").find(e.key))
         keys.push_back(e);  // one that is unknown has been told
     const TomlEntry* like = entry_of(*tables_.at(name), "like");
-    const std::string* other = text_of(*tables_.at(name), "like");
+    const std::string* other = value_of<std::string>(*tables_.at(name), "like");
     open_.push_back(name);
     if (other && is_good(*other, like->value.where))
       keys = with_prototype(std::move(keys), keys_of(*other));
@@ -216,7 +212,8 @@ class Chains {
   bool is_good(const std::string& other, Place where) {
     if (!tables_.contains(other)) {
       std::vector<std::string_view> known;
-      for (const auto& [name, table] : tables_) known.push_back(*text_of(*table, "name"));
+      for (const auto& [name, table] : tables_)
+        known.push_back(*value_of<std::string>(*table, "name"));
       draft_.problems.add_unknown(where, "prototype", other, [known] { return known; });
       return false;
     }
@@ -290,7 +287,7 @@ TomlTable with_prototype(TomlTable own, const TomlTable& prototype) {
 
 const TomlValue& completed(const TomlValue& value, Draft& draft) {
   const TomlTable& own = std::get<TomlTable>(value.data);
-  const std::string* like = text_of(own, "like");
+  const std::string* like = value_of<std::string>(own, "like");
   if (!like) return value;
   const Place where = entry_of(own, "like")->value.where;
   const TomlTable* keys = draft.prototypes.find(*like);

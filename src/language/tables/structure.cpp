@@ -10,7 +10,6 @@
 
 #include "geometry/shape.hpp"
 #include "language/keys/key.hpp"
-#include "language/specs.hpp"
 #include "language/tables/draft.hpp"
 #include "spatial/structure_choice.hpp"
 

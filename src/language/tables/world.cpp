@@ -3,7 +3,6 @@
 
 #include "language/keys/key.hpp"
 #include "language/script/script_reading.hpp"
-#include "language/tables/draft.hpp"
 
 namespace lantern::language {
 namespace {

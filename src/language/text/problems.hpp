@@ -108,6 +108,13 @@ struct TomlEntry {
 // The entry of that key; null if there is none.
 const TomlEntry* entry_of(const TomlTable& table, std::string_view key);
 
+// Its value; null if there is none of that type.
+template <class T>
+const T* value_of(const TomlTable& table, std::string_view key) {
+  const TomlEntry* entry = entry_of(table, key);
+  return entry ? std::get_if<T>(&entry->value.data) : nullptr;
+}
+
 // Adds a problem and gives an empty table if `text` is not TOML, has bytes that are not UTF-8, or
 // is nested too deeply. `text` has no byte order mark.
 TomlTable read_toml(std::string_view text, Problems& problems);
