@@ -1,5 +1,5 @@
 // What a run knows of panels: what frames hold for them, and how it gets there. When there can be
-// one is in language/panel.hpp, how it is drawn in draw/panel.hpp.
+// one is in language/panel.cpp, how it is drawn in draw/panel.hpp.
 #pragma once
 
 #include <string_view>
