@@ -50,6 +50,8 @@ file(GLOB shaders CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/shaders/*)
 lantern_embed(lantern_shaders shader shaders.hpp ${shaders})
 file(GLOB lecture_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/lecture/*.?pp)
 lantern_embed(lantern_lecture_source lecture_source lecture_source.hpp ${lecture_files})
+file(GLOB examples CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/language/examples/*.toml)
+lantern_embed(lantern_examples examples examples.hpp ${examples})
 lantern_embed(lantern_output_schema output output_schema.hpp
   ${PROJECT_SOURCE_DIR}/scenarios/output.schema.json)
 

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "draw/panel.hpp"
+#include "frame/parts/panels.hpp"
 
 namespace lantern::draw {
 namespace {

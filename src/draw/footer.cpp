@@ -14,6 +14,7 @@
 #include "draw/font.hpp"
 #include "draw/notes.hpp"
 #include "draw/panels.hpp"
+#include "frame/parts/asked.hpp"
 
 namespace lantern::draw {
 namespace {

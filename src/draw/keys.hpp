@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "frame/frame.hpp"
+#include "frame/parts/atlas.hpp"
 
 namespace lantern::draw {
 

@@ -6,6 +6,8 @@
 #include "draw/marks.hpp"
 #include "draw/panels.hpp"
 #include "draw/pen.hpp"
+#include "frame/parts/asked.hpp"
+#include "frame/parts/motion.hpp"
 
 namespace lantern::draw {
 namespace {

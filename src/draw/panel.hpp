@@ -1,5 +1,5 @@
 // How panels are drawn, and what room they want. What else is known of them is in
-// language/panel.hpp and run/panel.hpp. Each panel is a file that gives one entry of the list
+// language/panel.cpp and run/panel.hpp. Each panel is a file that gives one entry of the list
 // in panel.cpp.
 #pragma once
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "draw/pattern.hpp"
-#include "frame/frame.hpp"
+#include "frame/parts/atlas.hpp"
 
 namespace lantern::draw {
 

@@ -11,6 +11,9 @@
 
 #include "frame/frame.hpp"
 #include "geometry/vec.hpp"
+#include "frame/parts/asked.hpp"
+#include "frame/parts/panels.hpp"
+#include "geometry/angle.hpp"
 
 namespace lantern::frame {
 namespace {

@@ -2,7 +2,9 @@
 // JSON is here; nothing of it is computed by whoever draws.
 #pragma once
 
-#include <array>
+#include <algorithm>
+#include <any>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -12,17 +14,74 @@
 #include <vector>
 
 #include "frame/body_state.hpp"
-#include "frame/comparison.hpp"
-#include "frame/parts.hpp"
 #include "geometry/flat.hpp"
 #include "geometry/plane.hpp"
 #include "language/code_text.hpp"
+#include "geometry/polygon.hpp"
 #include "language/scenario.hpp"
-#include "physics/gjk.hpp"
 #include "physics/world_config.hpp"
 #include "spatial/structure.hpp"
 
+namespace lantern {
+class Hash;
+class JsonWriter;
+}  // namespace lantern
+
 namespace lantern::frame {
+
+// The parts of a frame: what some pictures have and others do not (frame/parts/). A part is a plain
+// struct whose members are told once, in its list of fields (part_fields.hpp); all else follows
+// from that list.
+
+// What is known of all parts of one type.
+struct PartType {
+  std::string_view name;
+  // Members of the object that is open; points have as many numbers as the world has dimensions.
+  void (*write)(const std::any& part, int dimension, JsonWriter& json);
+  std::size_t (*bytes)(const std::any& part);  // what its lists take
+  void (*add_state)(const std::any& part, Hash& hash);
+};
+
+// Of P: where its list of fields is, `template const PartType& part_type<P>();` makes it.
+template <class P>
+const PartType& part_type();
+
+// At most one part of each type. Copies are whole copies.
+class FrameParts {
+ public:
+  // Null if there is none.
+  template <class P>
+  const P* find() const {
+    const auto at = place_of(part_type<P>());
+    return at == parts_.end() ? nullptr : &std::any_cast<const P&>(at->second);
+  }
+  template <class P>
+  P* find() {
+    return const_cast<P*>(std::as_const(*this).find<P>());
+  }
+  // The part that is there, or else a new one.
+  template <class P>
+  P& add() {
+    if (P* part = find<P>()) return *part;
+    return std::any_cast<P&>(parts_.emplace_back(&part_type<P>(), P()).second);
+  }
+  template <class P>
+  void drop() {
+    std::erase_if(parts_, [](const auto& part) { return part.first == &part_type<P>(); });
+  }
+  // f(type, part) for each.
+  template <class F>
+  void each(const F& f) const {
+    for (const auto& [type, part] : parts_) f(*type, part);
+  }
+
+ private:
+  using List = std::vector<std::pair<const PartType*, std::any>>;
+  List::const_iterator place_of(const PartType& type) const {
+    return std::ranges::find(parts_, &type, &List::value_type::first);
+  }
+  List parts_;
+};
 
 // What the current step did to a node.
 enum class Mark { quiet, passed, lit };
@@ -45,7 +104,7 @@ struct FramePlace {
   Vec<3> position{0.0};
   double angle = 0;  // radians, of a flat world
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v("position", r.position).flat_world("orientation", r.angle);
   }
 };
@@ -104,93 +163,6 @@ struct FrameNode {
   std::uint32_t met = kNone;  // a leaf's place in the order in which a ray met them, from 0
 };
 
-struct FrameTexture {
-  std::uint32_t id = 0;
-  std::string name;
-  int color = 1;
-  Picture picture = Picture::pattern;
-  int width = 0;
-  int height = 0;
-  bool packed = false;
-  bool refused = false;
-  bool turned = false;  // by 90 degrees: width and height are exchanged
-  int x = 0;            // of a packed one, upper left corner
-  int y = 0;
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("id", r.id)("name", r.name)("size", r.width, r.height)
-        .or_null(r.packed, "position", r.x, r.y)("refused", r.refused)
-        .drawn(r.color, r.picture, r.packed, r.turned);
-  }
-};
-
-// Of an atlas.
-struct FrameTextures {
-  static constexpr std::string_view kName = "textures";
-  std::vector<FrameTexture> textures;
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v.when(!r.textures.empty(), "textures", r.textures);
-  }
-  void add_state(Hash& hash) const;
-};
-
-// A screen that is drawn from textures, and each way in which it has been drawn so far.
-struct FrameElement {
-  std::uint32_t texture = 0;  // of frame.textures
-  int x = 0;                  // of the screen, upper left corner
-  int y = 0;
-  int width = 0;
-  int height = 0;
-  bool drawn = true;  // by the way that is under way; before the first one all are shown
-  bool lit = false;   // the frame is about it
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("texture", r.texture)("position", r.x, r.y)("drawn", r.drawn)
-        .drawn(r.width, r.height, r.lit);
-  }
-};
-
-struct FrameDraw {
-  std::uint32_t element = 0;
-  bool binds = false;  // another image had to be bound before it
-  bool done = false;   // else it is bound and not yet drawn
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("element", r.element)("binds", r.binds)("done", r.done);
-  }
-};
-
-struct FrameWay {
-  bool from_atlas = false;
-  bool by_texture = false;  // sorted so; else in the order of the list
-  std::vector<FrameDraw> draws;
-  std::uint64_t bindings = 0;
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v.words("from", r.from_atlas, "textures", "atlas")
-        .words("order", r.by_texture, "as_listed", "by_texture")("bindings", r.bindings)("draws",
-                                                                                         r.draws);
-  }
-};
-
-struct FrameScreen {
-  static constexpr std::string_view kName = "screen";
-  static constexpr bool kIsObject = true;
-  int width = 0;
-  int height = 0;
-  std::uint32_t planned = 0;           // ways, in the whole script
-  std::vector<FrameElement> elements;  // from the back to the front
-  std::vector<FrameWay> ways;          // the last may be under way
-  std::uint32_t bound = kNone;         // a texture, while it is drawn from
-  bool atlas_bound = false;            // or the atlas
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("size", r.width, r.height)("elements", r.elements)("ways", r.ways)
-        .drawn(r.planned, r.bound, r.atlas_bound);
-  }
-};
-
 struct FramePair {
   Pair pair;
   bool lit = false;       // new since the frame before
@@ -213,7 +185,7 @@ struct FrameContact {
     double separation = 0;  // below 0 they overlap
     double impulse = 0;     // along the normal, N s, over the last world step
 
-    static decltype(auto) fields(const auto& r, auto&& v) {
+    static auto fields(auto& r, auto&& v) {
       return v("position", r.position)("separation", r.separation)("impulse", r.impulse);
     }
   };
@@ -223,81 +195,10 @@ struct FrameContact {
   bool begins = false;   // they did not touch a step before
   bool crushes = false;  // one of them, against a third
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v("pair", r.pair)("normal", r.normal)("points", r.points)("begins", r.begins)("crushes",
                                                                                          r.crushes);
   }
-};
-
-// A look at two bodies within a world step, to find out when they meet. Times are shares of the
-// step.
-struct FrameLook {
-  Pair pair;
-  FramePlace a, b;              // where they are then
-  Vec<3> on_a{0.0}, on_b{0.0};  // where their surfaces are nearest to each other
-  double time = 0;
-  double gap = 0;         // between them; below 0 they overlap
-  double free_until = 0;  // for so long they surely do not touch; `time` if that is not known
-  bool meets = false;     // this is the moment
-  int number = 1;         // of the looks at this pair, from 1: not all of them are told
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("pair", r.pair)("a", r.a)("b", r.b)("time", r.time)("gap", r.gap)(
-               "free_until", r.free_until)("meets", r.meets)
-        .drawn(r.on_a, r.on_b, r.number);
-  }
-};
-
-// For the moment of an impact, so far; the last is this frame's.
-struct FrameLooks {
-  static constexpr std::string_view kName = "looks";
-  std::vector<FrameLook> looks;
-
-  static decltype(auto) fields(const auto& r, auto&& v) { return v("looks", r.looks); }
-};
-
-// A spring, a distance joint or a pin, between two points.
-struct FrameLink {
-  enum class Kind { spring, distance, pin };
-  friend std::string_view to_string(Kind kind) {
-    static constexpr std::string_view kWords[] = {"spring", "distance", "pin"};
-    return kWords[static_cast<int>(kind)];
-  }
-  Kind kind = Kind::spring;
-  Vec<3> from{0.0};
-  Vec<3> to{0.0};
-  double strain = 0;  // (length - rest) / rest; 0 for a pin
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("kind", r.kind)("from", r.from)("to", r.to)("strain", r.strain);
-  }
-};
-
-struct FrameLinks {
-  static constexpr std::string_view kName = "links";
-  std::vector<FrameLink> links;
-
-  static decltype(auto) fields(const auto& r, auto&& v) { return v("links", r.links); }
-};
-
-// A force that acts on a body now: a script's, or the pull of a spring.
-struct FrameForce {
-  BodyId body = 0;
-  Vec<3> at{0.0};     // in the world
-  Vec<3> force{0.0};  // N
-  bool of_spring = false;
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("body", r.body)("at", r.at)("force", r.force)("of_spring", r.of_spring);
-  }
-};
-
-// If the scenario shows them.
-struct FrameForces {
-  static constexpr std::string_view kName = "forces";
-  std::vector<FrameForce> forces;
-
-  static decltype(auto) fields(const auto& r, auto&& v) { return v("forces", r.forces); }
 };
 
 // The length between two points, measured.
@@ -308,7 +209,7 @@ struct FrameRuler {
   std::optional<double> before;  // what it is compared with: as long as it was when the step began
   std::string text;              // what is measured; may be empty
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v("from", r.from)("to", r.to)("length", r.length)("before", r.before).drawn(r.text);
   }
 };
@@ -320,301 +221,6 @@ struct FrameRulers {
   static decltype(auto) fields(const auto& r, auto&& v) { return v("rulers", r.rulers); }
 };
 
-// Bodies that hang together, as the last step of the world found, and so are moved together and
-// sleep and wake together.
-struct FrameIsland {
-  std::uint32_t number = 0;  // from 1; an island keeps it while the body of its lowest id is in it
-  std::vector<BodyId> bodies;  // ascending
-  bool asleep = false;
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("number", r.number)("bodies", r.bodies)("asleep", r.asleep);
-  }
-};
-
-// What holds two bodies together, or keeps them apart: that they touch, or a spring or joint.
-struct FrameEdge {
-  Pair pair;
-  bool tied = false;  // by a spring or joint
-  bool lit = false;   // new since the frame before
-};
-
-// If they have a panel.
-struct FrameIslands {
-  static constexpr std::string_view kName = "islands";
-  std::vector<FrameIsland> islands;  // in order of their numbers
-  std::vector<FrameEdge> edges;      // in order of ids
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v.when(!r.islands.empty(), "islands", r.islands).drawn(r.edges);
-  }
-};
-
-struct FrameRay {
-  Vec<3> from{0.0};
-  Vec<3> to{0.0};  // where it ends: its length, or the nearest hit
-  struct Hit {
-    BodyId body = 0;
-    Vec<3> position{0.0};
-
-    static decltype(auto) fields(const auto& r, auto&& v) {
-      return v("body", r.body)("position", r.position);
-    }
-  };
-  std::vector<Hit> hits;  // in order along the ray
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("from", r.from)("to", r.to)("hits", r.hits);
-  }
-};
-
-// A view that bodies are culled against. In a flat world a wedge: `corners` goes round it. In a
-// solid one a frustum: four corners of the near plane, then four of the far plane, each going
-// round.
-struct FrameView {
-  Vec<3> eye{0.0};
-  std::vector<Vec<3>> corners;
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("eye", r.eye)("corners", r.corners);
-  }
-};
-
-// A region that was asked for what it overlaps.
-struct FrameQuery {
-  Box<3> box;
-  double radius = 0;  // above 0: a disc or ball about the box's centre
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("box", r.box)("radius", r.radius);
-  }
-};
-
-// What a ray, view or region was, and what it found.
-struct FrameFinding {
-  static constexpr std::string_view kName = "finding";
-  std::vector<FrameRay> rays;
-  std::vector<FrameView> views;
-  std::vector<FrameQuery> queries;
-  std::vector<BodyId> hits;  // of a ray in order along it
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v.when(!r.rays.empty(), "rays", r.rays)
-        .when(!r.views.empty(), "views", r.views)
-        .when(!r.queries.empty(), "queries", r.queries)
-        .drawn(r.hits);
-  }
-};
-
-// An axis along which two bodies were measured: how far their shadows on it are apart.
-struct FrameAxis {
-  Vec<2> direction{0.0};         // unit, from the first body to the second
-  double separation = 0;         // of the shadows; below 0 they overlap
-  std::optional<BodyId> across;  // a face of this body; none: between closest points
-  std::vector<Vec<2>> face;      // its ends
-  // The points whose shadows end the bodies' shadows: the first body's least and most along the
-  // axis, then the second's.
-  std::array<Vec<2>, 4> ends{};
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("direction", r.direction)("separation", r.separation)("across", r.across)
-        .drawn(r.face, r.ends);
-  }
-};
-
-// Two bodies measured along one axis after another, until one parts them or there is none left.
-struct FrameSeparation {
-  static constexpr std::string_view kName = "separation";
-  BodyId a = 0;
-  BodyId b = 0;
-  std::vector<FrameAxis> axes;  // those so far, in their order
-  // Which of them answers: it parts the bodies, or they overlap least along it. None yet: unknown.
-  std::optional<std::size_t> answer;
-
-  double gap() const;      // along the answer, or else the newest axis; 0 if they overlap
-  double overlap() const;  // the least so far; 0 if they are apart
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("axes", r.axes)("answer", r.answer).drawn(r.a, r.b);
-  }
-};
-
-// The shapes of many pairs, each pair tested once.
-struct ShapeTests {
-  std::vector<Pair> tested;  // in order of ids
-  std::uint64_t work = 0;    // lengths measured
-  std::vector<FrameContact> touching;
-};
-
-// GJK: support point by support point to the distance of two bodies.
-struct FrameSearch {
-  static constexpr std::string_view kName = "search";
-  BodyId a = 0;
-  BodyId b = 0;
-  std::vector<GjkStep> steps;  // those so far
-  bool taken = true;           // the last one's point has entered the simplex
-  std::optional<GjkAnswer> answer;
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("searches", r.steps).drawn(r.a, r.b, r.taken, r.answer);
-  }
-};
-
-// All points of the first body less all points of the second.
-struct FrameDifference {
-  static constexpr std::string_view kName = "difference";
-  BodyId a = 0;
-  BodyId b = 0;
-  std::vector<Vec<2>> corners;  // convex, counter-clockwise
-  double radius = 0;            // round them, of round shapes
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("difference", r.corners)("radius", r.radius).drawn(r.a, r.b);
-  }
-};
-
-// A piece of a level's wall.
-struct FrameWall {
-  Vec<2> from{0.0};
-  Vec<2> to{0.0};
-  std::uint32_t wall = 0;      // of the scenario's walls
-  std::uint32_t node = kNone;  // of frame.nodes: where it lies, once it does
-  Mark mark = Mark::quiet;
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("wall", r.wall)("from", r.from)("to", r.to)
-        .when(r.node != kNone, "node", r.node)
-        .drawn(r.mark);
-  }
-};
-
-// An opening between two of a level's sectors, and a line of sight between two that see each other.
-struct FramePortal {
-  Vec<2> from{0.0};
-  Vec<2> to{0.0};
-  std::uint32_t a = 0;  // the sectors' nodes, of frame.nodes
-  std::uint32_t b = 0;
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("from", r.from)("to", r.to)("nodes", r.a, r.b);
-  }
-};
-using FrameSight = FramePortal;
-
-struct FrameLevel {
-  static constexpr std::string_view kName = "level";
-  std::vector<FrameWall> walls;
-  std::optional<Vec<2>> eye;         // from where it is looked at
-  std::vector<FramePortal> portals;  // once a step asked who sees whom
-  std::vector<FrameSight> sights;    // of the sector whose view has just been found
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v.when(!r.walls.empty(), "walls", r.walls)
-        .when(!r.portals.empty(), "portals", r.portals)
-        .when(!r.sights.empty(), "sights", r.sights)
-        .drawn(r.eye);
-  }
-};
-
-// Who sees whom of a level's sectors.
-struct FrameMatrix {
-  static constexpr std::string_view kName = "matrix";
-  std::vector<std::string>
-      rows;                   // a letter for each sector: '1' is seen, '0' is not, '.' not known
-  std::uint32_t lit = kNone;  // the row that is asked for, or has just been found
-
-  static decltype(auto) fields(const auto& r, auto&& v) { return v("matrix", r.rows).drawn(r.lit); }
-};
-
-// A line of a chart: what one count was against another, step by step.
-struct FrameSeries {
-  std::string name;            // of the count or measure, or of the body it is of
-  std::vector<Vec<2>> points;  // in the order of the steps
-  int color = 0;               // of the body; 0: whichever is next
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v.drawn(r.name, r.points, r.color);
-  }
-};
-
-// How often each structure, or each step, counted something, as bars.
-struct FrameBar {
-  std::string label;
-  double value = 0;
-  int group = 0;  // bars of one group stand together
-  int line = 0;   // which of the chart's quantities, or sides: those of one look alike
-};
-
-struct FrameChart {
-  static constexpr std::string_view kName = "chart";
-  std::string x_name;  // of the count along x; empty for bars
-  std::string y_name;
-  bool logarithmic = false;       // both axes, but for time
-  bool over_time = false;         // x is seconds
-  std::optional<double> seconds;  // over time: how far the x axis goes; none: as far as the lines
-  std::optional<double> least;    // of the y axis; lines leave the picture beyond it
-  std::optional<double> most;
-  std::string x_unit;  // "J"; empty for what is counted
-  std::string y_unit;
-  std::vector<FrameSeries> series;
-  std::vector<FrameBar> bars;
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v.drawn(r.x_name, r.y_name, r.logarithmic, r.over_time, r.seconds, r.least, r.most,
-                   r.x_unit, r.y_unit, r.series, r.bars);
-  }
-};
-
-// One count over the world's time so far, for the thin strip under what moves.
-struct FrameTrace {
-  static constexpr std::string_view kName = "trace";
-  std::string name;               // of the count
-  std::vector<Vec<2>> points;     // seconds since the part began, and the count
-  std::optional<double> seconds;  // of the part; none: the script does not say
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v.drawn(r.name, r.points, r.seconds);
-  }
-};
-
-// A function of the lecture's own source, and which of its lines the frame is about.
-using FrameCode = CodeText;
-
-// What the world remembered, step after step, of one pair that touches or has just touched.
-struct FrameCollision {
-  struct Moment {
-    std::uint64_t step = 0;  // of the world, from 1
-    int frames_left = 0;     // after it: steps without touch before the end is told; -1: told in it
-    bool touches = false;    // in it
-    bool begins = false;     // its begin was told in it
-
-    static decltype(auto) fields(const auto& r, auto&& v) {
-      return v("step", r.step)("frames_left", r.frames_left)("touches", r.touches)("begins",
-                                                                                   r.begins);
-    }
-  };
-  Pair pair;
-  std::vector<Moment> moments;  // in order
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("pair", r.pair)("moments", r.moments);
-  }
-};
-
-// All of them since a part of the script began.
-struct FrameCollisions {
-  static constexpr std::string_view kName = "collisions";
-  std::vector<FrameCollision> rows;    // by their first begin
-  int remembered = 0;                  // what framesLeft begins with
-  std::uint64_t first = 0;             // world steps before the part
-  std::uint64_t now = 0;               // world steps so far
-  std::optional<std::uint64_t> steps;  // of the part; none: the script does not say
-
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("collisions", r.rows).drawn(r.remembered, r.first, r.now, r.steps);
-  }
-};
-
 // Perspective, y up.
 struct Camera {
   Vec<3> eye{0.0};
@@ -622,7 +228,7 @@ struct Camera {
   double field_of_view = 0.7;  // radians, from bottom to top
   bool goes_round = false;     // on some frame of the scenario: the picture fits all directions
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v("eye", r.eye)("target", r.target).drawn(r.field_of_view, r.goes_round);
   }
 };
@@ -647,9 +253,7 @@ struct FrameQuestion {
   std::string asked;
   std::string answer;  // counts filled in
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
-    return v("asked", r.asked)("answer", r.answer);
-  }
+  static auto fields(auto& r, auto&& v) { return v("asked", r.asked)("answer", r.answer); }
 };
 
 // How the structure was told to be, and what its panels need beside the nodes.
@@ -665,7 +269,7 @@ struct FrameStructure {
   std::uint32_t array_size = 0;  // slots of the array that all leaves share
   bool may_sleep = true;         // some body of this world can fall asleep
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v.drawn(r.settings, r.capacity, r.grid_levels, r.hashed, r.swept_to, r.sweep_axis,
                    r.pool_size, r.array_size, r.may_sleep);
   }

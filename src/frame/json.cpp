@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "frame/frame.hpp"
 #include "frame/part_fields.hpp"
 
 namespace lantern::frame {

@@ -1,6 +1,6 @@
 // Lists of fields. A struct that frames tell says all its members once, in one expression:
 //
-//   static decltype(auto) fields(const auto& r, auto&& v) {
+//   static auto fields(auto& r, auto&& v) {
 //     return v("from", r.from)("hits", r.hits).drawn(r.color);
 //   }
 //
@@ -29,7 +29,7 @@
 #include "base/hash.hpp"
 #include "base/json_writer.hpp"
 #include "base/stop.hpp"
-#include "frame/parts.hpp"
+#include "frame/frame.hpp"
 #include "geometry/box.hpp"
 #include "spatial/structure.hpp"
 
@@ -39,37 +39,14 @@ namespace lantern::frame {
 template <std::size_t N = 0>
 struct FieldCount {
   static constexpr std::size_t kCount = N;
-  template <class... M>
-  FieldCount<N + sizeof...(M)> drawn(const M&...) const {
-    return {};
-  }
-  template <class... M>
-  FieldCount<N + sizeof...(M)> operator()(std::string_view, const M&...) const {
-    return {};
-  }
-  template <class M>
-  FieldCount<N + 1> when(bool, std::string_view, const M&) const {
-    return {};
-  }
-  template <class... M>
-  FieldCount<N + sizeof...(M)> or_null(bool, std::string_view, const M&...) const {
-    return {};
-  }
-  FieldCount<N + 1> words(std::string_view, const bool&, const char*, const char*) const {
-    return {};
-  }
-  template <class M>
-  FieldCount<N + 1> flat(const M&) const {
-    return {};
-  }
-  template <class M>
-  FieldCount<N + 1> flat_world(std::string_view, const M&) const {
-    return {};
-  }
-  template <class Make>
-  FieldCount told(std::string_view, const Make&) const {
-    return {};
-  }
+  auto drawn(const auto&... m) const { return FieldCount<N + sizeof...(m)>(); }
+  auto operator()(std::string_view, const auto&... m) const { return drawn(m...); }
+  auto when(bool, std::string_view, const auto& m) const { return drawn(m); }
+  auto or_null(bool, std::string_view, const auto&... m) const { return drawn(m...); }
+  auto words(std::string_view, bool m, const char*, const char*) const { return drawn(m); }
+  auto flat(const auto& m) const { return drawn(m); }
+  auto flat_world(std::string_view, const auto& m) const { return drawn(m); }
+  FieldCount told(std::string_view, const auto&) const { return {}; }
 };
 
 // Converts to every member.

@@ -30,7 +30,7 @@ struct CodeText {
 
   std::vector<std::uint32_t> lit() const;  // their numbers
 
-  static decltype(auto) fields(const auto& r, auto&& v) {
+  static auto fields(auto& r, auto&& v) {
     return v("file", r.file)("function", r.function)
         .told("lit", [&r] { return r.lit(); })
         .drawn(r.lines);

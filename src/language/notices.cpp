@@ -26,21 +26,12 @@ constexpr double kWide = 1e6;        // a tolerance of so many times what is exp
 
 // --- expectations ---
 
-// Of the whole script.
-std::vector<const StructureSpec*> structures_of(const ScenarioSpec& s) {
-  std::vector<const StructureSpec*> all = {&s.structure};
-  for (const Step& step : s.steps)
-    if (const auto* rebuild = std::get_if<Rebuild>(&step.verb)) all.push_back(&rebuild->structure);
-  return all;
-}
-
 // How deep trees become, if all structures of the script are trees that split down to a limit.
 std::optional<double> deepest(const ScenarioSpec& s) {
-  using enum StructureKind;
-  static constexpr std::array kSplitting = {quadtree, octree, kd_tree, lecture_quadtree};
   double depth = 0;
-  for (const StructureSpec* one : structures_of(s)) {
-    if (std::ranges::find(kSplitting, one->kind) == kSplitting.end()) return std::nullopt;
+  for (const StructureSpec* one : s.structures()) {
+    const StructureTraits& traits = traits_of(one->kind);
+    if (!traits.has(Setting::max_depth) || traits.is_own) return std::nullopt;
     depth = std::max<double>(depth, one->max_depth);
   }
   return depth;
@@ -168,11 +159,12 @@ class IdleKeys {
   std::map<std::string_view, Seen> found_;
 };
 
-bool ever_solves_by(const ScenarioSpec& s, ContactMethod method) {
-  return s.world.contacts == method || std::ranges::any_of(s.steps, [&](const Step& step) {
-           const auto* solve_by = std::get_if<SolveBy>(&step.verb);
-           return solve_by && solve_by->contacts == method;
-         });
+// Of the whole script.
+std::vector<ContactMethod> methods_of(const ScenarioSpec& s) {
+  std::vector<ContactMethod> all = {s.world.contacts};
+  for (const Step& step : s.steps)
+    if (const auto* by = std::get_if<SolveBy>(&step.verb)) all.push_back(by->contacts);
+  return all;
 }
 
 // How finely one method works, where only others do.
@@ -181,7 +173,7 @@ void see_idle_efforts(const TomlValue& table, ContactMethod used, const Scenario
   static constexpr std::pair<std::string_view, ContactMethod> kEfforts[] = {
       {"iterations", ContactMethod::impulse}, {"sub_steps", ContactMethod::soft}};
   for (const auto& [key, method] : kEfforts)
-    if (!ever_solves_by(s, method))
+    if (std::ranges::count(methods_of(s), method) == 0)
       keys.see(table, {key},
                {fmt::format("only contacts = \"{}\" have {}, and these are \"{}\"",
                             to_string(method), key, to_string(used)),
@@ -205,11 +197,8 @@ const IdleKeys::Reason kLectures{"contacts = \"lecture\" know neither friction n
                                  "give contacts = \"impulse\""};
 
 bool only_lectures(const ScenarioSpec& s) {
-  return s.world.contacts == ContactMethod::lecture &&
-         std::ranges::all_of(s.steps, [](const Step& step) {
-           const auto* solve_by = std::get_if<SolveBy>(&step.verb);
-           return !solve_by || solve_by->contacts == ContactMethod::lecture;
-         });
+  return std::ranges::all_of(methods_of(s),
+                             [](ContactMethod method) { return method == ContactMethod::lecture; });
 }
 
 // `lantern measure` tries a problem under all methods.
@@ -247,7 +236,7 @@ void notice_structures(const TableReader& file, Draft& draft) {
   const ScenarioSpec& s = draft.scenario;
   for (const Step& step : s.steps)
     if (std::holds_alternative<Compare>(step.verb)) return;
-  const std::vector<const StructureSpec*> all = structures_of(s);
+  const std::vector<const StructureSpec*> all = s.structures();
   std::vector<const TomlValue*> tables = file.tables("structure");
   const std::vector<const TomlValue*> steps = file.tables("step");
   for (std::size_t i = 0; i < steps.size(); ++i)
@@ -303,8 +292,8 @@ void notice_bodies(Draft& draft) {
 
 void notice_prototypes(const TableReader& file, Draft& draft) {
   const auto text_in = [](const TomlValue& table, std::string_view key) {
-    const TomlEntry* entry = entry_of(std::get<TomlTable>(table.data), key);
-    return entry ? std::get<std::string>(entry->value.data) : std::string();
+    const auto* text = value_of<std::string>(std::get<TomlTable>(table.data), key);
+    return text ? *text : std::string();
   };
   std::set<std::string> used;
   for (const char* owner : {"prototype", "body", "pattern"})

@@ -1,5 +1,3 @@
-#include "language/panel.hpp"
-
 #include <utility>
 
 #include <fmt/format.h>
@@ -7,7 +5,6 @@
 #include "base/check.hpp"
 #include "base/suggest.hpp"
 #include "language/language.hpp"
-#include "language/reference.hpp"
 #include "language/tables/draft.hpp"
 
 namespace lantern::language {
@@ -23,11 +20,8 @@ bool some_step(const Draft& draft) {
 // A structure of which this holds stands at some time.
 template <class F>
 bool some_structure(const Draft& draft, const F& holds) {
-  const ScenarioSpec& s = draft.scenario;
-  return holds(s.structure) || std::ranges::any_of(s.steps, [&](const Step& step) {
-           const auto* rebuild = std::get_if<Rebuild>(&step.verb);
-           return rebuild && holds(rebuild->structure);
-         });
+  return std::ranges::any_of(draft.scenario.structures(),
+                             [&](const StructureSpec* one) { return holds(*one); });
 }
 
 template <bool StructureTraits::*trait>
@@ -62,13 +56,11 @@ bool runs(const Draft& draft) { return draft.scenario.world_steps > 0; }
 
 // A scenario, with the example of a verb behind it.
 std::string with_verb(std::string_view scenario, std::string_view verb) {
-  const auto docs = language_verbs();
-  const auto doc = std::ranges::find(docs, verb, &TableDoc::name);
-  return fmt::format("{}\n{}", scenario, doc->example);
+  return fmt::format("{}\n{}", example(scenario), example_of_verb(verb));
 }
 
 std::string running_example() {
-  return fmt::format("{}\n[[step]]\ndo = \"run\"\nseconds = 4\n", world_example());
+  return fmt::format("{}\n[[step]]\ndo = \"run\"\nseconds = 4\n", example("world"));
 }
 
 std::vector<PanelKind>& kinds() {
@@ -93,14 +85,14 @@ std::vector<PanelKind>& kinds() {
        .possible = has_atlas,
        .place = 3,
        .by_itself = has_atlas,
-       .example = [] { return with_verb(atlas_example(), "pack"); }},
+       .example = [] { return with_verb("atlas", "pack"); }},
       {.name = "chart",
        .needs = "it needs a [chart]",
        .possible = has_chart,
        .place = 5,
        .by_itself = has_chart,
        .of_all_sides = true,
-       .example = [] { return std::string(chart_example()); }},
+       .example = [] { return std::string(example("chart")); }},
       {.name = "memory", .needs = "it needs a [structure]", .possible = has_structure},
       {.name = "ledger",
        .needs = "it needs a [structure], whose pairs it shows",
@@ -121,13 +113,13 @@ std::vector<PanelKind>& kinds() {
       {.name = "axes",
        .needs = "it needs a `separate`",
        .possible = some_step<Separate>,
-       .example = [] { return with_verb(world_example(), "separate"); }},
+       .example = [] { return with_verb("world", "separate"); }},
       {.name = "comparison",
        .needs = "it needs a step with do = \"compare\"",
        .possible = some_step<Compare>,
        .place = 6,
        .by_itself = some_step<Compare>,
-       .example = [] { return with_verb(world_example(), "compare"); }},
+       .example = [] { return with_verb("world", "compare"); }},
       {.name = "islands",
        .needs =
            "it needs a step that runs, and contacts, springs or joints that hold bodies together",
@@ -148,23 +140,23 @@ std::vector<PanelKind>& kinds() {
              return fmt::format(
                  "{}\n[[step]]\ndo = \"show\"\n"
                  "code = {{ function = \"Insert\", line = \"Split();\" }}\n",
-                 world_example());
+                 example("world"));
            }},
       {.name = "collisions",
        .needs = "it needs [world] contacts = \"lecture\", which remembers them",
        .possible =
            [](const Draft& d) { return d.scenario.world.contacts == ContactMethod::lecture; },
-       .example = [] { return std::string(collisions_example()); }},
+       .example = [] { return std::string(example("collisions")); }},
       {.name = "matrix",
        .needs = "it needs a [level] and a step with do = \"see\"",
        .possible = [](const Draft& d) { return d.scenario.level && some_step<See>(d); },
-       .example = [] { return with_verb(level_example(), "see"); }},
+       .example = [] { return with_verb("level", "see"); }},
       {.name = "screen",
        .needs = "it needs [[element]]s and a step that draws them",
        .possible = some_step<DrawScreen>,
        .place = 2,
        .by_itself = some_step<DrawScreen>,
-       .example = [] { return with_verb(atlas_example(), "draw"); }},
+       .example = [] { return with_verb("atlas", "draw"); }},
   };
   return all;
 }

@@ -1,7 +1,6 @@
 // A scenario file from its bytes to plain values.
 #include <algorithm>
 #include <cctype>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <system_error>
@@ -10,11 +9,11 @@
 
 #include <fmt/format.h>
 
+#include "base/check.hpp"
 #include "base/file.hpp"
 #include "base/hash.hpp"
-#include "language/sides.hpp"
+#include "language/keys/key.hpp"
 #include "language/tables/draft.hpp"
-#include "spatial/structure_kind.hpp"
 
 namespace lantern::language {
 namespace {
@@ -70,58 +69,6 @@ bool has_strange_table(const TomlTable& table) {
   });
 }
 
-// Settings of trees are refused where no tree that splits ever stands.
-void check_settings(const TableReader& file, Draft& draft) {
-  const auto splits = [](const StructureSpec& s) {
-    return s.kind != StructureKind::none && traits_of(s.kind).splits && s.why.empty();
-  };
-  const ScenarioSpec& s = draft.scenario;
-  if (!s.side.empty()) return;  // its table is one with what all sides share
-  if (s.structure.kind == StructureKind::none || splits(s.structure)) return;
-  for (const Step& step : s.steps)
-    if (const auto* rebuild = std::get_if<Rebuild>(&step.verb);
-        rebuild && splits(rebuild->structure))
-      return;
-  for (const TomlValue* value : file.tables("structure"))
-    for (const char* setting : {"capacity", "max_depth", "children", "no_progress_stop"})
-      if (const TomlEntry* entry = entry_of(std::get<TomlTable>(value->data), setting))
-        draft.problems.add(
-            entry->where,
-            fmt::format("a structure of kind '{}' has no '{}'",
-                        s.structure.why.empty() ? to_string(s.structure.kind) : "auto", setting),
-            "only trees that split have; leave it out, or take kind = \"quadtree\"");
-}
-
-// Settings of grids are refused where none ever stands, and cells of which there are too many.
-void check_grid(const TableReader& file, Draft& draft) {
-  constexpr double kMostCells = 2e6;
-  const ScenarioSpec& s = draft.scenario;
-  const bool grid = traits_of(s.structure.kind).has(Setting::cell);
-  if (!s.side.empty() || s.structure.kind == StructureKind::none) return;
-  const bool later = std::ranges::any_of(s.steps, [](const Step& step) {
-    const auto* rebuild = std::get_if<Rebuild>(&step.verb);
-    return rebuild && traits_of(rebuild->structure.kind).has(Setting::cell);
-  });
-  double cells = s.structure.cell > 0 && grid && !s.structure.open ? 1 : 0;
-  for (int i = 0; i < draft.dimension; ++i)
-    cells *= std::ceil(s.world.bounds.size()[i] / std::max(s.structure.cell, 1e-300));
-  for (const TomlValue* value : file.tables("structure"))
-    for (const char* setting : {"cell", "levels", "open"}) {
-      const TomlEntry* entry = entry_of(std::get<TomlTable>(value->data), setting);
-      if (entry && !grid && !later)
-        draft.problems.add(
-            entry->where,
-            fmt::format("a structure of kind '{}' has no '{}'",
-                        s.structure.why.empty() ? to_string(s.structure.kind) : "auto", setting),
-            "only kind = \"grid\" has");
-      else if (entry && std::string_view(setting) == "cell" && cells > kMostCells)
-        draft.problems.add(
-            entry->where,
-            fmt::format("the world has {:.3g} cells of this size, a grid may have 2000000", cells),
-            "take larger ones, or open = true");
-    }
-}
-
 void read_all(const TomlTable& table, const std::string& path, Draft& draft) {
   const TableReader file(table, kTop, language_table(""), draft.problems, 0);
   if (has_strange_table(table)) return;
@@ -140,8 +87,7 @@ void read_all(const TomlTable& table, const std::string& path, Draft& draft) {
   read_script(file, draft);
   if (draft.has_world) choose_structures(draft);
   check_panels(file, draft);
-  check_settings(file, draft);
-  check_grid(file, draft);
+  check_structures(file, draft);
   if (!draft.problems.any()) notice_idle(file, draft);
 }
 
@@ -219,8 +165,8 @@ Scenario parse_scenario(std::string_view text, const std::string& path) {
                        "[[step]] with do = \"show\"");
   } else {
     table = read_toml(draft.text, draft.problems);
-    const bool has_sides = std::ranges::find(table, "side", &TomlEntry::key) != table.end();
-    if (has_sides && !draft.problems.any()) return parse_sides(table, text, path, draft.problems);
+    if (entry_of(table, "side") && !draft.problems.any())
+      return parse_sides(table, text, path, draft.problems);
     if (!draft.problems.any()) read_all(table, path, draft);
   }
   draft.problems.raise(path, draft.text);
@@ -245,17 +191,100 @@ Glance glance_at(const std::string& path) try {
   Glance glance;
   glance.name = std::filesystem::path(path).stem().string();
   if (problems.any() || table.empty()) return glance;
-  if (const TomlEntry* name = entry_of(table, "name"))
-    if (const auto* text = std::get_if<std::string>(&name->value.data)) glance.name = *text;
+  if (const auto* name = value_of<std::string>(table, "name")) glance.name = *name;
   glance.is_scenario = std::ranges::any_of(
       table, [](const TomlEntry& entry) { return language_table("").find(entry.key) != nullptr; });
-  if (const TomlEntry* lecture = entry_of(table, "lecture"))
-    if (const auto* place = std::get_if<std::int64_t>(&lecture->value.data);
-        place && std::in_range<std::uint32_t>(*place))
-      glance.lecture = static_cast<std::uint32_t>(*place);
+  if (const auto* place = value_of<std::int64_t>(table, "lecture");
+      place && std::in_range<std::uint32_t>(*place))
+    glance.lecture = static_cast<std::uint32_t>(*place);
   return glance;
 } catch (const IoError&) {
   return {};
+}
+
+namespace {
+
+// Every index that the spec holds.
+class Indices {
+ public:
+  explicit Indices(const ScenarioSpec& spec) : spec_(spec) {}
+
+  void check() const {
+    for (const BodySpec& b : spec_.bodies)
+      if (b.brain == Brain::follow) body(b.follows);
+    for (const LinkSpec& link : spec_.links) {
+      body(link.a);
+      if (link.b) body(*link.b);
+    }
+    for (const BodyMeasureSpec& measure : spec_.body_measures) body(measure.body);
+    for (const Step& step : spec_.steps)
+      std::visit([&](const auto& verb) { see(verb); }, step.verb);
+  }
+
+ private:
+  void body(std::size_t i) const { LANTERN_CHECK(i, <, spec_.bodies.size()); }
+
+  // Verbs name bodies, one body, textures, or none.
+  void see(const auto& verb) const {
+    if constexpr (requires { verb.bodies; })
+      for (const std::size_t i : verb.bodies) body(i);
+    if constexpr (requires { verb.body; }) body(verb.body);
+    if constexpr (requires { verb.textures; })
+      for (const std::size_t i : verb.textures) LANTERN_CHECK(i, <, spec_.textures.size());
+    if constexpr (std::is_same_v<std::decay_t<decltype(verb)>, Wait>)
+      if (verb.event != Wait::Event::asleep) LANTERN_CHECK(verb.bodies.size(), ==, std::size_t{2});
+  }
+
+  const ScenarioSpec& spec_;
+};
+
+}  // namespace
+
+bool ScenarioSpec::is_quiet(Warning kind) const {
+  const std::vector<Warning>& quiet = atlas ? atlas->quiet : world.quiet;
+  return std::ranges::find(quiet, kind) != quiet.end();
+}
+
+bool ScenarioSpec::has_forces() const {
+  return world.gravity != Vec<3>(0.0) || world.gravitation > 0 || !links.empty();
+}
+
+bool ScenarioSpec::has_joints() const {
+  return std::any_of(links.begin(), links.end(),
+                     [](const LinkSpec& link) { return link.kind != LinkSpec::Kind::spring; });
+}
+
+bool ScenarioSpec::tells_sleepers() const {
+  return has_contacts() || world.may_sleep || structure.split_static;
+}
+
+bool ScenarioSpec::has_body_of(BodyKind kind) const {
+  return std::ranges::find(bodies, kind, &BodySpec::kind) != bodies.end();
+}
+
+bool ScenarioSpec::shows_trails() const {
+  return display.trail > 0 || std::ranges::any_of(steps, [](const Step& step) {
+           return step.display && step.display->trail > 0;
+         });
+}
+
+std::vector<const StructureSpec*> ScenarioSpec::structures() const {
+  std::vector<const StructureSpec*> all = {&structure};
+  for (const Step& step : steps)
+    if (const auto* rebuild = std::get_if<Rebuild>(&step.verb)) all.push_back(&rebuild->structure);
+  return all;
+}
+
+Scenario::Scenario(ScenarioSpec spec) : ScenarioSpec(std::move(spec)) { Indices(*this).check(); }
+
+std::optional<ScenarioName> ScenarioName::of(std::string_view text) {
+  return matches(text, kFilePattern) ? std::optional(ScenarioName(text)) : std::nullopt;
+}
+
+ScenarioName name_of(const Scenario& scenario) {
+  const auto name = ScenarioName::of(scenario.name);
+  LANTERN_CHECK(name ? scenario.name : "a scenario's name", ==, scenario.name);
+  return *name;
 }
 
 }  // namespace lantern::language

@@ -1,7 +1,5 @@
 // [[side]]: the same script under other settings. What the file says to each side is made as a file
 // of its own and read like any other, so that all checks of the language hold for every side.
-#include "language/sides.hpp"
-
 #include <algorithm>
 #include <array>
 #include <set>
@@ -10,8 +8,7 @@
 
 #include "language/counts.hpp"
 #include "language/keys/key.hpp"
-#include "language/keys/table_reader.hpp"
-#include "language/scenario.hpp"
+#include "language/tables/draft.hpp"
 
 namespace lantern::language {
 namespace {
@@ -27,8 +24,7 @@ TomlEntry* entry(TomlTable& table, std::string_view key) {
   return found == table.end() ? nullptr : &*found;
 }
 const TomlEntry* entry(const TomlTable& table, std::string_view key) {
-  const auto found = std::ranges::find(table, key, &TomlEntry::key);
-  return found == table.end() ? nullptr : &*found;
+  return entry_of(table, key);
 }
 
 void take_out(TomlTable& table, std::string_view key) {
@@ -236,7 +232,6 @@ class SidesReader {
 }  // namespace
 
 TableDoc side_table() {
-  using namespace keys;
   using S = ScenarioSpec;
   TableDoc table = {"side", "[[side]]",
                     "The script runs under each side's settings, on one clock, and the page sets "

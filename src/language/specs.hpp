@@ -2,22 +2,20 @@
 // initial value is the default of the key that fills it (see key.hpp).
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
 #include "geometry/flat.hpp"
 #include "geometry/rotation.hpp"
 #include "geometry/vec.hpp"
-#include "language/panel.hpp"
 #include "physics/body.hpp"
 #include "physics/methods.hpp"
 #include "spatial/structure_kind.hpp"
@@ -89,7 +87,6 @@ struct CodeSpec {
 
 inline std::vector<std::string_view> names(ShownNames) { return {"story", "all", "none"}; }
 
-enum class Children { lazy, eager };  // each made when something enters it, or all at a split
 enum class Pace { step, event };
 enum class Look { ghost, player, ball, bat, disc, box, person, demon, item };
 enum class Brain { none, follow, wander };  // who steers a body
@@ -148,7 +145,7 @@ struct WorldSpec {
 struct PlaneSpec {
   std::string name;
   Vec<3> point{0.0};
-  Vec<3> normal{0.0};
+  Vec<3> normal{1, 0, 0};
   std::string at;  // "root", or the way down from it: "front", "front.back", ...
   SourcePosition where;
 };
@@ -160,7 +157,7 @@ struct StructureSpec {
   StructureKind kind = StructureKind::none;
   std::uint32_t capacity = 2;
   std::uint32_t max_depth = 6;
-  Children children = Children::lazy;
+  bool eager_children = false;  // all made at a split, else each when something enters it
   bool no_progress_stop = false;
   bool split_static = false;  // one structure for what never moves, one for what does
   double cell = 0;            // of a grid: side of the smallest cells; 0: what suits its bodies
@@ -378,7 +375,6 @@ inline EnumNames names(AtlasRule) { return {"first_fit", "best_texture"}; }
 inline EnumNames names(Following) { return {"auto", "reinsert", "refit"}; }
 inline EnumNames names(SweepAxis) { return {"widest", "x", "y", "z"}; }
 inline EnumNames names(Picture) { return {"pattern", "heart", "sword", "potion", "coin", "map"}; }
-inline EnumNames names(Children) { return {"lazy", "eager"}; }
 inline EnumNames names(Pace) { return {"step", "event"}; }
 inline EnumNames names(Look) {
   return {"ghost", "player", "ball", "bat", "disc", "box", "person", "demon", "item"};
@@ -403,5 +399,44 @@ inline EnumNames names(RotationMethod) { return names_up_to(RotationMethod::expl
 
 inline std::string_view to_string(Solution s) { return names(s)[std::size_t(s)]; }
 inline std::string_view to_string(ProblemVariant v) { return names(v)[std::size_t(v)]; }
+
+// Panels: what a page is made of. All that the language knows of one is an entry of one list; what
+// a run gathers for it is one of another (run/panel.hpp), and how it is drawn one of a third
+// (draw/panel.hpp).
+struct Draft;
+
+// A panel by its place in the list.
+enum class Panel : std::uint8_t {};
+
+struct PanelKind {
+  std::string_view name = {};   // as in `panels`
+  std::string_view needs = {};  // said where it is not possible: "it needs a [chart]"
+  bool (*possible)(const Draft& draft) = [](const Draft&) { return true; };
+  // Of a scenario that wishes for none, which has it if this holds: its place from the left.
+  int place = 0;
+  bool (*by_itself)(const Draft& draft) = nullptr;
+  bool of_all_sides = false;           // one for all of them, below their own
+  std::string (*example)() = nullptr;  // a scenario that has it, but for `panels`; null: the usual
+};
+
+std::span<const PanelKind> panel_kinds();
+const PanelKind& kind_of(Panel panel);
+
+// A panel of Lantern, which must be there.
+Panel panel_named(std::string_view name);
+
+bool is(Panel panel, std::string_view name);
+// Is it one of these?
+bool shows(const std::vector<Panel>& panels, std::string_view name);
+
+// Those that can have something to show in any of these. They must be known before the first frame
+// is drawn, so they follow from what the files declare.
+std::vector<Panel> derived_panels(std::span<const Draft* const> drafts);
+
+// One more, of the program's own. To be called before any scenario is read. Throws Refused if its
+// name is taken, or is not of a–z, 0–9 and _.
+void add_panel(PanelKind kind);
+
+std::vector<std::string_view> names(Panel);
 
 }  // namespace lantern::language

@@ -9,7 +9,7 @@
 
 #include "atlas/atlas.hpp"
 #include "base/work.hpp"
-#include "frame/frame.hpp"
+#include "frame/parts/atlas.hpp"
 
 namespace lantern::run {
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <vector>
 
-#include "frame/frame.hpp"
+#include "frame/parts/panels.hpp"
 #include "physics/contact/contact_solver.hpp"
 #include "physics/world.hpp"
 

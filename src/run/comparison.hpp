@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "frame/comparison.hpp"
+#include "frame/parts/panels.hpp"
 #include "language/scenario.hpp"
 
 namespace lantern::run {

@@ -45,7 +45,7 @@ void ScriptRun::witness(const Event& event) {
   if (event.kind == Kind::test) frames.touched.passed.insert(event.node);
   if (!frames.by_event() || !frames.wanted(event_name(event.kind))) return;
   const StructureSpec& structure = engine().structure();
-  if (event.kind == Kind::make_child && structure.children == Children::eager) return;
+  if (event.kind == Kind::make_child && structure.eager_children) return;
   Touched now = frames.touched;
   (event.kind == Kind::miss ? now.passed : now.lit).insert(event.node);
   const StructureTraits traits = traits_of(structure.kind);

@@ -14,7 +14,9 @@
 
 #include "base/work.hpp"
 #include "frame/body_state.hpp"
-#include "frame/frame.hpp"
+#include "frame/parts/asked.hpp"
+#include "frame/parts/motion.hpp"
+#include "frame/parts/panels.hpp"
 #include "physics/world_config.hpp"
 #include "run/step_findings.hpp"
 #include "spatial/query.hpp"

@@ -5,7 +5,8 @@
 #include <string_view>
 
 #include "atlas/atlas.hpp"
-#include "frame/frame.hpp"
+#include "frame/parts/asked.hpp"
+#include "frame/parts/motion.hpp"
 #include "spatial/structure.hpp"
 
 namespace lantern::run {

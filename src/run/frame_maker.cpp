@@ -12,7 +12,6 @@
 #include "geometry/flat.hpp"
 #include "language/code_text.hpp"
 #include "language/counts.hpp"
-#include "language/script/caption.hpp"
 #include "run/comparison.hpp"
 #include "run/panel.hpp"
 #include "run/rulers.hpp"

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "frame/parts/motion.hpp"
+
 namespace lantern::run {
 namespace {
 

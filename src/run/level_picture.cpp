@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/check.hpp"
+#include "frame/parts/level.hpp"
 #include "run/level_stage.hpp"
 #include "spatial/pairs.hpp"
 

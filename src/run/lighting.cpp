@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "base/hash.hpp"
+#include "frame/parts/level.hpp"
+#include "frame/parts/motion.hpp"
 
 namespace lantern::run {
 namespace {

@@ -1,7 +1,7 @@
 // What the narrow phase tells of two bodies of a flat world, as a frame shows it.
 #pragma once
 
-#include "frame/frame.hpp"
+#include "frame/parts/asked.hpp"
 #include "physics/world.hpp"
 
 namespace lantern::run {

@@ -4,7 +4,7 @@
 
 #include <optional>
 
-#include "frame/frame.hpp"
+#include "frame/parts/asked.hpp"
 
 namespace lantern::run {
 

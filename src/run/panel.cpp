@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/check.hpp"
+#include "frame/parts/level.hpp"
 #include "run/frame_maker.hpp"
 
 namespace lantern::run {

@@ -1,12 +1,12 @@
 // What a run knows of panels: what frames hold for them, and how it gets there. When there can be
-// one is in language/panel.hpp, how it is drawn in draw/panel.hpp.
+// one is in language/panel.cpp, how it is drawn in draw/panel.hpp.
 #pragma once
 
 #include <string_view>
 #include <vector>
 
 #include "frame/frame.hpp"
-#include "language/panel.hpp"
+#include "language/specs.hpp"
 
 namespace lantern::run {
 

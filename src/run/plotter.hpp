@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "frame/frame.hpp"
+#include "frame/parts/panels.hpp"
 
 namespace lantern::run {
 

@@ -7,6 +7,8 @@
 
 #include "atlas/atlas.hpp"
 #include "frame/frame.hpp"
+#include "atlas/binder.hpp"
+#include "frame/parts/atlas.hpp"
 
 namespace lantern::run {
 

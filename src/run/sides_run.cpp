@@ -14,7 +14,7 @@
 
 #include "base/check.hpp"
 #include "base/memory.hpp"
-#include "language/script/caption.hpp"
+#include "language/counts.hpp"
 #include "run/script_run.hpp"
 
 namespace lantern::run {

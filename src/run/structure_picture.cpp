@@ -85,7 +85,7 @@ std::string settings_text(const StructureSpec& s, int sweep_axis) {
   if (traits.is_plain) return "the lecture's own code, " + limits + split;
   if (traits.is_fitted) return "fitted to its bodies, " + limits + split;
   return fmt::format("{}, {}{}{}", limits,
-                     s.children == Children::eager ? "all children made" : "children on demand",
+                     s.eager_children ? "all children made" : "children on demand",
                      s.no_progress_stop ? ", stops without progress" : "", split);
 }
 
@@ -273,7 +273,7 @@ BroadPhaseConfig<D> broad_phase_of(const StructureSpec& spec, const Box<D>& boun
   config.bounds = bounds;
   config.capacity = spec.capacity;
   config.max_depth = spec.max_depth;
-  config.eager_children = spec.children == Children::eager;
+  config.eager_children = spec.eager_children;
   config.no_progress_stop = spec.no_progress_stop;
   config.margin = spec.margin;
   config.following = spec.following;

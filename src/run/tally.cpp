@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "frame/parts/motion.hpp"
+#include "frame/parts/panels.hpp"
 #include "physics/methods.hpp"
 #include "run/panel.hpp"
 

@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "frame/frame.hpp"
+#include "frame/parts/motion.hpp"
 #include "physics/world.hpp"
 
 namespace lantern::run {

@@ -7,6 +7,8 @@
 #include <span>
 
 #include "base/stop.hpp"
+#include "frame/parts/motion.hpp"
+#include "physics/energy.hpp"
 #include "physics/forces.hpp"
 #include "physics/joint.hpp"
 

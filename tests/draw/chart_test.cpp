@@ -10,6 +10,7 @@
 #include "draw/page.hpp"
 #include "draw/panel.hpp"
 #include "draw/sample_frames.hpp"
+#include "frame/parts/panels.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -12,6 +12,7 @@
 #include "draw/pen.hpp"
 #include "draw/sample_frames.hpp"
 #include "draw/world/world3d_parts.hpp"
+#include "frame/parts/asked.hpp"
 #include "geometry/flat.hpp"
 
 namespace lantern::draw {

@@ -3,6 +3,7 @@
 
 #include "draw/layout_check.hpp"
 #include "draw/sample_frames.hpp"
+#include "frame/parts/level.hpp"
 
 namespace lantern::draw {
 namespace {

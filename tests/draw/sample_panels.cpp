@@ -5,6 +5,7 @@
 
 #include "base/random.hpp"
 #include "draw/sample_frames.hpp"
+#include "frame/parts/panels.hpp"
 
 namespace lantern::draw::samples {
 namespace {

@@ -1,5 +1,6 @@
 // Frames with sides: the same moment under several settings.
 #include "draw/sample_frames.hpp"
+#include "frame/parts/panels.hpp"
 
 namespace lantern::draw::samples {
 

@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include "draw/sample_frames.hpp"
+#include "frame/parts/atlas.hpp"
+#include "frame/parts/motion.hpp"
+#include "frame/parts/panels.hpp"
 #include "language/code_text.hpp"
 
 namespace lantern::draw::samples {

@@ -4,6 +4,9 @@
 
 #include "base/random.hpp"
 #include "draw/sample_frames.hpp"
+#include "frame/parts/asked.hpp"
+#include "frame/parts/level.hpp"
+#include "frame/parts/motion.hpp"
 #include "geometry/flat.hpp"
 
 namespace lantern::draw::samples {

@@ -12,6 +12,7 @@
 #include "draw/page.hpp"
 #include "draw/sample_frames.hpp"
 #include "draw/tree/tree_layout.hpp"
+#include "frame/parts/panels.hpp"
 #include "scenario/directing.hpp"
 
 namespace lantern::draw {

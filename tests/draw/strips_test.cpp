@@ -5,6 +5,7 @@
 
 #include "draw/layout_check.hpp"
 #include "draw/sample_frames.hpp"
+#include "frame/parts/panels.hpp"
 
 namespace lantern::draw {
 namespace {

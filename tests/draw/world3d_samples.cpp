@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 
 #include "base/random.hpp"
+#include "frame/parts/asked.hpp"
+#include "frame/parts/motion.hpp"
 #include "geometry/flat.hpp"
 #include "spatial/structure.hpp"
 

@@ -11,7 +11,6 @@
 #include "draw/page.hpp"
 #include "fuzz/energy.hpp"
 #include "language/text/problems.hpp"
-#include "language/text/toml_tree.hpp"
 #include "measure/plan.hpp"
 #include "render/svg.hpp"
 #include "run/director.hpp"

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "atlas/packer.hpp"
+#include "frame/parts/atlas.hpp"
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 

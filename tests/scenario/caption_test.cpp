@@ -1,10 +1,9 @@
-#include "language/script/caption.hpp"
-
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
+#include "language/counts.hpp"
 
 namespace lantern::run {
 namespace {

@@ -1,6 +1,7 @@
 // What the step `compare` tells of worlds and structures.
 #include <gtest/gtest.h>
 
+#include "frame/parts/panels.hpp"
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "language/language.hpp"
-#include "language/reference.hpp"
 #include "run/director.hpp"
 #include "scenario/parsing.hpp"
 
@@ -22,22 +21,16 @@ void expect_kept(const std::string& text) {
 }
 
 TEST(Examples, OfScenariosKeepTheirPromises) {
-  expect_kept(std::string(world_example()));
-  expect_kept(std::string(atlas_example()));
-  expect_kept(std::string(level_example()));
-  expect_kept(std::string(map_example()));
+  expect_kept(std::string(example("world")));
+  expect_kept(std::string(example("atlas")));
+  expect_kept(std::string(example("level")));
+  expect_kept(std::string(example("map")));
 }
 
 TEST(Examples, OfTheVerbsGoOnFromTheirScenariosAndKeepTheirPromises) {
-  std::string world(world_example()), atlas(atlas_example()), level(level_example());
   for (const TableDoc& verb : language_verbs()) {
-    const bool on_atlas = verb.name == "pack" || verb.name == "ask_room" || verb.name == "draw";
-    const bool on_level = verb.name == "compile" || verb.name == "locate" || verb.name == "order" ||
-                          verb.name == "see";
-    std::string& text = on_atlas ? atlas : on_level ? level : world;
-    text += "\n" + std::string(verb.example);
     SCOPED_TRACE(verb.name);
-    expect_kept(text);
+    expect_kept(example_up_to(verb.name));
   }
 }
 

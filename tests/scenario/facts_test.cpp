@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "frame/parts/atlas.hpp"
 #include "scenario/directing.hpp"
 
 namespace lantern::run {

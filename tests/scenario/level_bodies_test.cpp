@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "frame/parts/level.hpp"
 #include "geometry/flat.hpp"
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"

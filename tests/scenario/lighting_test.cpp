@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "frame/parts/asked.hpp"
+#include "frame/parts/level.hpp"
+#include "frame/parts/motion.hpp"
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 

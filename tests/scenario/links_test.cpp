@@ -1,6 +1,7 @@
 // Springs and joints come and go with their bodies; the points they are tied to are no bodies.
 #include <gtest/gtest.h>
 
+#include "frame/parts/motion.hpp"
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 

@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include "language/reference.hpp"
+#include "language/language.hpp"
 
 namespace lantern::run {
 
@@ -142,8 +142,8 @@ Scenario good(const std::string& text) {
 }
 
 std::vector<std::string> good_texts() {
-  std::vector<std::string> texts{std::string(world_example()), std::string(atlas_example()),
-                                 std::string(level_example()), std::string(kSolid)};
+  std::vector<std::string> texts{std::string(example("world")), std::string(example("atlas")),
+                                 std::string(example("level")), std::string(kSolid)};
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(LANTERN_ROOT "/scenarios"))
     if (entry.path().extension() == ".toml") files.push_back(entry.path());

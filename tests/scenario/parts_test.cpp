@@ -2,8 +2,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "frame/frame.hpp"
 #include "frame/part_fields.hpp"
+#include "frame/parts/motion.hpp"
 
 namespace lantern::run {
 namespace {

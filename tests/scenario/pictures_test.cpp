@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "frame/parts/panels.hpp"
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 

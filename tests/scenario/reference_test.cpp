@@ -1,6 +1,4 @@
 // The published page and schema say what the parser does.
-#include "language/reference.hpp"
-
 #include <algorithm>
 #include <regex>
 #include <set>
@@ -12,7 +10,7 @@
 #include "base/random.hpp"
 #include "language/counts.hpp"
 #include "language/language.hpp"
-#include "language/text/toml_tree.hpp"
+#include "language/text/problems.hpp"
 #include "scenario/parsing.hpp"
 
 namespace lantern::run {
@@ -48,17 +46,17 @@ std::vector<std::string> toml_blocks(const std::string& page) {
 TEST(Reference, EveryExampleGoesOnFromTheScenariosOfThePage) {
   std::vector<std::string> blocks = toml_blocks(reference_page());
   std::erase_if(blocks, [&](const std::string& block) {
-    const bool is_whole = block.starts_with("title = ") && block != world_example() &&
-                          block != atlas_example() && block != level_example();
+    const bool is_whole = block.starts_with("title = ") && block != example("world") &&
+                          block != example("atlas") && block != example("level");
     if (is_whole) {
       EXPECT_TRUE(mistakes(block).empty()) << block << shown(mistakes(block));
     }
     return is_whole;
   });
   ASSERT_EQ(blocks.size(), 3 + language_verbs().size()) << "three scenarios, an example a verb";
-  EXPECT_EQ(blocks[0], world_example());
-  EXPECT_EQ(blocks[1], atlas_example());
-  EXPECT_EQ(blocks[2], level_example());
+  EXPECT_EQ(blocks[0], example("world"));
+  EXPECT_EQ(blocks[1], example("atlas"));
+  EXPECT_EQ(blocks[2], example("level"));
   std::string world = blocks[0], atlas = blocks[1], level = blocks[2];
   for (std::size_t i = 0; i < language_verbs().size(); ++i) {
     const std::string_view verb = language_verbs()[i].name;
@@ -111,7 +109,7 @@ TEST(Reference, DefaultsAreWhatTheParserTakes) {
   EXPECT_EQ(fallback("body", "color"), std::to_string(s.bodies[0].color));
   EXPECT_EQ(language_table("world").find("time_step")->otherwise, "1/60");
   EXPECT_EQ(s.world.time_step, 1.0 / 60);
-  EXPECT_EQ(s.structure.children, Children::lazy);
+  EXPECT_FALSE(s.structure.eager_children);
   EXPECT_EQ(s.pace, Pace::step);
   EXPECT_FALSE(s.structure.no_progress_stop);
   EXPECT_EQ(s.bodies[0].kind, BodyKind::dynamic_body);
@@ -231,7 +229,7 @@ TEST(Schema, TakesWhatComesWithLantern) {
 }
 
 TEST(Schema, RefusesWhatTheParserRefuses) {
-  const std::string text(world_example());
+  const std::string text(example("world"));
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string changed = text;
     const std::size_t at = changed.find(from);

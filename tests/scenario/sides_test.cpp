@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "frame/frame.hpp"
+#include "frame/parts/level.hpp"
 #include "run/tally.hpp"
 #include "run/warnings.hpp"
 #include "scenario/directing.hpp"

@@ -10,8 +10,10 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "language/reference.hpp"
-#include "language/verbs.hpp"
+#include "frame/parts/atlas.hpp"
+#include "frame/parts/level.hpp"
+#include "language/language.hpp"
+#include "language/scenario.hpp"
 #include "physics/world_config.hpp"
 #include "run/engine.hpp"
 #include "scenario/directing.hpp"
@@ -329,7 +331,7 @@ TEST(Panels, AreDerivedUnlessGiven) {
   EXPECT_EQ(of(ghosts), (Panels{panel_named("world"), panel_named("tree")}));
   EXPECT_EQ(of(read_text(LANTERN_ROOT "/scenarios/kdtree_atlas.toml")),
             (Panels{panel_named("atlas"), panel_named("tree")}));
-  EXPECT_EQ(of(std::string(level_example())), (Panels{panel_named("world"), panel_named("tree")}));
+  EXPECT_EQ(of(std::string(example("level"))), (Panels{panel_named("world"), panel_named("tree")}));
   const DryRun given(good("panels = [\"tree\"]\n" + ghosts));
   EXPECT_EQ(given.scenario.panels, (Panels{panel_named("tree")}));
   EXPECT_FALSE(given.uses("world panel"));

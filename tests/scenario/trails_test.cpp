@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "frame/parts/motion.hpp"
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 

@@ -1,6 +1,4 @@
 // The reference page, its pictures, and the schemas.
-#include "language/reference.hpp"
-
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -16,6 +14,7 @@
 #include "base/stop.hpp"
 #include "draw/page.hpp"
 #include "embedded/output_schema.hpp"
+#include "language/language.hpp"
 #include "render/png.hpp"
 #include "render/renderer.hpp"
 #include "render/seal.hpp"

@@ -14,6 +14,7 @@
 #include "draw/plot.hpp"
 #include "draw/plot_marks.hpp"
 #include "draw/plot_parts.hpp"
+#include "frame/parts/panels.hpp"
 #include "spatial/structure_kind.hpp"
 
 namespace lantern::draw {

@@ -17,6 +17,7 @@
 
 #include "draw/labels.hpp"
 #include "draw/panel.hpp"
+#include "frame/parts/panels.hpp"
 
 namespace lantern::draw {
 namespace {

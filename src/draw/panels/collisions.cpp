@@ -16,6 +16,7 @@
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 #include "draw/pen.hpp"
+#include "frame/parts/panels.hpp"
 
 namespace lantern::draw {
 namespace {

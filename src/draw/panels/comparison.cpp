@@ -15,6 +15,7 @@
 #include "base/number.hpp"
 #include "draw/count_words.hpp"
 #include "draw/panel.hpp"
+#include "frame/parts/panels.hpp"
 #include "spatial/structure_kind.hpp"
 
 namespace lantern::draw {

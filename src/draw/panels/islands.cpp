@@ -20,6 +20,7 @@
 #include "draw/panels.hpp"
 #include "draw/pen.hpp"
 #include "draw/projection.hpp"
+#include "frame/parts/motion.hpp"
 #include "geometry/flat.hpp"
 
 namespace lantern::draw {

@@ -11,6 +11,7 @@
 
 #include "draw/font.hpp"
 #include "draw/panel.hpp"
+#include "frame/parts/level.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -10,7 +10,8 @@
 #include <vector>
 
 #include "base/hash.hpp"
-#include "frame/frame.hpp"
+#include "frame/parts/asked.hpp"
+#include "frame/parts/atlas.hpp"
 
 namespace lantern::draw {
 

@@ -8,6 +8,7 @@
 #include "draw/keys.hpp"
 #include "draw/marks.hpp"
 #include "draw/number_text.hpp"
+#include "frame/parts/motion.hpp"
 #include "geometry/not_finite.hpp"
 
 namespace lantern::draw {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "draw/marks.hpp"
+#include "frame/parts/asked.hpp"
 
 namespace lantern::draw {
 

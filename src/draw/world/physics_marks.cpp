@@ -8,6 +8,7 @@
 #include "draw/body_shapes.hpp"
 #include "draw/keys.hpp"
 #include "draw/marks.hpp"
+#include "frame/parts/motion.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -5,6 +5,7 @@
 
 #include "draw/font.hpp"
 #include "draw/marks.hpp"
+#include "frame/parts/asked.hpp"
 #include "geometry/not_finite.hpp"
 
 namespace lantern::draw {

@@ -7,6 +7,7 @@
 #include "draw/keys.hpp"
 #include "draw/pen.hpp"
 #include "draw/world/world2d_parts.hpp"
+#include "frame/parts/asked.hpp"
 #include "geometry/not_finite.hpp"
 
 namespace lantern::draw {

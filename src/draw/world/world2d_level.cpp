@@ -11,6 +11,8 @@
 #include "draw/staging.hpp"
 #include "draw/world/world2d_parts.hpp"
 #include "geometry/plane.hpp"
+#include "frame/parts/level.hpp"
+#include "geometry/segment.hpp"
 
 namespace lantern::draw {
 namespace {

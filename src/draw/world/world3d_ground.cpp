@@ -8,6 +8,8 @@
 #include "draw/pen.hpp"
 #include "draw/world/world3d_parts.hpp"
 #include "geometry/plane.hpp"
+#include "frame/parts/asked.hpp"
+#include "geometry/polygon.hpp"
 
 namespace lantern::draw {
 namespace {

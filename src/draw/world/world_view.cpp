@@ -17,6 +17,7 @@
 #include "draw/world/narrow_marks.hpp"
 #include "draw/world/world2d_parts.hpp"
 #include "draw/world/world3d_parts.hpp"
+#include "frame/parts/level.hpp"
 #include "geometry/flat.hpp"
 
 namespace lantern::draw {

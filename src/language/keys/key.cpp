@@ -8,6 +8,7 @@
 #include "base/check.hpp"
 #include "geometry/vec.hpp"
 #include "language/language.hpp"
+#include "geometry/angle.hpp"
 #include "language/scenario.hpp"
 
 namespace lantern::language {
@@ -18,7 +19,6 @@ std::string Filled<double>::literal(double value) {
   return text;
 }
 
-namespace keys {
 namespace {
 
 void add(const Note& note, KeyDoc& doc) {
@@ -42,22 +42,6 @@ void add(const Note& note, KeyDoc& doc) {
 
 }  // namespace
 
-Note must() { return {.required = true}; }
-Note range(double least, double most) { return {.least = least, .most = most}; }
-Note above(double least, double most) {
-  return {.above_least = true, .least = least, .most = most};
-}
-Note at_most(double most) { return {.most = most}; }
-Note in(std::string_view unit) { return {.unit = unit}; }
-Note like(const NamePattern& pattern) { return {.pattern = &pattern}; }
-Note holds(std::string_view table) { return {.of = table}; }
-Note written(std::string_view form) { return {.form = form}; }
-Note by_default(std::string_view literal) { return {.fallback = literal}; }
-Note or_else(std::string_view words) { return {.otherwise = words}; }
-Note one_of(std::span<const std::string_view> choices) { return {.choices = choices}; }
-
-Note advising(std::string_view advice) { return {.advice = advice}; }
-
 KeyDoc made(KeyType type, std::string_view name, std::string_view meaning,
             std::initializer_list<Note> notes) {
   KeyDoc doc{.key = name, .type = type, .doc = meaning};
@@ -68,9 +52,8 @@ KeyDoc made(KeyType type, std::string_view name, std::string_view meaning,
 KeyDoc made(const MemberKind& kind, const std::type_info& owner, std::size_t offset,
             const void* initial, std::string_view name, std::string_view meaning,
             std::initializer_list<Note> notes) {
-  KeyDoc doc{.key = name, .type = kind.type, .doc = meaning};
-  if (kind.choices) doc.choices = kind.choices();
-  for (const Note& note : notes) add(note, doc);
+  KeyDoc doc = made(kind.type, name, meaning, notes);
+  if (kind.choices && doc.choices.empty()) doc.choices = kind.choices();
   doc.owner = &owner;
   doc.offset = offset;
   doc.fill = kind.fill;
@@ -82,12 +65,9 @@ KeyDoc made(const MemberKind& kind, const std::type_info& owner, std::size_t off
   return doc;
 }
 
-}  // namespace keys
-
 namespace {
 
 TableDoc file_table() {
-  using namespace keys;
   using S = ScenarioSpec;
   TableDoc table = {
       "", "The file's own keys",
@@ -157,7 +137,6 @@ TableDoc file_table() {
 }
 
 TableDoc step_table() {
-  using namespace keys;
   TableDoc table = {
       "step", "[[step]]",
       "One step of the script. Each has a verb in `do`, the verb's own keys, and any of these."};
@@ -241,24 +220,18 @@ std::string legal_name(std::string_view text, const NamePattern& pattern) {
   return matches(without, pattern) ? without : name;
 }
 
-KeyDoc body_key() {
-  using namespace keys;
-  return key(KeyType::text, "body", "Its name.", must(), range(1, 64));
-}
+KeyDoc body_key() { return key(KeyType::text, "body", "Its name.", must(), range(1, 64)); }
 
 KeyDoc bodies_key() {
-  using namespace keys;
   return key(KeyType::texts, "bodies",
              "Names of bodies, of patterns for all of theirs, or ranges as `dot2..dot9`.", must());
 }
 
 KeyDoc pace_key() {
-  using namespace keys;
   return key(&Step::pace, "pace", "Of this step alone.", or_else("the scenario's"));
 }
 
 KeyDoc events_key(std::initializer_list<std::string_view> names) {
-  using namespace keys;
   return key(&Step::events, "events", "When the pace is `event`, only these give frames.",
              one_of(names), or_else("all"));
 }

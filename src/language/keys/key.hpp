@@ -15,8 +15,7 @@
 
 #include <fmt/format.h>
 
-#include "language/language.hpp"
-#include "language/text/toml_value.hpp"
+#include "language/keys/table_reader.hpp"
 
 namespace lantern::language {
 
@@ -124,8 +123,6 @@ inline constexpr MemberKind kMemberKind = {
 // What may stand behind a key's meaning. There are some two hundred keys: what is made for each is
 // plain values, so that a table compiles fast. The words that a note refers to must outlive the
 // statement it stands in.
-namespace keys {
-
 struct Note {  // of KeyDoc's members, those that it sets
   bool required = false;
   bool above_least = false;
@@ -137,24 +134,27 @@ struct Note {  // of KeyDoc's members, those that it sets
   std::string_view advice = {};
 };
 
-Note must();
-Note range(double least, double most);
-Note above(double least, double most);
-Note at_most(double most);
-Note in(std::string_view unit);  // the member of a key in degrees is in radians
-Note like(const NamePattern& pattern);
-Note holds(std::string_view table);
-Note written(std::string_view form);
-Note by_default(std::string_view literal);  // of a key that is bound to nothing
-Note or_else(std::string_view words);
+inline Note must() { return {.required = true}; }
+inline Note range(double least, double most) { return {.least = least, .most = most}; }
+inline Note above(double least, double most) {
+  return {.above_least = true, .least = least, .most = most};
+}
+inline Note at_most(double most) { return {.most = most}; }
+// The member of a key in degrees is in radians.
+inline Note in(std::string_view unit) { return {.unit = unit}; }
+inline Note like(const NamePattern& pattern) { return {.pattern = &pattern}; }
+inline Note holds(std::string_view table) { return {.of = table}; }
+inline Note written(std::string_view form) { return {.form = form}; }
+// Of a key that is bound to nothing.
+inline Note by_default(std::string_view literal) { return {.fallback = literal}; }
+inline Note or_else(std::string_view words) { return {.otherwise = words}; }
 // Only these, in this order.
-Note one_of(std::span<const std::string_view> choices);
+inline Note one_of(std::span<const std::string_view> choices) { return {.choices = choices}; }
 inline Note one_of(std::initializer_list<std::string_view> choices) {
   return one_of(std::span(choices.begin(), choices.size()));
 }
-
 // To who chooses something that is not there.
-Note advising(std::string_view advice);
+inline Note advising(std::string_view advice) { return {.advice = advice}; }
 
 // Read by the reader of its table.
 KeyDoc made(KeyType type, std::string_view name, std::string_view meaning,
@@ -186,10 +186,6 @@ KeyDoc key(M B::*member, std::string_view name, std::string_view meaning, const 
                                                reinterpret_cast<const char*>(&blank<T>()));
   return made(kMemberKind<M>, typeid(T), offset, initial, name, meaning, {notes...});
 }
-
-}  // namespace keys
-
-using keys::key;
 
 // The parts that the language's list of tables is put together from, each in a file of its own.
 TableDoc world_table();

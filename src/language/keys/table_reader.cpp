@@ -1,7 +1,5 @@
 #include "language/keys/table_reader.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "base/suggest.hpp"

@@ -8,7 +8,6 @@
 #include "base/printable.hpp"
 #include "base/suggest.hpp"
 #include "language/keys/key.hpp"
-#include "language/keys/table_reader.hpp"
 
 namespace lantern::language {
 namespace {

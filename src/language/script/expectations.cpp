@@ -173,7 +173,6 @@ class ExpectationReader {
 }  // namespace
 
 TableDoc expect_table() {
-  using namespace keys;
   using enum KeyType;
   TableDoc expect = {
       "expect",

@@ -20,15 +20,11 @@ class NoteReader {
   NoteReader(const TableReader& table, Draft& draft, const ScriptState& state)
       : table_(table), draft_(draft), state_(state) {}
 
-  // Nothing, and a problem, if what it is about is not there.
-  std::optional<NoteSpec> read(Place where) {
-    NoteSpec note;
-    table_.fill(note);
-    note.where = draft_.position(where);
+  // Adds a problem if what it is about is not there.
+  bool is_good(NoteSpec& note) {
     check_quotes(table_, "text", draft_, state_.past);
-    const bool good = read_body(note) || read_pair(note) || read_node(note) || read_count(note) ||
-                      read_point(note);
-    return good ? std::optional(note) : std::nullopt;
+    return read_body(note) || read_pair(note) || read_node(note) || read_count(note) ||
+           read_point(note);
   }
 
  private:
@@ -112,7 +108,6 @@ class NoteReader {
 }  // namespace
 
 TableDoc note_table() {
-  using namespace keys;
   TableDoc table = {
       "step.note", "[[step.note]]",
       "A few words beside what they are about, with a thin line to it, on this step's frames; or "
@@ -131,26 +126,18 @@ TableDoc note_table() {
 }
 
 KeyDoc note_key() {
-  using namespace keys;
   return key(KeyType::tables, "note", "Words beside what they are about.", at_most(kMostNotes),
              holds("step.note"));
 }
 
 void read_notes(const TableReader& step, Step& to, Draft& draft, const ScriptState& state) {
-  for (const TomlValue* value : step.tables("note")) {
-    const TableReader table = open(*value, language_table("step.note"), draft, "a note");
-    if (auto note = NoteReader(table, draft, state).read(value->where))
-      to.notes.push_back(std::move(*note));
-  }
+  const auto read = [&](const TableReader& table, NoteSpec& note) {
+    if (NoteReader(table, draft, state).is_good(note)) to.notes.push_back(std::move(note));
+  };
+  for_each<NoteSpec>(step, "note", draft, read, "a note");
 }
 
 namespace {
-
-// The body at one end, if it is one.
-std::optional<std::size_t> end_of(const TableReader& table, const char* key, Draft& draft) {
-  const auto name = table.named(key);
-  return name ? one_body(*name, draft) : std::nullopt;
-}
 
 // Exactly one of a body and a point.
 bool has_one(const TableReader& table, const char* body, const char* point, Draft& draft) {
@@ -165,7 +152,6 @@ bool has_one(const TableReader& table, const char* body, const char* point, Draf
 }  // namespace
 
 TableDoc ruler_table() {
-  using namespace keys;
   using R = RulerSpec;
   return {"step.ruler",
           "[[step.ruler]]",
@@ -188,19 +174,15 @@ TableDoc ruler_table() {
 std::vector<RulerSpec> read_rulers(const TableReader& step, ScriptReading& script) {
   std::vector<RulerSpec> rulers;
   Draft& draft = script.draft;
-  for (const TomlValue* value : step.tables("ruler")) {
-    const TableReader table = open(*value, language_table("step.ruler"), draft);
-    RulerSpec ruler;
-    table.fill(ruler);
-    ruler.where = draft.position(value->where);
+  for_each<RulerSpec>(step, "ruler", draft, [&](const TableReader& table, RulerSpec& ruler) {
     has_one(table, "a", "from", draft);
     has_one(table, "b", "to", draft);
-    ruler.a = end_of(table, "a", draft);
-    ruler.b = end_of(table, "b", draft);
+    ruler.a = body_at(table, "a", draft);
+    ruler.b = body_at(table, "b", draft);
     if (ruler.a && ruler.b && *ruler.a == *ruler.b)
       table.bad_value("b", "a ruler from a body to itself", "name another one");
     rulers.push_back(std::move(ruler));
-  }
+  });
   return rulers;
 }
 
@@ -221,7 +203,6 @@ std::string nearest_function(const std::string& name) {
 }  // namespace
 
 TableDoc code_table() {
-  using namespace keys;
   return {"code",
           "code",
           "Which function of the lecture's own source the panel `code` shows from this step on, "
@@ -237,24 +218,18 @@ TableDoc code_table() {
 }
 
 void read_code(const TableReader& step, Step& to, Draft& draft) {
-  for (const TomlValue* value : step.tables("code")) {
-    const TableReader table = open(*value, language_table("code"), draft, "'code'");
-    CodeSpec spec;
-    table.fill(spec);
-    spec.where = draft.position(value->where);
+  const auto check = [&](const TableReader& table, const CodeSpec& spec) {
     to.code = spec;
     if (!shows(draft.scenario.panels, "code"))
-      draft.problems.add(value->where, "no panel shows 'code'",
+      draft.problems.add(table.where(), "no panel shows 'code'",
                          "name it: panels = [\"world\", \"tree\", \"code\"]");
-    if (!table.is_good("function")) continue;
+    if (!table.is_good("function")) return;
     std::optional<CodeText> code = code_of(spec.function);
-    if (!code) {
-      table.bad_value("function",
-                      fmt::format("the lecture's source has no function {} of several lines",
-                                  in_quotes(spec.function)),
-                      [name = spec.function] { return nearest_function(name); });
-      continue;
-    }
+    if (!code)
+      return table.bad_value("function",
+                             fmt::format("the lecture's source has no function {} of several lines",
+                                         in_quotes(spec.function)),
+                             [name = spec.function] { return nearest_function(name); });
     if (!spec.line.empty() && light_line(*code, spec.line) == 0) {
       std::vector<std::string_view> lines;
       for (const CodeText::Line& line : code->lines) lines.push_back(line.text);
@@ -262,7 +237,8 @@ void read_code(const TableReader& step, Step& to, Draft& draft) {
                       fmt::format("no line of '{}' has {}", code->function, in_quotes(spec.line)),
                       nearest(spec.line, lines));
     }
-  }
+  };
+  for_each<CodeSpec>(step, "code", draft, check, "'code'");
 }
 
 }  // namespace lantern::language

@@ -5,8 +5,8 @@
 
 #include "base/number.hpp"
 #include "language/script/caption.hpp"
+#include "base/grouped.hpp"
 #include "language/script/script_reading.hpp"
-#include "language/sides.hpp"
 
 namespace lantern::language {
 namespace {

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "language/verbs.hpp"
+#include "language/language.hpp"
 
 namespace lantern::language {
 
@@ -245,11 +245,7 @@ void read_script(const TableReader& file, Draft& draft) {
 namespace {
 
 std::vector<VerbDoc> made_verbs() {
-  std::vector<VerbDoc> all = {
-      verb<Show>({.doc = "Nothing happens; the caption speaks.", .example = R"([[step]]
-do = "show"
-caption = "Three bodies, and {pairs:pair} to test."
-)"})};
+  std::vector<VerbDoc> all = {verb<Show>({.doc = "Nothing happens; the caption speaks."})};
   for (auto part : {verbs_of_bodies(), verbs_of_time(), verbs_of_structures(), verbs_of_levels(),
                     verbs_of_atlases()})
     std::ranges::move(part, std::back_inserter(all));
@@ -257,6 +253,7 @@ caption = "Three bodies, and {pairs:pair} to test."
   const std::vector<KeyDoc>& common = language_table("step").keys;
   for (VerbDoc& one : all) {
     one.table.name = one.traits.name;
+    one.table.example = example_of_verb(one.traits.name);
     one.table.heading = fmt::format("do = \"{}\"", one.traits.name);
     one.table.keys.insert(one.table.keys.end(), common.begin(), common.end());
   }

@@ -1,18 +1,16 @@
 // Verbs about the structure and what it finds, as they are read: `rebuild`, `sweep` and `compare`;
 // `ray`, `cull` and `query`, which it is asked; `test_shapes`, `separate` and `gjk`, the narrow
 // phase.
-#include <tuple>
 
 #include <fmt/format.h>
 
+#include "geometry/flat.hpp"
 #include "language/keys/key.hpp"
 #include "language/script/script_reading.hpp"
 #include "spatial/broad_phase.hpp"
 
 namespace lantern::language {
 namespace {
-
-using namespace keys;
 
 // --- rebuild, sweep, compare ---
 
@@ -172,31 +170,11 @@ void read_pair(V& verb, const TableReader& table, ScriptReading& script) {
 std::vector<VerbDoc> verbs_of_structures() {
   return {
       verb<Rebuild>({.doc = "The structure is made anew with the settings given; the others stay.",
-                     .keys = structure_keys(),
-                     .example = R"([[step]]
-do = "rebuild"
-kind = "bsp"
-planes = [{ name = "middle", point = [8, 0], normal = [1, 0] }]
-expect = { nodes = 3 }
-
-[[step]]
-do = "rebuild"
-kind = "quadtree"
-children = "eager"
-expect = { nodes = 5 }
-)"},
+                     .keys = structure_keys()},
                     read_rebuild),
       verb<Sweep>({.doc = "A `sort_and_sweep` finds its pairs: one frame for each body, in the "
                           "order in which they begin on the axis, then one of all.",
-                   .keys = {},
-                   .example = R"([[step]]
-do = "rebuild"
-kind = "sort_and_sweep"
-
-[[step]]
-do = "sweep"
-caption = "{pairs:pair} compared, {overlaps:overlap}."
-)"},
+                   .keys = {}},
                   read_sweep),
       verb<Compare>(
           {.doc = "Bodies stand alone in a world of their own, whether they are in this one or "
@@ -217,15 +195,7 @@ caption = "{pairs:pair} compared, {overlaps:overlap}."
                    key(&Compare::verdict, "verdict",
                        "What the row says in words. It may quote counts, as a caption does.",
                        range(0, 56)),
-               },
-           .example = R"([[step]]
-do = "compare"
-bodies = ["red", "pink", "blue"]
-row = "three ghosts"
-kinds = ["brute_force", "quadtree", "grid"]
-verdict = "Of {compared_pairs:pair} at best {least_work} compared."
-expect = { compared_bodies = 3, step_work = { brute_force = 3 } }
-)"},
+               }},
           read_compare),
       verb<CastRay>(
           {.doc = "Which bodies does a ray hit? The structure leaves out what it cannot hit.",
@@ -235,14 +205,7 @@ expect = { compared_bodies = 3, step_work = { brute_force = 3 } }
                     key(&CastRay::all, "hits",
                         "It stops at the `nearest` body, or goes through `all`.",
                         one_of({"nearest", "all"})),
-                    pace_key(), walk_events()},
-           .example = R"([[step]]
-do = "ray"
-from = [0, 6]
-to = [16, 6]
-caption = "{objects_tested:body/bodies} of {bodies} tested, {hits:hit}."
-expect = { hits_are = ["red"] }
-)"},
+                    pace_key(), walk_events()}},
           read_ray),
       verb<Cull>(
           {.doc = "Which bodies can a camera see? Whole nodes outside its view are left out.",
@@ -253,15 +216,7 @@ expect = { hits_are = ["red"] }
                         in("°")),
                     key(&Cull::near, "near", "It sees nothing nearer.", above(0, kFar)),
                     key(&Cull::far, "far", "It sees nothing farther.", above(0, kFar)), pace_key(),
-                    walk_events()},
-           .example = R"([[step]]
-do = "cull"
-eye = [0, 6]
-target = [16, 6]
-angle = 40
-far = 8
-expect = { hits_are = ["red"] }
-)"},
+                    walk_events()}},
           read_cull),
       verb<Query>(
           {.doc = "Which bodies overlap a box, or a disc or ball?",
@@ -271,44 +226,125 @@ expect = { hits_are = ["red"] }
                         range(-kFar, kFar)),
                     key(KeyType::number, "radius", "Of the disc or ball.", above(0, kFar)),
                     pace_key(), walk_events()},
-           .groups = {{{"min", "max"}, {"center", "radius"}}},
-           .example = R"([[step]]
-do = "query"
-min = [0, 4]
-max = [8, 9]
-expect = { hits_are = ["red"] }
-)"},
+           .groups = {{{"min", "max"}, {"center", "radius"}}}},
           read_query),
       verb<TestShapes>({.doc = "The shapes of all candidate pairs are tested, without comparing "
                                "boxes first, as the lecture's narrow phase does. Nothing moves.",
-                        .keys = {},
-                        .example = R"([[step]]
-do = "test_shapes"
-caption = "{shapes_tested:pair} tested, {touching} in contact."
-expect = { touching = 1 }
-)"},
+                        .keys = {}},
                        read_test_shapes),
       verb<Separate>({.doc = "Which axis parts two bodies? The narrow phase's own test, axis by "
                              "axis, until there is a gap; in a flat world.",
-                      .keys = {pair_key(), pace_key(), events_key({"axis"})},
-                      .example = R"([[step]]
-do = "separate"
-pair = ["red", "pink"]
-caption = "{axes_tested:axis/axes} tested: a gap of {gap}."
-expect = { axes_tested = 1 }
-)"},
+                      .keys = {pair_key(), pace_key(), events_key({"axis"})}},
                      read_pair<Separate>),
       verb<SearchDistance>(
           {.doc = "How far are two bodies apart? GJK finds it by asking for points of their "
                   "Minkowski difference, each farther towards the origin; in a flat world.",
-           .keys = {pair_key(), pace_key(), events_key({"support", "simplex"})},
-           .example = R"([[step]]
-do = "gjk"
-pair = ["red", "pink"]
-caption = "{gjk_steps:search/searches}: a distance of {distance}."
-expect = { distance = 4.724, tolerance = 0.001 }
-)"},
+           .keys = {pair_key(), pace_key(), events_key({"support", "simplex"})}},
           read_pair<SearchDistance>)};
+}
+
+// Verbs of a level and of an atlas, as they are read: `compile`, `locate`, `order` and `see`;
+// `pack`, `ask_room` and `draw`.
+namespace {
+
+template <class V>
+void require_compiled(V&, const TableReader& table, ScriptReading& script) {
+  if (!script.state.past.has<CompileLevel>())
+    table.bad_value("do", fmt::format("'{}' needs the compiled level", V::kTraits.name),
+                    "add a step with do = \"compile\" before");
+}
+
+void read_see(See& see, const TableReader& table, ScriptReading& script) {
+  require_compiled(see, table, script);
+  if (!see.eye || !table.is_good("eye") || !script.draft.has_world) return;
+  if (!contains(flat(script.draft.scenario.world.bounds), *see.eye))
+    table.bad_value("eye",
+                    fmt::format("[{}, {}] lies outside of the world", see.eye->x, see.eye->y));
+}
+
+template <class V>
+KeyDoc point_key(Vec<2> V::*member, std::string_view name, std::string_view meaning) {
+  return key(member, name, meaning, range(-kFar, kFar), written("[x, y]"), must());
+}
+
+void read_pack(Pack& pack, const TableReader& table, ScriptReading& script) {
+  pack.textures =
+      script.textures.take(table.names("textures"), script.state.packed, true, "is packed already");
+  if (pack.each && !pack.textures.empty()) script.frames = pack.textures.size();
+}
+
+void read_ask_room(AskRoom& ask, const TableReader& table, ScriptReading&) {
+  const auto size = table.get<Vec<2>>("size").value_or(Vec<2>(1.0));
+  ask.width = static_cast<int>(size.x);
+  ask.height = static_cast<int>(size.y);
+}
+
+void read_draw(DrawScreen& draw, const TableReader& table, ScriptReading& script) {
+  const ScenarioSpec& s = script.draft.scenario;
+  if (s.elements.empty())
+    return table.bad_value("do", "there is no [[element]] to draw",
+                           "add [[element]] with texture = \"…\" and at = [0, 0]");
+  if (script.state.past.times<DrawScreen>() >= kMostWays)
+    table.bad_value("do", fmt::format("more than {} steps draw the screen", kMostWays));
+  if (draw.from != DrawScreen::From::atlas) return;
+  for (const ElementSpec& element : s.elements)
+    if (!script.state.packed[element.texture])
+      return table.bad_value(
+          "from",
+          fmt::format("the texture '{}' is not in the atlas yet", s.textures[element.texture].name),
+          "pack it in a step before");
+}
+
+}  // namespace
+
+std::vector<VerbDoc> verbs_of_levels() {
+  return {
+      verb<CompileLevel>(
+          {.doc = "The level's walls become a BSP, whose leaves are the sectors. "
+                  "Bodies of a scenario without a [structure] lie in it from then "
+                  "on, each in every sector that its box reaches.",
+           .keys = {pace_key(), events_key({"consider", "choose", "cut", "sector"})}}),
+      verb<Locate>({.doc = "In which sector of the compiled level is a point?",
+                    .keys = {point_key(&Locate::point, "point", "The point asked for.")}},
+                   require_compiled<Locate>),
+      verb<OrderFrom>({.doc = "The sectors of the compiled level, front to back.",
+                       .keys = {point_key(&OrderFrom::eye, "eye", "Where they are seen from.")}},
+                      require_compiled<OrderFrom>),
+      verb<See>({.doc = "Which sectors of the compiled level see which through the openings "
+                        "between them: found once, and then only looked up.",
+                 .keys = {pace_key(), events_key({"portals", "row"}),
+                          key(&See::eye, "eye", "Whose sector's view is shown.", range(-kFar, kFar),
+                              written("[x, y]"), or_else("no sector's"))}},
+                read_see)};
+}
+
+std::vector<VerbDoc> verbs_of_atlases() {
+  return {
+      verb<Pack>(
+          {.doc = "Textures enter the atlas, one after another. One that fits nowhere is refused.",
+           .keys = {key(KeyType::texts, "textures",
+                        "Names of textures, or of their patterns for all of theirs.", must()),
+                    key(&Pack::each, "each", "One frame a texture, or one for all."),
+                    key(&Pack::free_name, "free_name",
+                        "Labels the largest free leaf that the last one leaves.", range(1, 24),
+                        or_else("none")),
+                    pace_key(), events_key({"too_small", "used", "cut", "store", "refuse"})}},
+          read_pack),
+      verb<AskRoom>({.doc = "The kD-tree's own question: has any free leaf room for this size?",
+                     .keys = {key(KeyType::size, "size", "The width and height asked for.", must(),
+                                  range(1, kMostPixels), in("px"))}},
+                    read_ask_room),
+      verb<DrawScreen>(
+          {.doc = "Draws all elements of the [atlas]'s `screen`, and counts how often another "
+                  "image must be bound. Each `draw` begins with an empty screen and nothing bound.",
+           .keys =
+               {key(&DrawScreen::from, "from",
+                    "Each element from its own texture, or all from the atlas that holds them."),
+                key(&DrawScreen::order, "order",
+                    "`as_listed`, or `by_texture`: sorted so that equal textures follow each "
+                    "other, but what lies over another element still comes after it."),
+                pace_key(), events_key({"bind", "draw"})}},
+          read_draw)};
 }
 
 }  // namespace lantern::language

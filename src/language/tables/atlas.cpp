@@ -32,15 +32,11 @@ std::size_t count_textures(std::size_t count, Place where, Draft& draft) {
   return before < kMostTextures ? kMostTextures - before : 1;
 }
 
-void read_texture(const TomlValue& value, Draft& draft) {
-  const TableReader table = open(value, language_table("texture"), draft);
+void read_texture(const TableReader& table, TextureSpec& texture, Draft& draft) {
   const auto size = table.get<Vec<2>>("size").value_or(Vec<2>(1.0));
-  TextureSpec texture;
-  table.fill(texture);
   texture.width = static_cast<int>(size.x);
   texture.height = static_cast<int>(size.y);
-  texture.where = draft.position(value.where);
-  count_textures(1, value.where, draft);
+  count_textures(1, table.where(), draft);
   if (!texture.name.empty())
     draft.textures.add(texture.name, {draft.scenario.textures.size(), 1, table.place("name")}, true,
                        draft.problems);
@@ -64,10 +60,7 @@ Lengths read_lengths(const TableReader& table, int axis, std::int64_t multiple) 
   return {};
 }
 
-void read_texture_pattern(const TomlValue& value, Draft& draft) {
-  const TableReader table = open(value, language_table("texture_pattern"), draft);
-  TexturePatternSpec pattern;
-  table.fill(pattern);
+void read_texture_pattern(const TableReader& table, TexturePatternSpec& pattern, Draft& draft) {
   const Lengths widths = read_lengths(table, 0, pattern.multiple);
   const Lengths heights = read_lengths(table, 1, pattern.multiple);
   pattern.count = count_textures(pattern.count, table.place("count"), draft);
@@ -78,7 +71,7 @@ void read_texture_pattern(const TomlValue& value, Draft& draft) {
   for (TextureSpec& texture : made) {
     texture.width = static_cast<int>(random.whole(widths.least, widths.most)) * pattern.multiple;
     texture.height = static_cast<int>(random.whole(heights.least, heights.most)) * pattern.multiple;
-    texture.where = draft.position(value.where);
+    texture.where = draft.position(table.where());
   }
   if (pattern.order == PatternOrder::tallest_first)
     std::stable_sort(made.begin(), made.end(), [](const TextureSpec& a, const TextureSpec& b) {
@@ -110,18 +103,17 @@ std::optional<std::size_t> one_texture(const Named& name, Draft& draft) {
   return std::nullopt;
 }
 
-void read_element(const TomlValue& value, Draft& draft) {
-  const TableReader table = open(value, language_table("element"), draft);
+void read_element(const TableReader& table, ElementSpec& element, Draft& draft) {
   const AtlasSpec* atlas = draft.scenario.atlas ? &*draft.scenario.atlas : nullptr;
   if (!atlas || atlas->screen_width == 0)
-    return draft.problems.add(value.where, "an [[element]] needs a screen",
+    return draft.problems.add(table.where(), "an [[element]] needs a screen",
                               "give [atlas] screen = [256, 144]");
   const auto name = table.named("texture");
   const auto at = table.get<Vec<2>>("at");
   if (!name || !at) return;
   const auto texture = one_texture(*name, draft);
   if (!texture) return;
-  const ElementSpec element{*texture, static_cast<int>(at->x), static_cast<int>(at->y)};
+  element = {*texture, static_cast<int>(at->x), static_cast<int>(at->y)};
   const TextureSpec& t = draft.scenario.textures[*texture];
   const int right = atlas->screen_width - t.width, bottom = atlas->screen_height - t.height;
   if (element.x > right || element.y > bottom)
@@ -137,7 +129,6 @@ void read_element(const TomlValue& value, Draft& draft) {
 }  // namespace
 
 TableDoc atlas_table() {
-  using namespace keys;
   using A = AtlasSpec;
   TableDoc table = {"atlas", "[atlas]",
                     "One large image that textures are packed into, by a kD-tree. Its origin is "
@@ -165,7 +156,6 @@ TableDoc atlas_table() {
 }
 
 TableDoc texture_table() {
-  using namespace keys;
   using T = TextureSpec;
   TableDoc table = {"texture", "[[texture]]",
                     "A texture. It enters the atlas when a step packs it."};
@@ -179,7 +169,6 @@ TableDoc texture_table() {
 }
 
 TableDoc texture_pattern_table() {
-  using namespace keys;
   using P = TexturePatternSpec;
   TableDoc table = {
       "texture_pattern", "[[texture_pattern]]",
@@ -203,7 +192,6 @@ TableDoc texture_pattern_table() {
 }
 
 TableDoc element_table() {
-  using namespace keys;
   TableDoc table = {"element", "[[element]]",
                     "A texture's place on the [atlas]'s `screen`, as large as the texture. Later "
                     "elements lie over earlier ones."};
@@ -237,9 +225,12 @@ void read_atlas(const TableReader& file, Draft& draft) {
   if (!file.has("atlas") && (!textures.empty() || !patterns.empty()))
     draft.problems.add((textures.empty() ? patterns : textures)[0]->where,
                        "textures need an [atlas]", "add [atlas] with size = [512, 512]");
-  for (const TomlValue* value : textures) read_texture(*value, draft);
-  for (const TomlValue* value : patterns) read_texture_pattern(*value, draft);
-  for (const TomlValue* value : file.tables("element")) read_element(*value, draft);
+  const auto read_with = [&](auto& read) {
+    return [&](const TableReader& table, auto& spec) { read(table, spec, draft); };
+  };
+  for_each<TextureSpec>(file, "texture", draft, read_with(read_texture));
+  for_each<TexturePatternSpec>(file, "texture_pattern", draft, read_with(read_texture_pattern));
+  for_each<ElementSpec>(file, "element", draft, read_with(read_element));
 }
 
 }  // namespace lantern::language

@@ -12,7 +12,6 @@
 
 #include "language/keys/table_reader.hpp"
 #include "language/scenario.hpp"
-#include "language/text/problems.hpp"
 
 namespace lantern::language {
 
@@ -91,6 +90,19 @@ inline TableReader open(const TomlValue& value, const TableDoc& doc, Draft& draf
                      draft.dimension, called);
 }
 
+// Calls f(table, spec) for each table of the key, with what its keys fill of a Spec, and its place.
+template <class Spec, class F>
+void for_each(const TableReader& from, std::string_view key, Draft& draft, F&& f,
+              std::string_view called = {}) {
+  for (const TomlValue* value : from.tables(key)) {
+    const TableReader table = open(*value, language_table(from.doc().find(key)->of), draft, called);
+    Spec spec;
+    table.fill(spec);
+    if constexpr (requires { spec.where; }) spec.where = draft.position(value->where);
+    f(table, spec);
+  }
+}
+
 // Each reads its part of the file into the draft, in this order.
 void read_world(const TableReader& file, Draft& draft);
 void read_display(const TableReader& file, Draft& draft);
@@ -115,6 +127,10 @@ void read_structures(const TableReader& file, Draft& draft);
 
 // The structure keys of a table, upon `base`: what is not given stays.
 StructureSpec read_structure(const TableReader& table, const StructureSpec& base, Draft& draft);
+
+// Settings of [structure] are refused that no structure of the script has, and cells of which there
+// are too many.
+void check_structures(const TableReader& file, Draft& draft);
 
 // The [[prototype]]s of the file, into the draft.
 void read_prototypes(const TableReader& file, Draft& draft);
@@ -146,6 +162,13 @@ void find_the_followed(Draft& draft);
 // Exactly one body of that name. Adds a problem and gives nothing for an unknown name or a pattern.
 std::optional<std::size_t> one_body(const Named& name, Draft& draft);
 
+// The same of the name that a key gives, if it does.
+inline std::optional<std::size_t> body_at(const TableReader& table, std::string_view key,
+                                          Draft& draft) {
+  const auto name = table.named(key);
+  return name ? one_body(*name, draft) : std::nullopt;
+}
+
 // Each name, but of a range, as "b1..b9", all that it stands for. Adds a problem for one that is
 // none, and leaves it out.
 std::vector<Named> without_ranges(const std::vector<Named>& written, const Names& names,
@@ -166,5 +189,32 @@ std::uint64_t derived_seed(const TableReader& table, const std::string& name, co
 // spatial::choose_structure takes for all bodies as the file places them, and why. Without a world
 // nothing happens.
 void choose_structures(Draft& draft);
+
+// The sides of a scenario while it is read, and the names by which they are quoted.
+
+// What a file says to one of its sides: a scenario file without sides.
+struct SideFile {
+  std::string name;
+  std::string title;
+  TomlTable table;  // its own
+  TomlTable file;
+};
+
+// In the order in which they stand; `file` has a "side". Adds a problem for each mistake in the
+// [[side]] tables; those in what they override are left to whoever reads the files.
+std::vector<SideFile> files_of_sides(const TomlTable& file, Problems& problems);
+
+// The chart of all sides together, of a file that is right: a name without a side stands for that
+// of each.
+ChartSpec chart_of_sides(const TomlTable& file, const ChartSpec& of_one,
+                         const std::vector<std::string>& sides);
+
+// The side that a name begins with, as "eager" of "eager.pairs"; empty if there is none of it.
+std::string_view side_of(std::string_view name, const std::vector<std::string>& sides);
+// And the name without it.
+std::string_view within_side(std::string_view name, const std::vector<std::string>& sides);
+
+// May a side override this key of a table?
+bool may_differ(std::string_view table, std::string_view key);
 
 }  // namespace lantern::language

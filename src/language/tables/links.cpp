@@ -9,7 +9,6 @@ namespace {
 
 // What both have.
 std::vector<KeyDoc> link_keys(std::vector<KeyDoc> own) {
-  using namespace keys;
   std::vector<KeyDoc> keys = {
       key(KeyType::text, "a", "A body.", range(1, 64)),
       key(KeyType::text, "b", "The other body.", range(1, 64), or_else("none: give `to`")),
@@ -29,11 +28,6 @@ std::vector<KeyDoc> link_keys(std::vector<KeyDoc> own) {
 bool has_room(std::size_t count, Place where, Draft& draft) {
   return draft.has_room_for(draft.scenario.links.size() + count, kMostLinks, "springs and joints",
                             where);
-}
-
-std::optional<std::size_t> body_of(const TableReader& table, const char* key, Draft& draft) {
-  const auto name = table.named(key);
-  return name ? one_body(*name, draft) : std::nullopt;
 }
 
 bool is_dynamic(std::size_t body, const Draft& draft) {
@@ -64,7 +58,7 @@ void read_pair(const TableReader& table, LinkSpec link, Draft& draft) {
         "give one of 'b', a body, and 'to', a point of the world");
   if (has_to && table.is_good("at_b"))
     table.bad_key("at_b", "'at_b' is of 'b'", "'to' is the point of the world itself");
-  const auto a = body_of(table, "a", draft), b = body_of(table, "b", draft);
+  const auto a = body_at(table, "a", draft), b = body_at(table, "b", draft);
   if (has_to) link.at_b = table.get<Vec<3>>("to").value_or(Vec<3>(0.0));
   if (!a || (has_b && !b)) return;
   link.a = *a;
@@ -110,11 +104,7 @@ void read_chain(const TableReader& table, const LinkSpec& like, Draft& draft) {
   }
 }
 
-void read_link(const TomlValue& value, std::string_view kind, Draft& draft) {
-  const TableReader table = open(value, language_table(kind), draft);
-  LinkSpec link;
-  table.fill(link);
-  link.where = draft.position(value.where);
+void read_link(const TableReader& table, const LinkSpec& link, Draft& draft) {
   if (table.is_good("length") && link.kind == LinkSpec::Kind::pin)
     table.bad_key("length", "a pin has no 'length'", "take kind = \"distance\"");
   if (table.has("along"))
@@ -126,7 +116,6 @@ void read_link(const TomlValue& value, std::string_view kind, Draft& draft) {
 }  // namespace
 
 TableDoc spring_table() {
-  using namespace keys;
   using L = LinkSpec;
   TableDoc table = {"spring", "[[spring]]",
                     "A damped spring between two bodies, or a body and a point of the world. It is "
@@ -144,7 +133,6 @@ TableDoc spring_table() {
 }
 
 TableDoc joint_table() {
-  using namespace keys;
   using L = LinkSpec;
   TableDoc table = {
       "joint", "[[joint]]",
@@ -161,7 +149,9 @@ TableDoc joint_table() {
 
 void read_links(const TableReader& file, Draft& draft) {
   for (const std::string_view kind : {"spring", "joint"})
-    for (const TomlValue* value : file.tables(kind)) read_link(*value, kind, draft);
+    for_each<LinkSpec>(file, kind, draft, [&](const TableReader& table, const LinkSpec& link) {
+      read_link(table, link, draft);
+    });
 }
 
 }  // namespace lantern::language

@@ -78,10 +78,8 @@ struct MapKind {
 
   MapKind(const std::string& called, const TomlTable& prototype) : name(called), keys(&prototype) {
     fills = !has_any(prototype, {"radius", "half_size", "capsule", "ground"});
-    const TomlEntry* is_static = entry_of(prototype, "static");
-    const TomlEntry* kind = entry_of(prototype, "kind");
-    const auto* truth = is_static ? std::get_if<bool>(&is_static->value.data) : nullptr;
-    const auto* word = kind ? std::get_if<std::string>(&kind->value.data) : nullptr;
+    const auto* truth = value_of<bool>(prototype, "static");
+    const auto* word = value_of<std::string>(prototype, "kind");
     merges = fills && ((truth && *truth) || (word && *word == "static")) &&
              !has_any(prototype, {"oriented", "turned", "heading", "spin"});
   }
@@ -95,8 +93,8 @@ struct Block {
 
 class MapReader {
  public:
-  MapReader(const TableReader& table, Draft& draft) : table_(table), draft_(draft) {
-    table.fill(spec_);
+  MapReader(const TableReader& table, const MapSpec& spec, Draft& draft)
+      : table_(table), draft_(draft), spec_(spec) {
     text_ = table.get<std::string>("rows").value_or("");
     rows_ = rows_of(text_, table.place("rows"), draft.text);
   }
@@ -274,10 +272,8 @@ class MapReader {
     TomlTable own = {{"name", where, {where, name}}};
     own.push_back({"position", where, point(low + size / 2.0)});
     if (kind.fills) own.push_back({"half_size", where, point(size / 2.0)});
-    if (const TomlEntry* color = entry_of(*kind.keys, "color"))
-      if (const auto* number = std::get_if<std::int64_t>(&color->value.data);
-          number && *number == 0)
-        own.push_back({"color", where, {where, std::int64_t{cycled_color(0, index)}}});
+    if (const auto* color = value_of<std::int64_t>(*kind.keys, "color"); color && *color == 0)
+      own.push_back({"color", where, {where, std::int64_t{cycled_color(0, index)}}});
     return {where, with_prototype(std::move(own), *kind.keys)};
   }
 
@@ -296,7 +292,6 @@ class MapReader {
 }  // namespace
 
 TableDoc map_table() {
-  using namespace keys;
   using M = MapSpec;
   TableDoc table = {
       "map", "[map]",
@@ -320,9 +315,10 @@ void read_map(const TableReader& file, Draft& draft) {
   for (const TomlValue* value : file.tables("map")) {
     if (!file.has("world"))
       draft.problems.add(value->where, "a map needs a [world]", "add [world] with size = [64, 64]");
-    const TableReader table = open(*value, language_table("map"), draft);
-    MapReader(table, draft).read();
   }
+  for_each<MapSpec>(file, "map", draft, [&](const TableReader& table, const MapSpec& spec) {
+    MapReader(table, spec, draft).read();
+  });
 }
 
 }  // namespace lantern::language

@@ -253,7 +253,6 @@ void unroll(const BodySpec& like, const PatternSpec& pattern, const TableReader&
 }  // namespace
 
 TableDoc pattern_table() {
-  using namespace keys;
   using P = PatternSpec;
   TableDoc table = {"pattern", "[[pattern]]",
                     "Many bodies at once. Those of pattern `dot` are called `dot1`, `dot2`, …"};

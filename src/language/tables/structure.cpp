@@ -1,6 +1,8 @@
 // [structure]: the scenario's own, those that steps rebuild, and which one suits the bodies of a
 // file that leaves it to them.
 #include <algorithm>
+#include <cmath>
+#include <initializer_list>
 #include <set>
 #include <vector>
 
@@ -8,7 +10,6 @@
 
 #include "geometry/shape.hpp"
 #include "language/keys/key.hpp"
-#include "language/specs.hpp"
 #include "language/tables/draft.hpp"
 #include "spatial/broad_phase.hpp"
 
@@ -46,45 +47,47 @@ class PlaneTree {
 std::vector<PlaneSpec> read_planes(const TableReader& structure, Draft& draft) {
   std::vector<PlaneSpec> planes;
   PlaneTree tree;
-  for (const TomlValue* value : structure.tables("planes")) {
-    const TableReader table = open(*value, language_table("structure.planes"), draft, "a plane");
-    PlaneSpec plane;
-    if (planes.empty()) plane.at = "root";
-    plane.normal = {1, 0, 0};
-    table.fill(plane);
-    plane.where = draft.position(value->where);
+  const auto read = [&](const TableReader& table, PlaneSpec& plane) {
+    if (planes.empty() && plane.at.empty()) plane.at = "root";
     if (plane.normal == Vec<3>(0.0))
       table.bad_value("normal", "'normal' is zero: it points nowhere",
                       draft.dimension == 3 ? "for an upright plane, normal = [1, 0, 0]"
                                            : "for an upright line, normal = [1, 0]");
     if (!table.has("at") && !planes.empty())
-      draft.problems.add(value->where, "only the first plane may leave out 'at'",
+      draft.problems.add(table.where(), "only the first plane may leave out 'at'",
                          "say which region it divides, as at = \"front\"");
     else if (!plane.at.empty())
       tree.take(plane.at, table.place("at"), draft.problems);
     planes.push_back(std::move(plane));
-  }
+  };
+  for_each<PlaneSpec>(structure, "planes", draft, read, "a plane");
   return planes;
 }
 
+// A setting that one kind alone has: whether something else is said than what others do anyway.
+struct OwnSetting {
+  Setting setting;
+  bool (*is_said)(const StructureSpec& s);
+  const char* lack;
+  const char* verb = "has";
+};
+constexpr OwnSetting kOwnSettings[] = {
+    {Setting::planes, [](const StructureSpec& s) { return !s.planes.empty(); }, "has no planes"},
+    {Setting::margin, [](const StructureSpec& s) { return s.margin > 0; }, "has no margin"},
+    {Setting::following, [](const StructureSpec& s) { return s.following != Following::automatic; },
+     "follows no bodies", "does"},
+    {Setting::axis, [](const StructureSpec& s) { return s.axis != SweepAxis::widest; },
+     "has no axis"},
+};
+
 void check_kind(const TableReader& table, const StructureSpec& s, const Draft& draft) {
   const StructureTraits& traits = traits_of(s.kind);
-  if (table.has("planes") && !traits.has(Setting::planes) && !s.planes.empty())
-    table.bad_key("planes",
-                  fmt::format("a structure of kind '{}' has no planes", to_string(s.kind)),
-                  "only kind = \"bsp\" has");
-  if (table.has("margin") && s.margin > 0 && !traits.has(Setting::margin))
-    table.bad_key("margin",
-                  fmt::format("a structure of kind '{}' has no margin", to_string(s.kind)),
-                  "only kind = \"aabb_tree\" has");
-  if (table.has("following") && s.following != Following::automatic &&
-      !traits.has(Setting::following))
-    table.bad_key("following",
-                  fmt::format("a structure of kind '{}' follows no bodies", to_string(s.kind)),
-                  "only kind = \"aabb_tree\" does");
-  if (table.has("axis") && s.axis != SweepAxis::widest && !traits.has(Setting::axis))
-    table.bad_key("axis", fmt::format("a structure of kind '{}' has no axis", to_string(s.kind)),
-                  "only kind = \"sort_and_sweep\" has");
+  for (const OwnSetting& own : kOwnSettings)
+    if (const auto key = to_string(own.setting);
+        table.has(key) && own.is_said(s) && !traits.has(own.setting))
+      table.bad_key(key, fmt::format("a structure of kind '{}' {}", to_string(s.kind), own.lack),
+                    fmt::format("only kind = \"{}\" {}", to_string(kinds_with(own.setting).front()),
+                                own.verb));
   if (table.has("axis") && s.axis == SweepAxis::z && draft.dimension == 2)
     table.bad_value("axis", "a 2D world has no z axis", "take \"x\" or \"y\"");
   if (!table.has("planes") && traits.has(Setting::planes) && s.planes.empty())
@@ -100,7 +103,6 @@ void check_kind(const TableReader& table, const StructureSpec& s, const Draft& d
 }  // namespace
 
 TableDoc structure_table() {
-  using namespace keys;
   using S = StructureSpec;
   TableDoc table = {"structure", "[structure]",
                     "The spatial structure that finds the candidate pairs. It may be rebuilt later "
@@ -122,8 +124,9 @@ TableDoc structure_table() {
           "A leaf at this depth never splits; the root has depth 0. A tree may have 2000000 nodes "
           "and as many entries.",
           range(0, 32)),
-      key(&S::children, "children",
-          "Made when something enters them (`lazy`), or all at a split (`eager`)."),
+      key(&S::eager_children, "children",
+          "Made when something enters them (`lazy`), or all at a split (`eager`).",
+          one_of({"lazy", "eager"})),
       key(&S::no_progress_stop, "no_progress_stop",
           "A leaf whose bodies all share one point does not split: that would separate none."),
       key(&S::split_static, "split_static",
@@ -158,7 +161,6 @@ TableDoc structure_table() {
 }
 
 TableDoc planes_table() {
-  using namespace keys;
   using P = PlaneSpec;
   TableDoc table = {"structure.planes", "[[structure.planes]]",
                     "A line, or in a 3D world a plane, that divides a region of a BSP into what "
@@ -235,6 +237,47 @@ void choose(const ScenarioSpec& scenario, StructureSpec& structure) {
 }
 
 }  // namespace
+
+void check_structures(const TableReader& file, Draft& draft) {
+  constexpr double kMostCells = 2e6;
+  const ScenarioSpec& s = draft.scenario;
+  // Of sides, its table is one with what all of them share.
+  if (!s.side.empty() || s.structure.kind == StructureKind::none) return;
+  const auto refuse = [&](std::initializer_list<Setting> settings, const std::string& hint) {
+    for (const TomlValue* table : file.tables("structure"))
+      for (const Setting setting : settings)
+        if (const TomlEntry* e = entry_of(std::get<TomlTable>(table->data), to_string(setting)))
+          draft.problems.add(
+              e->where,
+              fmt::format(
+                  "a structure of kind '{}' has no '{}'",
+                  to_string(s.structure.why.empty() ? s.structure.kind : StructureKind::automatic),
+                  e->key),
+              hint);
+  };
+  const auto splits = [](const StructureSpec* one) {
+    return traits_of(one->kind).splits && one->kind != StructureKind::none && one->why.empty();
+  };
+  const auto has_cells = [](const StructureSpec* one) {
+    return traits_of(one->kind).has(Setting::cell);
+  };
+  if (std::ranges::none_of(s.structures(), splits))
+    refuse({Setting::capacity, Setting::max_depth, Setting::children, Setting::no_progress_stop},
+           "only trees that split have; leave it out, or take kind = \"quadtree\"");
+  if (std::ranges::none_of(s.structures(), has_cells))
+    refuse({Setting::cell, Setting::levels, Setting::open}, "only kind = \"grid\" has");
+  if (!has_cells(&s.structure) || s.structure.open || !(s.structure.cell > 0)) return;
+  double cells = 1;
+  for (int i = 0; i < draft.dimension; ++i)
+    cells *= std::ceil(s.world.bounds.size()[i] / s.structure.cell);
+  for (const TomlValue* table : file.tables("structure"))
+    if (const TomlEntry* e = entry_of(std::get<TomlTable>(table->data), "cell");
+        e && cells > kMostCells)
+      draft.problems.add(
+          e->where,
+          fmt::format("the world has {:.3g} cells of this size, a grid may have 2000000", cells),
+          "take larger ones, or open = true");
+}
 
 void choose_structures(Draft& draft) {
   ScenarioSpec& scenario = draft.scenario;

@@ -3,7 +3,6 @@
 
 #include "language/keys/key.hpp"
 #include "language/script/script_reading.hpp"
-#include "language/tables/draft.hpp"
 
 namespace lantern::language {
 namespace {
@@ -71,7 +70,6 @@ void check_land(const TableReader& world, const WorldSpec& w, int dimension) {
 }  // namespace
 
 TableDoc world_table() {
-  using namespace keys;
   using W = WorldSpec;
   TableDoc table = {"world", "[world]",
                     "Where the bodies are: x to the right, y up, z towards the viewer. If its "
@@ -189,11 +187,8 @@ void check_depths(const TableReader& table, const Display& display, const Draft&
     table.bad_key("depths", kNothingTouches, kGiveContacts);
 }
 
-std::optional<ViewSpec> read_view(const TomlValue& value, Draft& draft) {
-  const TableReader table = open(value, language_table("view"), draft, "'view'");
-  ViewSpec view;
-  table.fill(view);
-  view.where = draft.position(value.where);
+std::optional<ViewSpec> checked(const TableReader& table, const ViewSpec& view,
+                                const Draft& draft) {
   if (table.has("at") != table.has("width")) {
     const char* given = table.has("at") ? "at" : "width";
     table.bad_key(
@@ -215,11 +210,7 @@ std::optional<ViewSpec> read_view(const TomlValue& value, Draft& draft) {
   return view;
 }
 
-std::optional<CameraSpec> read_camera(const TomlValue& value, Draft& draft) {
-  const TableReader table = open(value, language_table("camera"), draft, "'camera'");
-  CameraSpec camera;
-  table.fill(camera);
-  camera.where = draft.position(value.where);
+std::optional<CameraSpec> checked(const TableReader& table, const CameraSpec& camera) {
   if (!table.is_good("eye") || !table.is_good("target")) return std::nullopt;
   if (camera.eye != camera.target) return camera;
   table.bad_value("target", "the camera looks at itself", "'target' is what it looks at");
@@ -244,7 +235,6 @@ bool has_world(const TableReader& step, const char* key, int dimension, const Dr
 }  // namespace
 
 TableDoc display_table() {
-  using namespace keys;
   using D = Display;
   return {
       "display",
@@ -283,7 +273,6 @@ TableDoc display_table() {
 }
 
 TableDoc view_table() {
-  using namespace keys;
   return {
       "view",
       "view",
@@ -295,7 +284,6 @@ TableDoc view_table() {
 }
 
 TableDoc camera_table() {
-  using namespace keys;
   return {"camera",
           "camera",
           "From where a 3D world is seen from this step on, instead of [world]'s camera.",
@@ -324,9 +312,19 @@ void read_look(const TableReader& step, Step& to, Draft& draft) {
     check_depths(table, *to.display, draft);
   }
   if (step.is_good("view") && has_world(step, "view", 2, draft))
-    for (const TomlValue* value : step.tables("view")) to.view = read_view(*value, draft);
+    for_each<ViewSpec>(
+        step, "view", draft,
+        [&](const TableReader& table, const ViewSpec& view) {
+          to.view = checked(table, view, draft);
+        },
+        "'view'");
   if (step.is_good("camera") && has_world(step, "camera", 3, draft))
-    for (const TomlValue* value : step.tables("camera")) to.camera = read_camera(*value, draft);
+    for_each<CameraSpec>(
+        step, "camera", draft,
+        [&](const TableReader& table, const CameraSpec& camera) {
+          to.camera = checked(table, camera);
+        },
+        "'camera'");
   if (step.is_good("orbit")) has_world(step, "orbit", 3, draft);
 }
 
@@ -354,7 +352,6 @@ void check_loops(const LevelSpec& level, const TableReader& table) {
 }  // namespace
 
 TableDoc level_table() {
-  using namespace keys;
   using L = LevelSpec;
   TableDoc table = {
       "level", "[level]",
@@ -377,20 +374,16 @@ TableDoc level_table() {
 
 void read_level(const TableReader& file, Draft& draft) {
   if (file.has("level")) draft.scenario.level.emplace();  // a bad one is told once
-  for (const TomlValue* value : file.tables("level")) {
-    const TableReader table = open(*value, language_table("level"), draft);
-    LevelSpec level;
-    table.fill(level);
-    level.where = draft.position(value->where);
+  for_each<LevelSpec>(file, "level", draft, [&](const TableReader& table, LevelSpec& level) {
     check_loops(level, table);
     draft.scenario.level = std::move(level);
     if (!draft.has_world)
-      draft.problems.add(value->where, "a [level] needs a [world]",
+      draft.problems.add(table.where(), "a [level] needs a [world]",
                          "add [world] with size = [64, 64]");
     else if (draft.dimension == 3)
-      draft.problems.add(value->where, "a [level] needs a 2D world, this one is 3D",
+      draft.problems.add(table.where(), "a [level] needs a 2D world, this one is 3D",
                          "write [world] with size = [64, 64]");
-  }
+  });
 }
 
 }  // namespace lantern::language

@@ -1,14 +1,17 @@
-// The text of a scenario file as its reader sees it: lines, letters, places; and its mistakes,
+// The text of a scenario file as its reader sees it: lines, letters, places, and TOML as plain
+// values (toml++ stays in one source, which alone pays for its templates); and its mistakes,
 // gathered so that all are told in one pass.
 #pragma once
 
 #include <compare>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "base/printable.hpp"
@@ -83,5 +86,37 @@ class Problems {
 
 // The nearest of `candidates`, or all of them if they are few.
 std::string nearest(std::string_view name, std::vector<std::string_view> candidates);
+
+struct TomlValue;
+struct TomlEntry;
+struct TomlDate {};  // TOML has dates and times; no scenario has a use for one
+
+using TomlArray = std::vector<TomlValue>;
+using TomlTable = std::vector<TomlEntry>;  // in order of their keys' letters
+
+struct TomlValue {
+  Place where;
+  std::variant<TomlDate, std::string, std::int64_t, double, bool, TomlArray, TomlTable> data;
+};
+
+struct TomlEntry {
+  std::string key;
+  Place where;  // of the key
+  TomlValue value;
+};
+
+// The entry of that key; null if there is none.
+const TomlEntry* entry_of(const TomlTable& table, std::string_view key);
+
+// Its value; null if there is none of that type.
+template <class T>
+const T* value_of(const TomlTable& table, std::string_view key) {
+  const TomlEntry* entry = entry_of(table, key);
+  return entry ? std::get_if<T>(&entry->value.data) : nullptr;
+}
+
+// Adds a problem and gives an empty table if `text` is not TOML, has bytes that are not UTF-8, or
+// is nested too deeply. `text` has no byte order mark.
+TomlTable read_toml(std::string_view text, Problems& problems);
 
 }  // namespace lantern::language
