@@ -5,7 +5,6 @@
 #include "base/stop.hpp"
 #include "run/event_text.hpp"
 #include "run/script_run.hpp"
-#include "run/sides_run.hpp"
 
 namespace lantern::run {
 

@@ -5,14 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "run/brains.hpp"
-#include "run/collision_log.hpp"
-#include "run/comparison.hpp"
-#include "run/island_picture.hpp"
-#include "run/narrow_asked.hpp"
-#include "run/queries.hpp"
+#include "run/asked.hpp"
+#include "run/step_by_step.hpp"
 #include "run/structure_picture.hpp"
-#include "run/trails.hpp"
 #include "run/world_picture.hpp"
 
 namespace lantern::run {

@@ -8,14 +8,14 @@
 
 #include "base/error.hpp"
 #include "base/stop.hpp"
+#include "frame/comparison.hpp"
 #include "frame/frame.hpp"
 #include "geometry/flat.hpp"
 #include "language/code_text.hpp"
 #include "language/counts.hpp"
 #include "language/script/caption.hpp"
-#include "run/comparison.hpp"
 #include "run/panel.hpp"
-#include "run/rulers.hpp"
+#include "run/shown.hpp"
 
 namespace lantern::run {
 namespace {

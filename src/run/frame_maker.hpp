@@ -13,11 +13,8 @@
 #include "run/director.hpp"
 #include "run/engine.hpp"
 #include "run/level_stage.hpp"
-#include "run/lighting.hpp"
-#include "run/looks.hpp"
-#include "run/narrow_shown.hpp"
 #include "run/plotter.hpp"
-#include "run/screen_stage.hpp"
+#include "run/shown.hpp"
 
 namespace lantern::run {
 

@@ -1,5 +1,4 @@
-#include "run/sides_run.hpp"
-
+// The script under the settings of every side, on one clock.
 #include <algorithm>
 #include <deque>
 #include <map>

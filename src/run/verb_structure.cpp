@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "run/event_text.hpp"
-#include "run/running_finding.hpp"
 #include "run/script_run.hpp"
 
 namespace lantern::run {
@@ -37,6 +36,74 @@ std::string text_of(const std::string& name, const std::vector<std::string>& oth
                      others.size() == 1 ? "s" : "",
                      others.size() == 1 ? "1 pair" : fmt::format("{} pairs", others.size()));
 }
+
+// What the walk of a finding has brought to light so far, event by event: hits, counts, how far a
+// ray reaches, and which nodes were gone through or left out. After the last event it is the
+// finding itself.
+class RunningFinding {
+ public:
+  // Of a walk that has not begun. `whole` must outlive this.
+  explicit RunningFinding(const Finding& whole) : whole_(whole) {
+    so_far_.done = false;
+    so_far_.nearest = whole.nearest;
+    so_far_.view = whole.view;
+    so_far_.region = whole.region;
+    so_far_.asked = whole.asked;
+    if (whole.ray) so_far_.ray = FrameRay{whole.ray->from, whole.asked, {}};
+  }
+
+  // The next event of whole.walk has happened.
+  void go_on() {
+    using Kind = QueryEvent::Kind;
+    const QueryEvent& event = whole_.walk[at_];
+    const bool marks = !is_of_static();
+    switch (event.kind) {
+      case Kind::visit:
+        ++so_far_.counts.nodes_visited;
+        if (marks) touched_.passed.insert(event.node);
+        if (marks && whole_.ray) touched_.met.push_back(event.node);
+        break;
+      case Kind::skip:
+        ++so_far_.counts.nodes_skipped;
+        if (marks) touched_.skipped.insert(event.node);
+        break;
+      case Kind::test:
+        ++so_far_.counts.objects_tested;
+        so_far_.missed.insert(event.body);
+        break;
+      case Kind::hit:
+        so_far_.missed.erase(event.body);
+        so_far_.hits.push_back(event.body);
+        break;
+    }
+    ++at_;
+  }
+
+  // Hits of a ray in order along it, else by id.
+  Finding so_far() const {
+    if (at_ == whole_.walk.size()) return whole_;
+    Finding found = so_far_;
+    const auto order = [&](BodyId id) {
+      return std::pair{whole_.ray ? whole_.met.at(id).distance : 0, id};
+    };
+    std::ranges::sort(found.hits, {}, order);
+    if (!whole_.ray) return found;
+    if (whole_.nearest && !found.hits.empty()) found.hits.resize(1);
+    for (const BodyId id : found.hits) found.ray->hits.push_back({id, whole_.met.at(id).position});
+    if (whole_.nearest && !found.hits.empty()) found.ray->to = found.ray->hits[0].position;
+    return found;
+  }
+  // Nodes of the structure of what moves.
+  const Touched& touched() const { return touched_; }
+  // Is the next event of the other structure, of what never moves?
+  bool is_of_static() const { return at_ >= whole_.first_static; }
+
+ private:
+  const Finding& whole_;
+  Finding so_far_;  // its hits as they were found
+  Touched touched_;
+  std::size_t at_ = 0;  // in the walk
+};
 
 // One frame for each thing that the walk did, of which each knows what was found up to it.
 void replay(const Finding& whole, ScriptRun& run) {
