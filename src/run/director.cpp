@@ -81,7 +81,7 @@ void carry(const V& verb, ScriptRun& run) {
   if constexpr (requires { act(verb, run); }) {
     act(verb, run);
   } else {
-    if constexpr (V::kTraits.changes_bodies) change(verb, run.engine());
+    if constexpr (V::kTraits.changes_bodies) run.engine().apply(verb);
     if constexpr (requires { verb.body; }) run.focus(verb.body);
     run.frames.settle(V::kTraits.name);
   }

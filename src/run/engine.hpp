@@ -43,6 +43,13 @@ struct Finding {
   std::optional<FrameQuery> region;
 };
 
+// How far a sweep has come. The state stays as it is; of its pairs those are told that were met.
+struct SweptSoFar {
+  std::uint64_t state = 0;  // its hash
+  BodyId at = 0;            // at whose beginning it stands
+  std::set<Pair> met;
+};
+
 class WorldWatch;
 
 // Bodies are named by their index in the scenario. Each call throws Refused as world and trees do.
@@ -52,17 +59,18 @@ class Engine {
   virtual ~Engine() = default;
 
   virtual void enter(std::size_t body) = 0;  // into the world only
-  // The first of them now, then one each `every` world steps.
-  virtual void emit(const std::vector<std::size_t>& bodies, std::uint64_t every) = 0;
   // Into the structure as well, one after another.
   virtual void store(std::span<const std::size_t> bodies, const Watch& watch) = 0;
-  virtual void leave(std::span<const std::size_t> bodies) = 0;
-  virtual void move(const Move& move) = 0;
+  // What a verb does to bodies, without frames.
+  virtual void apply(const Insert& insert) = 0;  // into the world only
+  virtual void apply(const Emit& emit) = 0;      // the first of them now, the others in later steps
+  virtual void apply(const Remove& remove) = 0;
+  virtual void apply(const Move& move) = 0;
   virtual void apply(const ApplyForce& force) = 0;
   virtual void apply(const ApplyImpulse& impulse) = 0;
-  virtual void sleep(std::size_t body) = 0;
-  virtual void wake(std::span<const std::size_t> bodies) = 0;
-  virtual void solve_by(const SolveBy& method) = 0;
+  virtual void apply(const Sleep& sleep) = 0;
+  virtual void apply(const Wake& wake) = 0;
+  virtual void apply(const SolveBy& method) = 0;
   virtual void step() = 0;  // one world step
   // From now on the structure is that of the bodies as they are. It is built, its memory reused,
   // when a frame, a query or the next step of a world with contacts needs it.
@@ -113,8 +121,9 @@ class Engine {
   virtual StepFindings findings() const = 0;
   // Events of contacts are counted from here on.
   virtual void forget_events() = 0;
-  // Bodies, nodes, pairs, contacts, links, counts and measures as they are.
-  virtual void picture(const Touched& touched, Frame& frame) = 0;
+  // Bodies, nodes, pairs, contacts, links, counts and measures as they are; of pairs only what was
+  // `swept`, unless it is null.
+  virtual void picture(const Touched& touched, const SweptSoFar* swept, Frame& frame) = 0;
 };
 
 std::unique_ptr<Engine> make_engine(const Scenario& scenario, Work& work);

@@ -148,7 +148,7 @@ Frame FrameMaker::drawn(const Touched& now, std::string_view event, bool midst) 
   frame.bounds = scenario_.world.bounds;
   looks_.show(frame);
   frame.headline = headline_;
-  if (stage_.engine) stage_.engine->picture(now, frame);
+  if (stage_.engine) stage_.engine->picture(now, swept ? &*swept : nullptr, frame);
   if (stage_.engine) tell_faults(frame);
   if (stage_.engine) narrow.add_to(frame, *stage_.engine);
   // Speeds that numbers still hold may have squares that they do not.
@@ -158,7 +158,7 @@ Frame FrameMaker::drawn(const Touched& now, std::string_view event, bool midst) 
     stage_.level->picture(stage_.engine && stage_.engine->structure().of_level, frame);
   if (stage_.atlas) stage_.atlas->picture(now, frame);
   if (stage_.screen) stage_.screen->picture(frame);
-  frame.hash = state_hash(frame);
+  frame.hash = swept ? swept->state : state_hash(frame);
   add_finding(frame);
   add_comparison(frame);
   add_rulers(frame);
@@ -215,7 +215,7 @@ void FrameMaker::tell_faults(const Frame& frame) {
 
 // One point a moment: the last that was so.
 void FrameMaker::trace(Frame& frame) {
-  if (const auto n = frame.count(trace_->name)) {
+  if (const auto n = frame.count(trace_->name); n && !swept) {
     const Vec<2> now{frame.time - trace_begun_, static_cast<double>(*n)};
     std::vector<Vec<2>>& points = trace_->points;
     if (!points.empty() && points.back().x == now.x) points.pop_back();

@@ -52,6 +52,7 @@ class FrameMaker {
 
   // What the step is about, for all frames to come of it.
   Touched touched;
+  std::optional<SweptSoFar> swept;  // a sweep is under way
   std::set<BodyId> focus;
   std::string texture;
   void note_refused(const std::string& name);

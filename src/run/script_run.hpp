@@ -42,17 +42,6 @@ struct ScriptRun {
   void play(const Step& step, std::uint32_t index);
 };
 
-// What a verb changes, for whoever wants no frames as well.
-void change(const Insert& insert, Engine& engine);
-void change(const Emit& emit, Engine& engine);
-void change(const Remove& remove, Engine& engine);
-void change(const Move& move, Engine& engine);
-void change(const Sleep& sleep, Engine& engine);
-void change(const Wake& wake, Engine& engine);
-void change(const ApplyForce& force, Engine& engine);
-void change(const ApplyImpulse& impulse, Engine& engine);
-void change(const SolveBy& method, Engine& engine);
-
 // What a verb does, with its frames. One that is not here is one change, shown when it is done.
 void act(const Insert& insert, ScriptRun& run);
 void act(const Emit& emit, ScriptRun& run);

@@ -103,6 +103,10 @@ void Lighting::light_nodes(const Cause& cause, bool few, Frame& frame) const {
 }
 
 void Lighting::light_pairs(bool few, Frame& frame) const {
+  if (const auto at = frame.get<FrameStructure>().swept_to) {
+    for (FramePair& p : frame.pairs) p.lit = p.pair.a == *at || p.pair.b == *at;
+    return;
+  }
   std::size_t fresh = 0;
   for (FramePair& p : frame.pairs) {
     p.lit = !std::ranges::binary_search(pairs_, p.pair);

@@ -12,6 +12,7 @@
 #include "base/stop.hpp"
 #include "frame/frame.hpp"
 #include "physics/world.hpp"
+#include "run/engine.hpp"
 #include "spatial/pairs.hpp"
 
 namespace lantern::run {
@@ -270,7 +271,7 @@ std::string label_of(const StructureSpec& spec, const BroadPhase<D>& structure, 
 // in this world may rest, so that nodes are told asleep from awake.
 template <int D>
 void picture_structure(const StructureSpec& spec, const World<D>& world, bool tells_sleepers,
-                       const Touched& touched, Frame& frame) {
+                       const Touched& touched, const SweptSoFar* swept, Frame& frame) {
   frame.structure = spec.kind;
   if (spec.kind == StructureKind::none) {
     frame.add_count("all_pairs", all_pairs(frame.bodies.size()));
@@ -285,6 +286,7 @@ void picture_structure(const StructureSpec& spec, const World<D>& world, bool te
   told.capacity = traits_of(spec.kind).splits ? spec.capacity : 0;
   told.grid_levels = arrangement.levels;
   told.hashed = spec.open;
+  if (swept) told.swept_to = swept->at;
   const auto awake = [&](BodyId id) { return world.find(id)->stirs(); };
   NodePicture<D> picture(spec, touched, frame);
   AwakeNodes nodes;
@@ -296,7 +298,13 @@ void picture_structure(const StructureSpec& spec, const World<D>& world, bool te
   if (spec.split_static) picture.add(structure.fixed(), nullptr, true);
   number_leaves_met(frame);
 
-  const PairChain chain = structure.pair_chain(awake, kMostPairs);
+  PairChain chain = structure.pair_chain(awake, kMostPairs);
+  if (swept) {
+    const auto unmet = [&](const Pair& pair) { return !swept->met.contains(pair); };
+    std::erase_if(chain.pairs, unmet);
+    std::erase_if(chain.overlapping, unmet);
+    chain.met = chain.pairs.size();
+  }
   for (const Pair& pair : chain.pairs)
     frame.pairs.push_back({pair, false, std::ranges::binary_search(chain.overlapping, pair)});
   for (FrameBody& body : frame.bodies)

@@ -158,31 +158,24 @@ void act(const Compare& compare, ScriptRun& run) {
 }
 
 void act(const language::Sweep&, ScriptRun& run) {
-  Frame whole = run.frames.picture(run.frames.touched, "sweep");
+  FrameMaker& frames = run.frames;
+  const Frame whole = frames.picture(frames.touched, "sweep");
   std::vector<Pair> met;
   run.engine().each_swept([&](BodyId a, BodyId b) { met.push_back({a, b}); });
   const auto name_of = [&](BodyId id) { return whole.body_of(id)->name; };
-  std::set<Pair> found;
+  SweptSoFar& swept = frames.swept.emplace(SweptSoFar{whole.hash, 0, {}});
   std::size_t next = 0;
   for (const BodyId at : in_order(whole)) {
     std::vector<std::string> others;
     for (; next < met.size() && met[next].a == at; ++next) {
-      found.insert({std::min(at, met[next].b), std::max(at, met[next].b)});
+      swept.met.insert({std::min(at, met[next].b), std::max(at, met[next].b)});
       others.push_back(name_of(met[next].b));
     }
-    Frame frame = whole;
-    frame.add<FrameStructure>().swept_to = at;
-    std::erase_if(frame.pairs, [&](const FramePair& p) { return !found.contains(p.pair); });
-    for (FramePair& pair : frame.pairs) pair.lit = pair.pair.a == at || pair.pair.b == at;
-    for (auto& [name, number] : frame.counts) {
-      if (name == "pairs" || name == "pair_tests") number = std::ssize(frame.pairs);
-      if (name == "overlaps") number = std::ranges::count_if(frame.pairs, &FramePair::overlaps);
-    }
-    for (FrameBody& body : frame.bodies) body.lit = body.id == at;
-    frame.caption = text_of(name_of(at), others);
-    run.frames.give(std::move(frame), true);
+    swept.at = at;
+    if (!frames.stopped()) frames.emit({}, "sweep", text_of(name_of(at), others), at);
   }
-  run.frames.settle("sweep");
+  frames.swept.reset();
+  frames.settle("sweep");
 }
 
 void act(const CastRay& ray, ScriptRun& run) { answer(run.engine().ask(ray), "ray", run); }
