@@ -1,6 +1,5 @@
 #include "render/svg.hpp"
 
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -141,7 +140,7 @@ class SvgWriter {
   int glyph(int index, Weight weight) {
     const auto [it, fresh] = glyphs_.try_emplace({index, weight}, -1);
     if (!fresh) return it->second;
-    const std::string path = glyph_path(index, weight);
+    const std::vector<PathStep> path = glyph_path(index, weight);
     if (path.empty()) return -1;
     it->second = static_cast<int>(glyphs_.size()) - 1;
     defs_ += fmt::format("<path id=\"{}g{}\" d=\"{}\"/>\n", words_.prefix, it->second,
@@ -150,22 +149,18 @@ class SvgWriter {
   }
 
   // A path in units of one em, in units of a thousandth.
-  static std::string thousandfold(const std::string& path) {
+  static std::string thousandfold(const std::vector<PathStep>& path) {
     std::string result;
-    const char* const last = path.data() + path.size();
-    for (const char* at = path.data(); at != last;) {
-      double value = 0;
-      const auto [end, error] = std::from_chars(at, last, value);  // deaf to the locale
-      if (error != std::errc()) {
-        result += *at++;
-        continue;
-      }
-      // A sign separates numbers as well as a blank does.
-      const bool after_number = !result.empty() && result.back() >= '0' && result.back() <= '9';
-      const std::string text = number(1000 * value);
-      if (after_number && text[0] != '-') result += ' ';
-      result += text;
-      for (at = end; at != last && *at == ' ';) ++at;
+    for (const PathStep& step : path) {
+      result += step.letter;
+      for (const Vec<2>& point : step.points)
+        for (const double value : {point.x, point.y}) {
+          // A sign separates numbers as well as a blank does.
+          const bool after_number = result.back() >= '0' && result.back() <= '9';
+          const std::string text = number(1000 * value);
+          if (after_number && text[0] != '-') result += ' ';
+          result += text;
+        }
     }
     return result;
   }
