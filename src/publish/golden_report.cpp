@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.hpp"
 #include "base/markup.hpp"
 #include "publish/packed.hpp"
 
@@ -32,12 +33,8 @@ std::string name_of(const GoldenCase& one) {
                            : fmt::format("frame {} ({})", one.frame, one.event);
 }
 
-std::string counted_frames(std::size_t count) {
-  return fmt::format("{} {}", count, count == 1 ? "frame" : "frames");
-}
-
 std::string differing_of(std::size_t differing, std::size_t frames) {
-  return fmt::format("{} of {} {}", differing, counted_frames(frames),
+  return fmt::format("{} of {} {}", differing, counted(frames, "frame"),
                      differing == 1 ? "differs" : "differ");
 }
 
@@ -159,8 +156,9 @@ class GoldenPage {
   std::string written() {
     std::size_t frames = 0, differing = 0;
     for (const GoldenSuite& s : suites_) frames += s.cases.size(), differing += s.differing();
-    const std::string title = differing > 0 ? differing_of(differing, frames)
-                                            : fmt::format("{} as expected", counted_frames(frames));
+    const std::string title = differing > 0
+                                  ? differing_of(differing, frames)
+                                  : fmt::format("{} as expected", counted(frames, "frame"));
     put("<style>{}</style>\n</head>\n<body>\n<main>\n<h1>{}</h1>\n", kGoldenStyle, title);
     put("<p class=\"quiet\">Compared with their golden frames; found by {}.</p>\n",
         escaped(made_by_));
@@ -266,7 +264,7 @@ class GoldenPage {
     for (const GoldenSuite& s : suites_)
       if (s.good())
         names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", escaped(s.scenario),
-                             counted_frames(s.cases.size()));
+                             counted(s.cases.size(), "frame"));
     if (!names.empty()) put("<h2>As expected</h2>\n<p>{}</p>\n", names);
   }
 

@@ -28,6 +28,9 @@ std::string encode_png(const Image& image, PngEffort effort, const std::vector<P
 // Nothing if these bytes are no PNG, are damaged, or are larger than `most_pixels`.
 std::optional<Image> decode_png(std::string_view bytes, std::size_t most_pixels = 1u << 28);
 
+// A zlib stream (RFC 1950) of these bytes, as libdeflate packs it; level 12 of 12 is the smallest.
+std::string deflated(std::string_view bytes, int level);
+
 // The two halves of encoding: the pixels, which are costly, and the file around them, which is
 // cheap. Equal frames share the first half.
 struct PngBody {
