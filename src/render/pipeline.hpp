@@ -22,7 +22,6 @@
 #include "render/image.hpp"
 #include "render/png.hpp"
 #include "render/renderer.hpp"
-#include "render/seal.hpp"
 
 namespace lantern::render {
 

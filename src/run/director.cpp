@@ -30,6 +30,12 @@ std::vector<FrameLook> ScriptRun::let_time_pass(bool with_looks) {
   return looks;
 }
 
+DirectorReport ScriptRun::report() {
+  DirectorReport report = frames.take_report();
+  if (stage.engine) report.world = engine().world_work();
+  return report;
+}
+
 void ScriptRun::focus(std::size_t body) { frames.focus.insert(*engine().id_of(body)); }
 
 void ScriptRun::watch_movers() {
@@ -120,9 +126,7 @@ DirectorReport direct(const Scenario& scenario, Pace pace, Work& work,
     run.play(step, index++);
     if (run.frames.stopped()) break;
   }
-  DirectorReport report = run.frames.take_report();
-  if (run.stage.engine) report.world = run.engine().world_work();
-  return report;
+  return run.report();
 }
 
 }  // namespace lantern::run

@@ -123,11 +123,7 @@ void FrameMaker::add_row(FrameComparison::Row row, const std::string& answer) {
   answer_ = answer;
 }
 
-Frame FrameMaker::picture(const Touched& now, std::string_view event) {
-  return drawn(now, event, false);
-}
-
-Frame FrameMaker::drawn(const Touched& now, std::string_view event, bool midst) {
+Frame FrameMaker::picture(const Touched& now, std::string_view event, bool midst) {
   stop_if_asked();
   Frame frame;
   frame.scenario = scenario_.name;
@@ -253,7 +249,7 @@ void FrameMaker::emit(const Touched& now, std::string_view event, std::string ca
   if (stage_.engine && traits_of(stage_.engine->structure().kind).is_plain &&
       std::holds_alternative<Insert>(step_->verb))
     light_code(event);
-  Frame frame = drawn(now, event, true);
+  Frame frame = picture(now, event, true);
   frame.caption = std::move(caption);
   for (FrameBody& body : frame.bodies) body.lit = body.id == about;
   give(std::move(frame), true);

@@ -66,8 +66,8 @@ class FrameMaker {
   // The same of two bodies that are measured, or whose distance is searched for.
   NarrowShown narrow;
 
-  // The state as it is; with no caption, given to nobody.
-  Frame picture(const Touched& touched, std::string_view event);
+  // The state as it is, or `midst` the algorithm; with no caption, given to nobody.
+  Frame picture(const Touched& touched, std::string_view event, bool midst = false);
   // A frame of a finished state, on which the step's promises are verified; its `expect` on the
   // last one of the step.
   void settle(std::string_view verb, bool last = true, const std::string& caption = {});
@@ -85,7 +85,6 @@ class FrameMaker {
   DirectorReport take_report() { return std::move(report_); }
 
  private:
-  Frame drawn(const Touched& touched, std::string_view event, bool midst);
   void add_finding(Frame& frame) const;
   void add_comparison(Frame& frame);
   void trace(Frame& frame);

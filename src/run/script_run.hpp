@@ -40,6 +40,8 @@ struct ScriptRun {
   // One step of the script, the `index`-th. Throws ScenarioError, at its place, when the engine
   // refuses what it asks for.
   void play(const Step& step, std::uint32_t index);
+  // Of all that were played; taken once.
+  DirectorReport report();
 };
 
 // What a verb does, with its frames. One that is not here is one change, shown when it is done.

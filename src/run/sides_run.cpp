@@ -64,11 +64,7 @@ class Side {
     return {std::nullopt, shown.frame.count(name)};
   }
 
-  DirectorReport report() {
-    DirectorReport report = run_.frames.take_report();
-    if (run_.stage.engine) report.world = run_.engine().world_work();
-    return report;
-  }
+  DirectorReport report() { return run_.report(); }
 
  private:
   bool take(const Frame& frame) {

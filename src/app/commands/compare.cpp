@@ -21,7 +21,6 @@
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
 #include "render/png.hpp"
-#include "render/seal.hpp"
 
 namespace lantern::app {
 namespace {

@@ -18,7 +18,6 @@
 #include "embedded/output_schema.hpp"
 #include "render/png.hpp"
 #include "render/renderer.hpp"
-#include "render/seal.hpp"
 #include "render/svg.hpp"
 #include "run/director.hpp"
 
