@@ -1,6 +1,6 @@
 #include "publish/film.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <condition_variable>
 #include <deque>
@@ -131,28 +131,28 @@ void add_webp(Words& words, const FilmSettings& s) {
               "libwebp_anim", "-lossless", "1", "-loop", "0", "-f", "webp"});
 }
 
+struct FilmFormat {
+  std::string_view ending;
+  FilmKind kind;
+  void (*add)(Words& words, const FilmSettings& settings);
+};
+constexpr FilmFormat kFormats[] = {{"mp4", FilmKind::mp4, add_mp4},
+                                   {"webm", FilmKind::webm, add_webm},
+                                   {"gif", FilmKind::gif, add_gif},
+                                   {"apng", FilmKind::apng, add_apng},
+                                   {"webp", FilmKind::webp, add_webp}};
+
 }  // namespace
+
+std::optional<FilmKind> film_kind(std::string_view ending) {
+  const auto found = std::ranges::find(kFormats, ending, &FilmFormat::ending);
+  return found == std::end(kFormats) ? std::nullopt : std::optional(found->kind);
+}
 
 std::vector<std::string> film_words(const FilmSettings& s, const std::string& file) {
   Words words = {"-nostdin", "-hide_banner", "-loglevel", "error", "-y",
                  "-f",       "matroska",     "-i",        "pipe:0"};
-  switch (s.kind) {
-    case FilmKind::mp4:
-      add_mp4(words, s);
-      break;
-    case FilmKind::webm:
-      add_webm(words, s);
-      break;
-    case FilmKind::gif:
-      add_gif(words, s);
-      break;
-    case FilmKind::apng:
-      add_apng(words, s);
-      break;
-    case FilmKind::webp:
-      add_webp(words, s);
-      break;
-  }
+  std::ranges::find(kFormats, s.kind, &FilmFormat::kind)->add(words, s);
   add(words,
       {"-metadata", "title=" + s.title, "-fflags", "+bitexact", "-flags:v", "+bitexact", file});
   return words;
@@ -178,12 +178,6 @@ namespace {
 
 // One is drawn upon, one waits, one is on its way, and the last one may be sent again.
 constexpr std::size_t kImages = 4;
-
-constexpr std::array kFilmEndings = {
-    std::pair{"mp4", FilmKind::mp4},   std::pair{"webm", FilmKind::webm},
-    std::pair{"gif", FilmKind::gif},   std::pair{"apng", FilmKind::apng},
-    std::pair{"webp", FilmKind::webp},
-};
 
 std::size_t picture_bytes(const FilmSettings& settings) {
   return std::size_t{4} * static_cast<std::size_t>(settings.width) *
@@ -227,12 +221,6 @@ std::string last_words(std::string said, const std::string& target, const std::s
 }
 
 }  // namespace
-
-std::optional<FilmKind> film_kind(std::string_view ending) {
-  for (const auto& [name, kind] : kFilmEndings)
-    if (ending == name) return kind;
-  return std::nullopt;
-}
 
 std::filesystem::path require_ffmpeg() {
   if (const auto found = find_program("ffmpeg")) return *found;

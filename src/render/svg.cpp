@@ -110,12 +110,7 @@ class SvgWriter {
     const std::string place =
         fmt::format(" transform=\"translate({} {}) scale({})\"", number(s.at.x - s.align * width),
                     number(s.at.y), fmt::format("{:.6f}", s.size / 1000));
-    if (const Paint halo = tinted(theme_, s.halo, tint_, &Tint::line); halo[3] != 0)
-      body_ += fmt::format("<g{}{}{} stroke-width=\"{}\" stroke-linejoin=\"round\">{}</g>\n", place,
-                           colored("fill", halo), colored("stroke", halo),
-                           number(6 * 1000 / s.size), letters);
-    if (const Paint ink = fill_of(s.role); ink[3] != 0)
-      body_ += fmt::format("<g{}{}>{}</g>\n", place, colored("fill", ink), letters);
+    put_letters(s, "g", place, 6 * 1000 / s.size, "", letters);
   }
 
   // The halo is a text of its own: not every program knows paint-order.
@@ -127,13 +122,18 @@ class SvgWriter {
         "lengthAdjust=\"spacingAndGlyphs\"",
         number(s.at.x - s.align * width), number(s.at.y), number(s.size),
         s.weight == Weight::semibold ? " font-weight=\"600\"" : "", number(width));
+    put_letters(s, "text", place, 6, " aria-hidden=\"true\"", escaped(s.text));
+  }
+
+  // Letters upon their halo, of whose element `more` is told.
+  void put_letters(const TextShape& s, const char* tag, const std::string& place, double width,
+                   const char* more, const std::string& letters) {
     if (const Paint halo = tinted(theme_, s.halo, tint_, &Tint::line); halo[3] != 0)
       body_ += fmt::format(
-          "<text{}{}{} stroke-width=\"6\" stroke-linejoin=\"round\" aria-hidden=\"true\">{}"
-          "</text>\n",
-          place, colored("fill", halo), colored("stroke", halo), escaped(s.text));
+          "<{0}{1}{2}{3} stroke-width=\"{4}\" stroke-linejoin=\"round\"{5}>{6}</{0}>\n", tag, place,
+          colored("fill", halo), colored("stroke", halo), number(width), more, letters);
     if (const Paint ink = fill_of(s.role); ink[3] != 0)
-      body_ += fmt::format("<text{}{}>{}</text>\n", place, colored("fill", ink), escaped(s.text));
+      body_ += fmt::format("<{0}{1}{2}>{3}</{0}>\n", tag, place, colored("fill", ink), letters);
   }
 
   // The number of a glyph in <defs>, where it is put when first met; -1 for a blank.

@@ -53,13 +53,8 @@ void ScriptRun::witness(const Event& event) {
   if (event.kind == Kind::make_child && structure.children == Children::eager) return;
   Touched now = frames.touched;
   (event.kind == Kind::miss ? now.passed : now.lit).insert(event.node);
-  const StructureTraits traits = traits_of(structure.kind);
-  const std::string body = name_of(event.body);
-  const auto node = [&] { return engine().label_of(event.node); };
-  const std::string text = !traits.is_tree ? list_event_text(event, traits.words, body)
-                           : traits.holds_once
-                               ? fitting_event_text(event, node(), body)
-                               : event_text(event, node(), body, structure.max_depth);
+  const std::string text =
+      event_text(event, structure, engine().label_of(event.node), name_of(event.body));
   frames.emit(now, event_name(event.kind), text, event.body);
 }
 

@@ -16,6 +16,35 @@ std::string capitalised(std::string text) {
   return text;
 }
 
+// Of a tree that has a leaf for each body, and fits its boxes to them; empty if it has no words of
+// its own.
+std::string fitting_text(const Event& e, const std::string& place, const std::string& name,
+                         const std::string& body) {
+  switch (e.kind) {
+    case Event::Kind::test:
+      return fmt::format("{} comes to {}: would all boxes together grow least beside it?",
+                         capitalised(body), place);
+    case Event::Kind::miss:
+      return fmt::format("{} would grow more by {}: it is left out.", name, body);
+    case Event::Kind::store:
+      return fmt::format("{} is the leaf of {}.", name, body);
+    case Event::Kind::split:
+      return fmt::format("A new node takes the place of {}: it holds what was there, and {}.",
+                         place, body);
+    case Event::Kind::rotate:
+      return fmt::format(
+          "A rotation: a child of {} and the sibling of {} change places, and {} shrinks.", place,
+          place, place);
+    case Event::Kind::leave:
+      return fmt::format(
+          "{} has left its box: its leaf goes, the sibling takes the parent's place, and {} is "
+          "inserted again.",
+          capitalised(body), body);
+    default:
+      return {};
+  }
+}
+
 }  // namespace
 
 std::string_view event_name(Event::Kind kind) {
@@ -30,10 +59,15 @@ std::string_view event_name(AtlasEvent::Kind kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
-std::string event_text(const Event& e, const std::string& node, const std::string& body,
-                       std::uint32_t depth_limit) {
-  const std::string place = place_of(node);
-  const std::string name = capitalised(place);
+std::string event_text(const Event& e, const StructureSpec& structure, const std::string& node,
+                       const std::string& body) {
+  const StructureTraits& traits = traits_of(structure.kind);
+  if (!traits.is_tree)
+    return fmt::format("{} lists {}: {} in all.", capitalised(std::string(traits.words)), body,
+                       e.count);
+  const std::string place = place_of(node), name = capitalised(place);
+  if (traits.holds_once)
+    if (std::string text = fitting_text(e, place, name, body); !text.empty()) return text;
   switch (e.kind) {
     case Event::Kind::test:
       return fmt::format("{} reaches {}.", capitalised(body), place);
@@ -56,7 +90,7 @@ std::string event_text(const Event& e, const std::string& node, const std::strin
       return fmt::format(
           "{} holds {}, its limit is {}. But it lies at depth {}, and no node may lie deeper: it "
           "stays a leaf.",
-          name, e.count, e.limit, depth_limit);
+          name, e.count, e.limit, structure.max_depth);
     case Event::Kind::no_progress:
       return fmt::format(
           "{} holds {}, its limit is {}. But all share one point, so a split would separate no "
@@ -64,41 +98,9 @@ std::string event_text(const Event& e, const std::string& node, const std::strin
           name, e.count, e.limit);
     case Event::Kind::rotate:
     case Event::Kind::leave:
-      return fitting_event_text(e, node, body);
+      return fitting_text(e, place, name, body);
   }
   return {};
-}
-
-std::string fitting_event_text(const Event& e, const std::string& node, const std::string& body) {
-  const std::string place = place_of(node);
-  const std::string name = capitalised(place);
-  switch (e.kind) {
-    case Event::Kind::test:
-      return fmt::format("{} comes to {}: would all boxes together grow least beside it?",
-                         capitalised(body), place);
-    case Event::Kind::miss:
-      return fmt::format("{} would grow more by {}: it is left out.", name, body);
-    case Event::Kind::store:
-      return fmt::format("{} is the leaf of {}.", name, body);
-    case Event::Kind::split:
-      return fmt::format("A new node takes the place of {}: it holds what was there, and {}.",
-                         place, body);
-    case Event::Kind::rotate:
-      return fmt::format(
-          "A rotation: a child of {} and the sibling of {} change places, and {} shrinks.", place,
-          place, place);
-    case Event::Kind::leave:
-      return fmt::format(
-          "{} has left its box: its leaf goes, the sibling takes the parent's place, and {} is "
-          "inserted again.",
-          capitalised(body), body);
-    default:
-      return event_text(e, node, body, 0);
-  }
-}
-
-std::string list_event_text(const Event& e, std::string_view structure, const std::string& body) {
-  return fmt::format("{} lists {}: {} in all.", capitalised(std::string(structure)), body, e.count);
 }
 
 std::string event_text(const AtlasEvent& e, const std::string& node, const std::string& texture,

@@ -66,8 +66,7 @@ void RunWatch::begin(const Step& step) {
 }
 
 void RunWatch::passed(const Engine& engine) {
-  for (const Watch& watch : watchers_)
-    if (watch.watcher->sees_worlds()) engine.show(*watch.watcher);
+  for (const Watch& watch : watchers_) engine.show(*watch.watcher);
 }
 
 void RunWatch::see(const Frame& frame) {

@@ -164,7 +164,6 @@ class CrushWatch : public Watcher {
  public:
   explicit CrushWatch(const Scenario& scenario) : scenario_(scenario) {}
 
-  bool sees_worlds() const override { return true; }
   void see_world(const Players<2>& players) override { look(players.world()); }
   void see_world(const Players<3>& players) override { look(players.world()); }
 
@@ -251,7 +250,6 @@ class ThroughWatch : public Watcher {
     if (std::holds_alternative<Move>(step.verb) || entering(step.verb)) before_.clear();
   }
 
-  bool sees_worlds() const override { return true; }
   void see_world(const Players<2>& players) override { look(players); }
   void see_world(const Players<3>& players) override { look(players); }
 

@@ -67,7 +67,6 @@ class EnergyWatch : public Watcher {
   }
 
   // Free bodies have no energy on their frames, so it is taken from the world.
-  bool sees_worlds() const override { return free_; }
   void see_world(const Players<2>& players) override { add(players); }
   void see_world(const Players<3>& players) override { add(players); }
 
@@ -146,6 +145,7 @@ class EnergyWatch : public Watcher {
 
   template <int D>
   void add(const Players<D>& players) {
+    if (!free_) return;
     count(players.world().bodies().size());
     const Energy now =
         energy(std::span<const Body<D>>(players.world().bodies()), players.world().forces());
@@ -224,7 +224,6 @@ class JointWatch : public Watcher {
     }
   }
 
-  bool sees_worlds() const override { return true; }
   void see_world(const Players<2>& players) override { look(players); }
   void see_world(const Players<3>& players) override { look(players); }
 
