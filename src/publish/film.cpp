@@ -8,10 +8,8 @@
 #include <mutex>
 #include <sstream>
 #include <stop_token>
-#include <string_view>
 #include <system_error>
 #include <thread>
-#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 

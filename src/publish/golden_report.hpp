@@ -2,11 +2,7 @@
 // machine that builds.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "render/compare.hpp"
 #include "rooms.hpp"

@@ -1,13 +1,7 @@
 #include "publish/lesson.hpp"
 
-#include <algorithm>
-#include <array>
 #include <map>
-#include <optional>
-#include <string_view>
 #include <tuple>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -3,9 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <string_view>
-#include <unordered_map>
 #include <variant>
 
 #include <fmt/format.h>

@@ -1,9 +1,6 @@
 #include "publish/paper.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <new>
-#include <utility>
 #include <variant>
 
 #include <fmt/format.h>

@@ -3,10 +3,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "draw/draw_list.hpp"
 #include "draw/theme.hpp"

@@ -1,13 +1,7 @@
 #include "render/cairo_painter.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
 #include <new>
-#include <string>
-#include <string_view>
 #include <variant>
-#include <vector>
 
 #include <fmt/format.h>
 

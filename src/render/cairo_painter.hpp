@@ -3,9 +3,6 @@
 #pragma once
 
 #include <map>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "draw/draw_list.hpp"
 #include "draw/font.hpp"

@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <map>
-#include <optional>
-#include <string_view>
 #include <tuple>
 #include <utility>
 

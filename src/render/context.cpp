@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <cstdlib>
-#include <stdexcept>
 #include <thread>
 
 #include <EGL/egl.h>

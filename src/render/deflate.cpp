@@ -1,12 +1,10 @@
 #include "render/deflate.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstring>
 #include <numeric>
-#include <span>
 #include <utility>
 
 #include "base/stop.hpp"

@@ -1,10 +1,5 @@
 #include "render/masks.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <span>
-#include <vector>
-
 #include "geometry/closest.hpp"
 #include "geometry/ray.hpp"
 #include "render/canvas.hpp"

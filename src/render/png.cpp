@@ -1,11 +1,9 @@
 #include "render/png.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <new>
-#include <vector>
 
 #include <fmt/format.h>
 #include <libdeflate.h>

@@ -3,11 +3,7 @@
 #pragma once
 
 #include <optional>
-#include <span>
-#include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "render/deflate.hpp"
 #include "render/image.hpp"

@@ -1,6 +1,5 @@
 #include "render/svg.hpp"
 
-#include <cmath>
 #include <map>
 #include <utility>
 

@@ -2,10 +2,6 @@
 // what the narrow phase tells of two bodies; what several structures do for the same bodies.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "base/check.hpp"
 #include "base/stop.hpp"
 #include "physics/gjk.hpp"

@@ -1,12 +1,8 @@
 // The atlas of a scenario, where textures are packed, and its screen: both are pictured.
 #pragma once
 
-#include <cstddef>
 #include <functional>
-#include <optional>
-#include <string>
 #include <unordered_map>
-#include <vector>
 
 #include "atlas/atlas.hpp"
 #include "atlas/binder.hpp"

@@ -1,8 +1,5 @@
 #include "run/engine.hpp"
 
-#include <algorithm>
-#include <set>
-
 #include <fmt/format.h>
 
 #include "base/stop.hpp"

@@ -3,14 +3,9 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <map>
 #include <memory>
-#include <optional>
-#include <set>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "base/work.hpp"
 #include "frame/body_state.hpp"

@@ -1,9 +1,6 @@
 // What an algorithm's event is called, and how it is said in words.
 #pragma once
 
-#include <string>
-#include <string_view>
-
 #include "atlas/atlas.hpp"
 #include "frame/frame.hpp"
 #include "spatial/structure.hpp"

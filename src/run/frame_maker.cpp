@@ -1,8 +1,6 @@
 #include "run/frame_maker.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include <fmt/format.h>
 

@@ -1,14 +1,6 @@
 // From the pieces on the stage to finished frames: pictured, lit, captioned, verified and given on.
 #pragma once
 
-#include <functional>
-#include <memory>
-#include <optional>
-#include <set>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "run/atlas_stage.hpp"
 #include "run/director.hpp"
 #include "run/engine.hpp"

@@ -1,6 +1,5 @@
 #include "run/level_stage.hpp"
 
-#include <algorithm>
 #include <set>
 
 #include <fmt/format.h>

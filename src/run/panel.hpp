@@ -2,9 +2,6 @@
 // one is in language/panel.hpp, how it is drawn in draw/panel.hpp.
 #pragma once
 
-#include <string_view>
-#include <vector>
-
 #include "frame/frame.hpp"
 #include "language/panel.hpp"
 

@@ -3,10 +3,6 @@
 #pragma once
 
 #include <limits>
-#include <optional>
-#include <span>
-#include <utility>
-#include <vector>
 
 #include "language/scenario.hpp"
 #include "physics/world.hpp"

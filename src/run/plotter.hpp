@@ -1,10 +1,6 @@
 // The chart of a scenario: what steps with a `plot` counted, or what was measured as time went on.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "frame/frame.hpp"
 
 namespace lantern::run {

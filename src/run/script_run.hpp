@@ -1,9 +1,6 @@
 // A script while it runs: what its verbs act on.
 #pragma once
 
-#include <functional>
-#include <string>
-
 #include "run/frame_maker.hpp"
 #include "run/warnings.hpp"
 

@@ -2,12 +2,6 @@
 // at; what the narrow phase was asked; rulers and comparisons.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <set>
-#include <utility>
-#include <vector>
-
 #include "frame/frame.hpp"
 #include "language/scenario.hpp"
 #include "run/engine.hpp"

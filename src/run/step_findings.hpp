@@ -2,11 +2,6 @@
 // its phases are made.
 #pragma once
 
-#include <cstdint>
-#include <string_view>
-#include <utility>
-#include <vector>
-
 #include "frame/frame.hpp"
 #include "run/players.hpp"
 

@@ -2,10 +2,7 @@
 // meet there, and its counts. There is no other structure: what is drawn is what physics uses.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
-#include <map>
-#include <string>
 
 #include <fmt/format.h>
 

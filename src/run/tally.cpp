@@ -1,7 +1,6 @@
 #include "run/tally.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include <fmt/format.h>
 

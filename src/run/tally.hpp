@@ -1,13 +1,8 @@
 // What one run did, stage by stage, counted while it ran: nothing is guessed from the file.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <map>
 #include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include "base/work.hpp"
 #include "run/director.hpp"

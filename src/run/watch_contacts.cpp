@@ -1,7 +1,5 @@
 // A warning of bodies that fall into each other, in a world in which nothing touches.
-#include <algorithm>
 #include <cmath>
-#include <optional>
 #include <set>
 
 #include <fmt/format.h>

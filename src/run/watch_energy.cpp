@@ -1,6 +1,4 @@
 // A warning of energy that grows although nothing drives it.
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <set>

@@ -3,10 +3,7 @@
 
 #include <functional>
 #include <memory>
-#include <string>
-#include <string_view>
 #include <unordered_map>
-#include <vector>
 
 #include "frame/frame.hpp"
 #include "run/players.hpp"

@@ -2,12 +2,7 @@
 // them.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
 #include <map>
-#include <span>
 
 #include "frame/frame.hpp"
 #include "physics/energy.hpp"
