@@ -120,14 +120,6 @@ class JunitWriter {
   Counts counts_;
 };
 
-}  // namespace
-
-std::string golden_junit(std::span<const GoldenSuite> suites) {
-  return JunitWriter().written(suites);
-}
-
-namespace {
-
 constexpr std::string_view kGoldenStyle = R"css(
 :root{color-scheme:light dark;--paper:#fff;--ink:#1b1f24;--quiet:#57606a;--rule:#d0d7de;--bad:#b3160b}
 @media(prefers-color-scheme:dark){:root{--paper:#14171b;--ink:#e8eaed;--quiet:#a2aab4;--rule:#3c444d;--bad:#ff8d80}}
@@ -271,6 +263,10 @@ class GoldenPage {
 };
 
 }  // namespace
+
+std::string golden_junit(std::span<const GoldenSuite> suites) {
+  return JunitWriter().written(suites);
+}
 
 std::string golden_page(std::span<const GoldenSuite> suites, const std::string& made_by) {
   return GoldenPage(suites, made_by).written();

@@ -12,7 +12,6 @@
 #include "draw/font.hpp"
 
 namespace lantern::publish {
-
 namespace {
 
 // "world/cell/root.0" as "world", "cell", "root.0".
@@ -99,24 +98,6 @@ class Entities {
   std::vector<std::string> found_;
 };
 
-}  // namespace
-
-std::vector<std::string> entities_of(const std::string& key, const Frame& frame) {
-  std::string_view rest = key;
-  const Frame* side = &frame;
-  std::string prefix;
-  for (const Frame& one : frame.sides) {
-    if (!rest.starts_with(one.get<FrameSide>().name + "/")) continue;
-    prefix = one.get<FrameSide>().name + "/";
-    rest.remove_prefix(prefix.size());
-    side = &one;
-    break;
-  }
-  return Entities(prefix, *side).of(parts_of(rest));
-}
-
-namespace {
-
 std::int64_t whole(double x) { return static_cast<std::int64_t>(std::floor(x + 0.5)); }
 std::int64_t thousandths(double x) { return whole(1000 * x); }
 
@@ -147,7 +128,38 @@ std::string quoted_path(int glyph, Weight weight) {
   return text + "\"";
 }
 
+// A list of whole numbers as JSON.
+class Numbers {
+ public:
+  void add(std::int64_t number) { text_ += fmt::format("{}{}", text_.empty() ? "" : ",", number); }
+  std::string json() const { return "[" + text_ + "]"; }
+
+ private:
+  std::string text_;
+};
+
+bool is_put(const Passage& p) { return !(p.own == p.start && p.own == p.end); }
+
+// Rows that stand still, one after the other.
+struct StandingRun {
+  std::size_t first = 0, count = 0;
+};
+
 }  // namespace
+
+std::vector<std::string> entities_of(const std::string& key, const Frame& frame) {
+  std::string_view rest = key;
+  const Frame* side = &frame;
+  std::string prefix;
+  for (const Frame& one : frame.sides) {
+    if (!rest.starts_with(one.get<FrameSide>().name + "/")) continue;
+    prefix = one.get<FrameSide>().name + "/";
+    rest.remove_prefix(prefix.size());
+    side = &one;
+    break;
+  }
+  return Entities(prefix, *side).of(parts_of(rest));
+}
 
 std::int64_t hundredths(double length) { return whole(100 * length); }
 
@@ -240,27 +252,6 @@ std::string LessonShapes::json() const {
       "\"rows\": {},\n\"keys\": {},\n\"styles\": {},\n\"texts\": {},\n\"glyphs\": {}", rows_.json(),
       keys_.json(), styles_.json(), texts_.json(), glyphs_.json());
 }
-
-namespace {
-
-// A list of whole numbers as JSON.
-class Numbers {
- public:
-  void add(std::int64_t number) { text_ += fmt::format("{}{}", text_.empty() ? "" : ",", number); }
-  std::string json() const { return "[" + text_ + "]"; }
-
- private:
-  std::string text_;
-};
-
-bool is_put(const Passage& p) { return !(p.own == p.start && p.own == p.end); }
-
-// Rows that stand still, one after the other.
-struct StandingRun {
-  std::size_t first = 0, count = 0;
-};
-
-}  // namespace
 
 std::string whole_caption(const Frame& frame) {
   std::string words = frame.caption;

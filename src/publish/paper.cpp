@@ -20,6 +20,42 @@ namespace {
 // As <cairo-pdf.h> numbers them.
 constexpr int kTitle = 0, kSubject = 2, kCreator = 4, kCreated = 5;
 
+// In millimetres of an A4 page.
+constexpr double kMargin = 12, kTop = 21, kBottom = 14, kGapAcross = 7, kGapDown = 6;
+constexpr double kTitleLine = 14.5, kTitleRule = 17, kTitleSize = 4.6, kFootSize = 3.0;
+constexpr double kMostType = 3.3, kLeastType = 2.2;         // 9.4 and 6.2 points
+constexpr double kTypeOfWidth = 0.038;                      // of a picture
+constexpr double kLineHeight = 1.32, kAboveCaption = 1.45;  // ems
+constexpr double kLeastWidth = 10, kLeastHeight = 10;       // of picture and caption
+constexpr double kUsualCaption = 190;                       // letters that have room
+constexpr double kMostWords = 0.55;                         // of the height of picture and caption
+constexpr double kLetter = 0.52;                            // ems, on average
+constexpr double kWidest = 16.0 / 9, kSquarest = 1.6;       // aspects of a picture
+
+void move(RectShape& s, const Vec<2>& by) { s.box = {s.box.lo + by, s.box.hi + by}; }
+void move(LineShape& s, const Vec<2>& by) { s.from += by, s.to += by; }
+void move(PolygonShape& s, const Vec<2>& by) {
+  for (Vec<2>& p : s.points) p += by;
+}
+void move(TextShape& s, const Vec<2>& by) { s.at += by; }
+
+// As many lines as there may be; the last one ends with an ellipsis if the text goes on.
+std::vector<std::string> lines_of(const std::string& text, double width, std::size_t most,
+                                  TextStyle& style) {
+  const double least = 0.82 * style.size;
+  std::vector<std::string> lines = wrapped(text, width, style);
+  while (lines.size() > most && style.size > least) {
+    style.size *= 0.97;
+    lines = wrapped(text, width, style);
+  }
+  if (lines.size() <= most) return lines;
+  std::string rest = lines[most - 1];
+  for (std::size_t i = most; i < lines.size(); ++i) rest += " " + lines[i];
+  lines.resize(most);
+  lines.back() = shortened(rest, width, style);
+  return lines;
+}
+
 }  // namespace
 
 PdfDocument::PdfDocument(const PdfWords& words) {
@@ -77,46 +113,6 @@ std::string PdfDocument::finish() {
   cairo().require(cairo().surface_status(surface_));
   return std::move(bytes_);
 }
-
-namespace {
-
-// In millimetres of an A4 page.
-constexpr double kMargin = 12, kTop = 21, kBottom = 14, kGapAcross = 7, kGapDown = 6;
-constexpr double kTitleLine = 14.5, kTitleRule = 17, kTitleSize = 4.6, kFootSize = 3.0;
-constexpr double kMostType = 3.3, kLeastType = 2.2;         // 9.4 and 6.2 points
-constexpr double kTypeOfWidth = 0.038;                      // of a picture
-constexpr double kLineHeight = 1.32, kAboveCaption = 1.45;  // ems
-constexpr double kLeastWidth = 10, kLeastHeight = 10;       // of picture and caption
-constexpr double kUsualCaption = 190;                       // letters that have room
-constexpr double kMostWords = 0.55;                         // of the height of picture and caption
-constexpr double kLetter = 0.52;                            // ems, on average
-constexpr double kWidest = 16.0 / 9, kSquarest = 1.6;       // aspects of a picture
-
-void move(RectShape& s, const Vec<2>& by) { s.box = {s.box.lo + by, s.box.hi + by}; }
-void move(LineShape& s, const Vec<2>& by) { s.from += by, s.to += by; }
-void move(PolygonShape& s, const Vec<2>& by) {
-  for (Vec<2>& p : s.points) p += by;
-}
-void move(TextShape& s, const Vec<2>& by) { s.at += by; }
-
-// As many lines as there may be; the last one ends with an ellipsis if the text goes on.
-std::vector<std::string> lines_of(const std::string& text, double width, std::size_t most,
-                                  TextStyle& style) {
-  const double least = 0.82 * style.size;
-  std::vector<std::string> lines = wrapped(text, width, style);
-  while (lines.size() > most && style.size > least) {
-    style.size *= 0.97;
-    lines = wrapped(text, width, style);
-  }
-  if (lines.size() <= most) return lines;
-  std::string rest = lines[most - 1];
-  for (std::size_t i = most; i < lines.size(); ++i) rest += " " + lines[i];
-  lines.resize(most);
-  lines.back() = shortened(rest, width, style);
-  return lines;
-}
-
-}  // namespace
 
 std::optional<SheetGrid> sheet_grid(std::string_view words) {
   const auto grid = two_numbers_in<int>(words, 'x');

@@ -12,7 +12,6 @@
 #include "render/canvas.hpp"
 
 namespace lantern::render {
-
 namespace {
 
 // The functions of a library one by one; the first that is missing is told.
@@ -71,26 +70,6 @@ std::array<void*, 2> loaded_faces() {
   return faces;
 }
 
-}  // namespace
-
-void Cairo::require(int code) const {
-  constexpr int kNoMemory = 1;  // CAIRO_STATUS_NO_MEMORY
-  if (code == kNoMemory) throw std::bad_alloc();
-  if (code != 0) throw BackendError(fmt::format("cairo: {}", status_to_string(code)));
-}
-
-const Cairo& cairo() {
-  static const Cairo functions = loaded_cairo();
-  return functions;
-}
-
-void* cairo_face(Weight weight) {
-  static const std::array<void*, 2> faces = (cairo(), loaded_faces());
-  return faces[static_cast<std::size_t>(weight)];
-}
-
-namespace {
-
 constexpr int kButtCap = 0, kRoundCap = 1, kSquareCap = 2, kMiterJoin = 0, kRoundJoin = 1;
 constexpr double kQuarterTurn = 1.5707963267948966;
 
@@ -122,6 +101,22 @@ std::size_t digits_from(const DrawList& list, std::size_t first) {
 }
 
 }  // namespace
+
+void Cairo::require(int code) const {
+  constexpr int kNoMemory = 1;  // CAIRO_STATUS_NO_MEMORY
+  if (code == kNoMemory) throw std::bad_alloc();
+  if (code != 0) throw BackendError(fmt::format("cairo: {}", status_to_string(code)));
+}
+
+const Cairo& cairo() {
+  static const Cairo functions = loaded_cairo();
+  return functions;
+}
+
+void* cairo_face(Weight weight) {
+  static const std::array<void*, 2> faces = (cairo(), loaded_faces());
+  return faces[static_cast<std::size_t>(weight)];
+}
 
 CairoPainter::CairoPainter(void* context, For what)
     : cairo_(cairo()), context_(context), for_(what) {

@@ -60,71 +60,6 @@ Image blank(int width, int height) {
   return {width, height, std::vector<std::uint8_t>(std::size_t{4} * width * height)};
 }
 
-}  // namespace
-
-Comparison compare(const Image& expected, const Image& actual, int tolerance) {
-  Comparison result;
-  result.same_size = expected.width == actual.width && expected.height == actual.height;
-  if (!result.same_size)
-    result.sizes = fmt::format("{} pixels, found {}", size_of(expected), size_of(actual));
-  if (result.same_size && expected.rgba == actual.rgba) return result;
-  for (int y = 0; y < std::max(expected.height, actual.height); ++y)
-    for (int x = 0; x < std::max(expected.width, actual.width); ++x) {
-      const int d = difference(pixel(expected, x, y), pixel(actual, x, y));
-      result.largest = std::max(result.largest, d);
-      result.differing += d > tolerance;
-    }
-  return result;
-}
-
-bool passes(const Comparison& comparison, const Image& expected, const Allowance& allowance) {
-  const double most = allowance.fraction * static_cast<double>(expected.width) * expected.height;
-  return comparison.same_size && static_cast<double>(comparison.differing) <= most;
-}
-
-std::string finding(const Comparison& comparison) {
-  if (!comparison.same_size) return fmt::format("expected {}", comparison.sizes);
-  return fmt::format("{} {}, at most by {}", counted(comparison.differing, "pixel"),
-                     comparison.differing == 1 ? "differs" : "differ",
-                     counted(comparison.largest, "level"));
-}
-
-std::string pixel_hash(const Image& image) {
-  Hash hash;
-  hash.add(std::uint64_t(image.width)).add(std::uint64_t(image.height));
-  hash.add(std::string_view(reinterpret_cast<const char*>(image.rgba.data()), image.rgba.size()));
-  return fmt::format("{:016x}", hash.value());
-}
-
-Image marked_picture(const Image& expected, const Image& actual, int tolerance) {
-  Image picture =
-      blank(std::max(expected.width, actual.width), std::max(expected.height, actual.height));
-  for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x) {
-      const auto e = pixel(expected, x, y), a = pixel(actual, x, y);
-      const bool differs = !e || !a || difference(e, a) > tolerance;
-      if (e || a) put(picture, x, y, marked(e.value_or(Pixel{}), differs));
-    }
-  return picture;
-}
-
-Image difference_picture(const Image& expected, const Image& actual, int tolerance) {
-  const Image third = marked_picture(expected, actual, tolerance);
-  const int width = third.width;
-  Image picture = blank(3 * width, third.height);
-  for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < width; ++x) {
-      int left = 0;
-      for (const Image* image : {&expected, &actual, &third}) {
-        if (const auto p = pixel(*image, x, y)) put(picture, left + x, y, *p);
-        left += width;
-      }
-    }
-  return picture;
-}
-
-namespace {
-
 using Json = nlohmann::ordered_json;
 
 constexpr int kDeepest = 64;
@@ -270,6 +205,67 @@ class FactsWalk {
 };
 
 }  // namespace
+
+Comparison compare(const Image& expected, const Image& actual, int tolerance) {
+  Comparison result;
+  result.same_size = expected.width == actual.width && expected.height == actual.height;
+  if (!result.same_size)
+    result.sizes = fmt::format("{} pixels, found {}", size_of(expected), size_of(actual));
+  if (result.same_size && expected.rgba == actual.rgba) return result;
+  for (int y = 0; y < std::max(expected.height, actual.height); ++y)
+    for (int x = 0; x < std::max(expected.width, actual.width); ++x) {
+      const int d = difference(pixel(expected, x, y), pixel(actual, x, y));
+      result.largest = std::max(result.largest, d);
+      result.differing += d > tolerance;
+    }
+  return result;
+}
+
+bool passes(const Comparison& comparison, const Image& expected, const Allowance& allowance) {
+  const double most = allowance.fraction * static_cast<double>(expected.width) * expected.height;
+  return comparison.same_size && static_cast<double>(comparison.differing) <= most;
+}
+
+std::string finding(const Comparison& comparison) {
+  if (!comparison.same_size) return fmt::format("expected {}", comparison.sizes);
+  return fmt::format("{} {}, at most by {}", counted(comparison.differing, "pixel"),
+                     comparison.differing == 1 ? "differs" : "differ",
+                     counted(comparison.largest, "level"));
+}
+
+std::string pixel_hash(const Image& image) {
+  Hash hash;
+  hash.add(std::uint64_t(image.width)).add(std::uint64_t(image.height));
+  hash.add(std::string_view(reinterpret_cast<const char*>(image.rgba.data()), image.rgba.size()));
+  return fmt::format("{:016x}", hash.value());
+}
+
+Image marked_picture(const Image& expected, const Image& actual, int tolerance) {
+  Image picture =
+      blank(std::max(expected.width, actual.width), std::max(expected.height, actual.height));
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const auto e = pixel(expected, x, y), a = pixel(actual, x, y);
+      const bool differs = !e || !a || difference(e, a) > tolerance;
+      if (e || a) put(picture, x, y, marked(e.value_or(Pixel{}), differs));
+    }
+  return picture;
+}
+
+Image difference_picture(const Image& expected, const Image& actual, int tolerance) {
+  const Image third = marked_picture(expected, actual, tolerance);
+  const int width = third.width;
+  Image picture = blank(3 * width, third.height);
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < width; ++x) {
+      int left = 0;
+      for (const Image* image : {&expected, &actual, &third}) {
+        if (const auto p = pixel(*image, x, y)) put(picture, left + x, y, *p);
+        left += width;
+      }
+    }
+  return picture;
+}
 
 std::optional<FactsComparison> compare_facts(std::string_view expected, std::string_view actual) {
   const auto e = object_of(expected), a = object_of(actual);

@@ -73,6 +73,30 @@ bool chunks_are_whole(std::string_view bytes) {
   return false;
 }
 
+constexpr std::size_t kKey = 16;  // hexadecimal digits
+
+// What ends a file without a seal, and is its end with a seal, too.
+std::string_view ending(FileKind kind) {
+  constexpr std::string_view kEndings[] = {kPngEnd, "", "\n}\n"};
+  return kEndings[static_cast<int>(kind)];
+}
+
+// What the seal of a kind begins with.
+constexpr std::string_view kSvgSeal = "<!-- Lantern made this from ";
+constexpr std::string_view kJsonSeal = ",\n\"made_from\": \"";
+
+// The seal of what stands before it.
+std::string seal(FileKind kind, std::string_view before, const MadeFrom& from) {
+  std::uint32_t crc = libdeflate_crc32(0, before.data(), before.size());
+  for (const std::string& key : {from.facts, from.picture})
+    crc = libdeflate_crc32(crc, key.data(), key.size());
+  const std::string keys = from.facts + "-" + from.picture;
+  if (kind == FileKind::png)
+    return png_text({"Made from", fmt::format("{}, checksum {:08x}", keys, crc)});
+  if (kind == FileKind::svg) return fmt::format("{}{}, checksum {:08x} -->\n", kSvgSeal, keys, crc);
+  return fmt::format("{}{}\",\n\"checksum\": \"{:08x}\"", kJsonSeal, keys, crc);
+}
+
 }  // namespace
 
 std::string deflated(std::string_view bytes, int level) {
@@ -194,34 +218,6 @@ std::optional<Image> decode_png(std::string_view bytes, std::size_t most_pixels)
   image.rgba.assign(pixels.get(), pixels.get() + std::size_t{4} * width * height);
   return image;
 }
-
-namespace {
-
-constexpr std::size_t kKey = 16;  // hexadecimal digits
-
-// What ends a file without a seal, and is its end with a seal, too.
-std::string_view ending(FileKind kind) {
-  constexpr std::string_view kEndings[] = {kPngEnd, "", "\n}\n"};
-  return kEndings[static_cast<int>(kind)];
-}
-
-// What the seal of a kind begins with.
-constexpr std::string_view kSvgSeal = "<!-- Lantern made this from ";
-constexpr std::string_view kJsonSeal = ",\n\"made_from\": \"";
-
-// The seal of what stands before it.
-std::string seal(FileKind kind, std::string_view before, const MadeFrom& from) {
-  std::uint32_t crc = libdeflate_crc32(0, before.data(), before.size());
-  for (const std::string& key : {from.facts, from.picture})
-    crc = libdeflate_crc32(crc, key.data(), key.size());
-  const std::string keys = from.facts + "-" + from.picture;
-  if (kind == FileKind::png)
-    return png_text({"Made from", fmt::format("{}, checksum {:08x}", keys, crc)});
-  if (kind == FileKind::svg) return fmt::format("{}{}, checksum {:08x} -->\n", kSvgSeal, keys, crc);
-  return fmt::format("{}{}\",\n\"checksum\": \"{:08x}\"", kJsonSeal, keys, crc);
-}
-
-}  // namespace
 
 std::string sealed(FileKind kind, std::string bytes, const MadeFrom& from) {
   LANTERN_CHECK(from.facts.size(), ==, kKey);

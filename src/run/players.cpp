@@ -29,33 +29,6 @@ std::vector<BspPlane<D>> planes_of(const StructureSpec& spec) {
   return planes;
 }
 
-}  // namespace
-
-template <int D>
-BroadPhaseConfig<D> broad_phase_of(const StructureSpec& spec, const Box<D>& bounds) {
-  BroadPhaseConfig<D> config;
-  const bool any = spec.kind != StructureKind::none;
-  config.kind = any ? spec.kind : StructureKind::brute_force;
-  config.bounds = bounds;
-  config.capacity = spec.capacity;
-  config.max_depth = spec.max_depth;
-  config.eager_children = spec.children == Children::eager;
-  config.no_progress_stop = spec.no_progress_stop;
-  config.margin = spec.margin;
-  config.following = spec.following;
-  if (spec.axis != SweepAxis::widest) config.sweep_axis = static_cast<int>(spec.axis) - 1;
-  config.planes = planes_of<D>(spec);
-  config.cell = spec.cell;
-  config.levels = spec.levels;
-  config.open = spec.open;
-  config.split_static = spec.split_static;
-  config.in_proportion = false;
-  config.most_entries = kMostEntries;
-  return config;
-}
-
-namespace {
-
 template <int D>
 WorldConfig<D> config_of(const Scenario& scenario) {
   const WorldSpec& spec = scenario.world;
@@ -95,6 +68,29 @@ Body<D> body_of(const BodySpec& spec) {
 }
 
 }  // namespace
+
+template <int D>
+BroadPhaseConfig<D> broad_phase_of(const StructureSpec& spec, const Box<D>& bounds) {
+  BroadPhaseConfig<D> config;
+  const bool any = spec.kind != StructureKind::none;
+  config.kind = any ? spec.kind : StructureKind::brute_force;
+  config.bounds = bounds;
+  config.capacity = spec.capacity;
+  config.max_depth = spec.max_depth;
+  config.eager_children = spec.children == Children::eager;
+  config.no_progress_stop = spec.no_progress_stop;
+  config.margin = spec.margin;
+  config.following = spec.following;
+  if (spec.axis != SweepAxis::widest) config.sweep_axis = static_cast<int>(spec.axis) - 1;
+  config.planes = planes_of<D>(spec);
+  config.cell = spec.cell;
+  config.levels = spec.levels;
+  config.open = spec.open;
+  config.split_static = spec.split_static;
+  config.in_proportion = false;
+  config.most_entries = kMostEntries;
+  return config;
+}
 
 template <int D>
 Players<D>::Players(const Scenario& scenario)

@@ -58,6 +58,27 @@ bool is_all_that_move(const std::set<BodyId>& focus, const Frame& frame) {
          });
 }
 
+// At rest at both ends.
+double eased(double share) {
+  const double t = std::clamp(share, 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+// As wide as it says, in the world's proportions, moved into the world.
+Box<2> part_of(const Box<2>& bounds, const ViewSpec& view) {
+  const Vec<2> size = bounds.size() * (view.width / bounds.size().x);
+  const Vec<2> lo =
+      glm::clamp(flat(*view.at) - size / 2.0, bounds.lo, glm::max(bounds.lo, bounds.hi - size));
+  return {lo, lo + size};
+}
+
+// Counter-clockwise as seen from above.
+Vec<3> turned_about(const Vec<3>& middle, const Vec<3>& p, double angle) {
+  const Vec<3> way = p - middle;
+  const double c = std::cos(angle), s = std::sin(angle);
+  return middle + Vec<3>(c * way.x + s * way.z, way.y, c * way.z - s * way.x);
+}
+
 }  // namespace
 
 void Lighting::light(const Cause& cause, Frame& frame) const {
@@ -131,31 +152,6 @@ void Lighting::remember(const Frame& frame, bool midst) {
   places_ = places_of(frame);
   std::ranges::sort(places_);
 }
-
-namespace {
-
-// At rest at both ends.
-double eased(double share) {
-  const double t = std::clamp(share, 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
-
-// As wide as it says, in the world's proportions, moved into the world.
-Box<2> part_of(const Box<2>& bounds, const ViewSpec& view) {
-  const Vec<2> size = bounds.size() * (view.width / bounds.size().x);
-  const Vec<2> lo =
-      glm::clamp(flat(*view.at) - size / 2.0, bounds.lo, glm::max(bounds.lo, bounds.hi - size));
-  return {lo, lo + size};
-}
-
-// Counter-clockwise as seen from above.
-Vec<3> turned_about(const Vec<3>& middle, const Vec<3>& p, double angle) {
-  const Vec<3> way = p - middle;
-  const double c = std::cos(angle), s = std::sin(angle);
-  return middle + Vec<3>(c * way.x + s * way.z, way.y, c * way.z - s * way.x);
-}
-
-}  // namespace
 
 Looks::Looks(const Scenario& scenario) : scenario_(scenario) {
   const WorldSpec& world = scenario.world;

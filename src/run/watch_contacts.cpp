@@ -147,17 +147,6 @@ class ContactsWatch : public Watcher {
   bool put_ = true;
 };
 
-}  // namespace
-
-Watching watch_contacts(const Scenario& scenario) {
-  if (scenario.has_contacts() || !anything_pushes(scenario) || scenario.bodies.size() < 2)
-    return nullptr;
-  return std::make_unique<ContactsWatch>(scenario);
-}
-
-// A warning of bodies that are crushed between others.
-namespace {
-
 class CrushWatch : public Watcher {
  public:
   explicit CrushWatch(const Scenario& scenario) : scenario_(scenario) {}
@@ -196,16 +185,6 @@ class CrushWatch : public Watcher {
   std::set<Pair> told_;
   Diagnostics found_;
 };
-
-}  // namespace
-
-Watching watch_crush(const Scenario& scenario) {
-  if (!scenario.has_contacts() || scenario.bodies.size() < 3) return nullptr;
-  return std::make_unique<CrushWatch>(scenario);
-}
-
-// A warning of bodies that are pushed into or through one that never moves.
-namespace {
 
 // Half sizes of the box around a shape, along its own axes. Nothing for a half-space.
 template <int D>
@@ -316,6 +295,21 @@ class ThroughWatch : public Watcher {
 };
 
 }  // namespace
+
+Watching watch_contacts(const Scenario& scenario) {
+  if (scenario.has_contacts() || !anything_pushes(scenario) || scenario.bodies.size() < 2)
+    return nullptr;
+  return std::make_unique<ContactsWatch>(scenario);
+}
+
+// A warning of bodies that are crushed between others.
+
+Watching watch_crush(const Scenario& scenario) {
+  if (!scenario.has_contacts() || scenario.bodies.size() < 3) return nullptr;
+  return std::make_unique<CrushWatch>(scenario);
+}
+
+// A warning of bodies that are pushed into or through one that never moves.
 
 Watching watch_through(const Scenario& scenario) {
   if (!scenario.has_contacts() || !scenario.has_body_of(BodyKind::dynamic_body) ||

@@ -177,21 +177,6 @@ class EnergyWatch : public Watcher {
   std::optional<Growth> grown_;
 };
 
-}  // namespace
-
-Watching watch_energy(const Scenario& scenario) {
-  const bool forces = scenario.has_physics();
-  // A free body's energy can grow only by the way it turns.
-  const bool turns = scenario.world.dimension == 3 &&
-                     std::any_of(scenario.bodies.begin(), scenario.bodies.end(),
-                                 [](const BodySpec& body) { return body.spin != 0; });
-  if (!scenario.has_body_of(BodyKind::dynamic_body) || (!forces && !turns)) return nullptr;
-  return std::make_unique<EnergyWatch>(scenario, !forces);
-}
-
-// A warning of joints whose ends part.
-namespace {
-
 constexpr double kMostGap = 0.01;  // of the smaller body's length
 
 // From end to end, in the direction in which it is longest.
@@ -297,6 +282,18 @@ class JointWatch : public Watcher {
 };
 
 }  // namespace
+
+Watching watch_energy(const Scenario& scenario) {
+  const bool forces = scenario.has_physics();
+  // A free body's energy can grow only by the way it turns.
+  const bool turns = scenario.world.dimension == 3 &&
+                     std::any_of(scenario.bodies.begin(), scenario.bodies.end(),
+                                 [](const BodySpec& body) { return body.spin != 0; });
+  if (!scenario.has_body_of(BodyKind::dynamic_body) || (!forces && !turns)) return nullptr;
+  return std::make_unique<EnergyWatch>(scenario, !forces);
+}
+
+// A warning of joints whose ends part.
 
 Watching watch_joints(const Scenario& scenario) {
   return scenario.has_joints() ? std::make_unique<JointWatch>(scenario) : nullptr;
