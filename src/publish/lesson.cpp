@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/check.hpp"
+#include "base/counted.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
@@ -228,10 +229,10 @@ std::string entry_of(const Listed& lesson, const std::map<std::string, const Lis
   return fmt::format(
       "<li>\n<a class=\"picture\" href=\"{}\" tabindex=\"-1\" aria-hidden=\"true\">"
       "<img src=\"{}\" alt=\"\" loading=\"lazy\"></a>\n<h2>{}{}</h2>\n<p class=\"idea\">{}</p>\n{}"
-      "{}<p class=\"length\">{} step{}</p>\n</li>\n",
+      "{}<p class=\"length\">{}</p>\n</li>\n",
       url_of(lesson.file), lesson.picture, number, link_to(lesson.file, card.title),
       escaped(card.idea), needs_of(lesson, by_name), question_list(card, url_of(lesson.file)),
-      card.steps, card.steps == 1 ? "" : "s");
+      counted(card.steps, "step"));
 }
 
 }  // namespace
@@ -371,9 +372,7 @@ std::string lesson_index(const Folder& folder) {
                      if (name == "mark") return std::string(kIndexMark);
                      if (name == "colours") return lesson_colours();
                      if (name == "style") return std::string(page::index_css);
-                     if (name == "count")
-                       return fmt::format("{} lesson{}", lessons.size(),
-                                          lessons.size() == 1 ? "" : "s");
+                     if (name == "count") return counted(lessons.size(), "lesson");
                      std::string entries;
                      for (const Listed& lesson : lessons) entries += entry_of(lesson, by_name);
                      return entries;

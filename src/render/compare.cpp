@@ -99,10 +99,6 @@ std::pair<std::string, std::string> shown(const Json& expected, const Json& actu
   return {shortened(e, first), shortened(a, first)};
 }
 
-std::string length_of(const Json& list) {
-  return fmt::format("{} {}", list.size(), list.size() == 1 ? "element" : "elements");
-}
-
 // What an element of a list is called: its name, else its id.
 std::optional<std::string> called(const Json& element) {
   if (!element.is_object()) return std::nullopt;
@@ -176,7 +172,7 @@ class FactsWalk {
     const auto e = all_called(expected), a = all_called(actual);
     if (e && a) return by_name(path, *e, *a);
     if (expected.size() != actual.size())
-      return differ(path, length_of(expected), length_of(actual));
+      return differ(path, counted(expected.size(), "element"), counted(actual.size(), "element"));
     for (std::size_t i = 0; i < expected.size(); ++i)
       one(fmt::format("{}[{}]", path, i), &expected[i], &actual[i]);
   }

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.hpp"
+
 namespace lantern::run {
 namespace {
 
@@ -197,19 +199,15 @@ std::string look_text(const FrameLook& look) {
 }
 
 std::string phase_text(std::string_view phase, const Frame& frame) {
-  const auto counted = [](std::int64_t n, std::string_view one, std::string_view many) {
-    return fmt::format("{} {}", n, n == 1 ? one : many);
-  };
   const auto pairs = static_cast<std::int64_t>(frame.pairs.size());
   const auto contacts = static_cast<std::int64_t>(frame.contacts.size());
   if (phase == "broad_phase")
     return fmt::format("Broad phase: {}, where brute force has {}. These might touch.",
-                       counted(pairs, "candidate pair", "candidate pairs"),
-                       frame.count("testable_pairs").value_or(0));
+                       counted(pairs, "candidate pair"), frame.count("testable_pairs").value_or(0));
   const std::int64_t overlaps = frame.count("overlaps").value_or(0);
   if (phase == "boxes")
     return fmt::format("Boxes: of {}, {} overlap. Only their shapes need a test.",
-                       counted(pairs, "candidate pair", "candidate pairs"),
+                       counted(pairs, "candidate pair"),
                        overlaps == pairs ? "all" : fmt::format("the boxes of {}", overlaps));
   if (phase == "narrow_phase") {
     const std::int64_t tested = frame.count("pairs_tested").value_or(0);
@@ -218,12 +216,12 @@ std::string phase_text(std::string_view phase, const Frame& frame) {
                               : overlaps == 1    ? "its true shapes"
                                                  : "their true shapes";
     return fmt::format("Narrow phase: the boxes of {} overlap; {} are tested. {} really {}.",
-                       counted(overlaps, "pair", "pairs"), whose, contacts,
+                       counted(overlaps, "pair"), whose, contacts,
                        contacts == 1 ? "touches" : "touch");
   }
   return fmt::format(
       "Resolution: impulses at {} push the bodies apart. The arrows show how strong they are.",
-      counted(frame.count("contact_points").value_or(0), "contact point", "contact points"));
+      counted(frame.count("contact_points").value_or(0), "contact point"));
 }
 
 }  // namespace lantern::run

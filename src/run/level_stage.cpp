@@ -5,17 +5,11 @@
 #include <fmt/format.h>
 
 #include "base/check.hpp"
+#include "base/counted.hpp"
 #include "base/error.hpp"
 #include "spatial/pairs.hpp"
 
 namespace lantern::run {
-namespace {
-
-std::string counted(std::uint64_t n, std::string_view one) {
-  return fmt::format("{} {}{}", n, one, n == 1 ? "" : "s");
-}
-
-}  // namespace
 
 LevelStage::LevelStage(const Scenario& scenario)
     : spec_(*scenario.level),

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.hpp"
 #include "run/event_text.hpp"
 #include "run/script_run.hpp"
 
@@ -33,8 +34,7 @@ std::vector<BodyId> in_order(const Frame& frame) {
 std::string text_of(const std::string& name, const std::vector<std::string>& others) {
   if (others.empty()) return fmt::format("Nobody begins before {} ends: nothing to compare.", name);
   return fmt::format("Before {} ends, {} begin{}: {} to compare.", name, fmt::join(others, " and "),
-                     others.size() == 1 ? "s" : "",
-                     others.size() == 1 ? "1 pair" : fmt::format("{} pairs", others.size()));
+                     others.size() == 1 ? "s" : "", counted(others.size(), "pair"));
 }
 
 // What the walk of a finding has brought to light so far, event by event: hits, counts, how far a
