@@ -28,14 +28,6 @@
 namespace lantern::render {
 namespace {
 
-// Bands with their place in the image, from the uppermost down.
-std::vector<Band> bands_of(const Image& image) {
-  std::vector<Band> bands;
-  for (int row = 0; row < image.height; row += kBandRows)
-    take_band(image, row, bands.emplace_back());
-  return bands;
-}
-
 void put32(std::string& to, std::uint32_t value) {
   for (int shift = 24; shift >= 0; shift -= 8) to += static_cast<char>(value >> shift & 255);
 }
@@ -166,24 +158,6 @@ PngBody png_body(int width, int height, int channels, const std::string& stream)
   return body;
 }
 
-PngBody compress(const Image& image, PngEffort effort) {
-  LANTERN_CHECK(image.rgba.size(), ==, std::size_t{4} * image.width * image.height);
-  LANTERN_CHECK(image.rgba.empty(), ==, false);
-  const std::vector<Band> bands = bands_of(image);
-  const int channels = std::ranges::all_of(bands, &Band::is_opaque) ? 3 : 4;
-  std::string stream;
-  if (effort == PngEffort::fast) {
-    BandStream joined;
-    for (const Band& band : bands) joined.add(pack(band, channels));
-    stream = joined.finish();
-  } else {
-    std::vector<const Band*> all;
-    for (const Band& band : bands) all.push_back(&band);
-    stream = small_stream(all, channels);
-  }
-  return png_body(image.width, image.height, channels, stream);
-}
-
 std::string assemble(const PngBody& body, const std::vector<PngText>& texts, int pixels_per_metre) {
   std::string png = body.header;
   if (pixels_per_metre > 0) {
@@ -200,7 +174,23 @@ std::string assemble(const PngBody& body, const std::vector<PngText>& texts, int
 
 std::string encode_png(const Image& image, PngEffort effort, const std::vector<PngText>& texts,
                        int pixels_per_metre) {
-  return assemble(compress(image, effort), texts, pixels_per_metre);
+  LANTERN_CHECK(image.rgba.size(), ==, std::size_t{4} * image.width * image.height);
+  LANTERN_CHECK(image.rgba.empty(), ==, false);
+  std::vector<Band> bands;  // from the uppermost down
+  for (int row = 0; row < image.height; row += kBandRows)
+    take_band(image, row, bands.emplace_back());
+  const int channels = std::ranges::all_of(bands, &Band::is_opaque) ? 3 : 4;
+  std::string stream;
+  if (effort == PngEffort::fast) {
+    BandStream joined;
+    for (const Band& band : bands) joined.add(pack(band, channels));
+    stream = joined.finish();
+  } else {
+    std::vector<const Band*> all;
+    for (const Band& band : bands) all.push_back(&band);
+    stream = small_stream(all, channels);
+  }
+  return assemble(png_body(image.width, image.height, channels, stream), texts, pixels_per_metre);
 }
 
 std::optional<Image> decode_png(std::string_view bytes, std::size_t most_pixels) {

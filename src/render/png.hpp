@@ -35,8 +35,6 @@ struct PngBody {
   std::string pixels;  // IDAT
 };
 
-PngBody compress(const Image& image, PngEffort effort);
-
 // The rows of an image from `row` on, at most kBandRows, and the one above them. `to` is
 // overwritten, its memory reused.
 void take_band(const Image& image, int row, Band& to);
