@@ -15,7 +15,7 @@ Amount amount(std::uint64_t n, std::string name, std::string many = {}) {
   return {n, std::move(name), std::move(many)};
 }
 
-std::uint64_t counted(const Frame& frame, std::string_view name) {
+std::uint64_t count_of(const Frame& frame, std::string_view name) {
   return static_cast<std::uint64_t>(frame.count(name).value_or(0));
 }
 
@@ -36,9 +36,9 @@ void Tally::Seen::add(const Frame& frame) {
   for (const FrameBody& body : frame.bodies) asleep += body.asleep;
   for (const FrameLink& link : frame.get<FrameLinks>().links)
     ++(link.kind == FrameLink::Kind::spring ? springs : joints);
-  textures += counted(frame, "textures");
-  walls += counted(frame, "walls");
-  sectors += counted(frame, "sectors");
+  textures += count_of(frame, "textures");
+  walls += count_of(frame, "walls");
+  sectors += count_of(frame, "sectors");
 }
 
 // A step always ends with a frame, and never builds two kinds: what was built since the frame
