@@ -9,7 +9,6 @@
 #include "base/hash.hpp"
 #include "render/png.hpp"
 #include "render/renderer.hpp"
-#include "render/seal.hpp"
 #include "render/svg.hpp"
 
 namespace lantern::app {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <atomic>
+#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -138,26 +139,29 @@ GlyphBitmap rasterise_glyph(int glyph, Weight weight, double pixels, double shif
   return bitmap;
 }
 
-std::string glyph_path(int glyph, Weight weight) {
+std::vector<PathStep> glyph_path(int glyph, Weight weight) {
   const FontFace& f = face(weight);
   stbtt_vertex* vertices = nullptr;
   const int count = stbtt_GetGlyphShape(&f.info, glyph, &vertices);
-  std::string path;
-  const auto point = [&](int x, int y) {
-    path += fmt::format("{:.5g} {:.5g} ", x * f.em_per_unit, y == 0 ? 0.0 : -y * f.em_per_unit);
+  std::vector<PathStep> path;
+  const auto in_ems = [&](int units) {
+    double ems = 0;  // of five digits: nobody sees more
+    const std::string digits = fmt::format("{:.5g}", units == 0 ? 0.0 : units * f.em_per_unit);
+    std::from_chars(digits.data(), digits.data() + digits.size(), ems);
+    return ems;
   };
+  const auto point = [&](int x, int y) { path.back().points.push_back({in_ems(x), in_ems(-y)}); };
   for (int i = 0; i < count; ++i) {
     const stbtt_vertex& v = vertices[i];
-    if (v.type == STBTT_vmove) path += path.empty() ? "M" : "ZM";
-    if (v.type == STBTT_vline) path += 'L';
-    if (v.type == STBTT_vcurve) path += 'Q';
-    if (v.type == STBTT_vcubic) path += 'C';
-    if (v.type == STBTT_vcurve || v.type == STBTT_vcubic) point(v.cx, v.cy);
-    if (v.type == STBTT_vcubic) point(v.cx1, v.cy1);
+    const bool moves = v.type == STBTT_vmove, is_cubic = v.type == STBTT_vcubic;
+    if (moves && !path.empty()) path.emplace_back();
+    path.push_back({moves ? 'M' : v.type == STBTT_vline ? 'L' : is_cubic ? 'C' : 'Q'});
+    if (v.type == STBTT_vcurve || is_cubic) point(v.cx, v.cy);
+    if (is_cubic) point(v.cx1, v.cy1);
     point(v.x, v.y);
   }
   stbtt_FreeShape(&f.info, vertices);
-  if (!path.empty()) path += 'Z';
+  if (!path.empty()) path.emplace_back();
   return path;
 }
 

@@ -43,7 +43,12 @@ struct GlyphBitmap {
 };
 GlyphBitmap rasterise_glyph(int glyph, Weight weight, double pixels, double shift);
 
-// A glyph's outline in units of one em, y down, as an SVG path; empty for a space.
-std::string glyph_path(int glyph, Weight weight);
+// A glyph's outline in units of one em, y down, by the letters of an SVG path: M and L have a
+// point, Q two, C three, Z none. Empty for a space.
+struct PathStep {
+  char letter = 'Z';
+  std::vector<Vec<2>> points = {};
+};
+std::vector<PathStep> glyph_path(int glyph, Weight weight);
 
 }  // namespace lantern::draw

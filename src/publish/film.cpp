@@ -1,6 +1,6 @@
 #include "publish/film.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <condition_variable>
 #include <deque>
@@ -8,10 +8,8 @@
 #include <mutex>
 #include <sstream>
 #include <stop_token>
-#include <string_view>
 #include <system_error>
 #include <thread>
-#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -23,7 +21,6 @@
 #include "base/printable.hpp"
 
 namespace lantern::publish {
-
 namespace {
 
 std::string big_endian(std::uint64_t number) {
@@ -42,35 +39,6 @@ std::string element(std::string_view id, const std::string& content) {
 std::string element(std::string_view id, std::uint64_t number) {
   return element(id, big_endian(number));
 }
-
-}  // namespace
-
-std::string film_stream_start(int width, int height, double rate) {
-  constexpr std::string_view kUnknownLength = "\x01\xff\xff\xff\xff\xff\xff\xff";
-  const std::string head =
-      element("\x1a\x45\xdf\xa3", element("\x42\x82", "matroska") + element("\x42\x87", 4) +
-                                      element("\x42\x85", 2));  // DocType, versions
-  const auto nanoseconds = static_cast<std::uint64_t>(std::llround(1e9 / rate));
-  const std::string info = element("\x15\x49\xa9\x66", element("\x2a\xd7\xb1", nanoseconds));
-  const std::string video = element("\xb0", static_cast<std::uint64_t>(width)) +
-                            element("\xba", static_cast<std::uint64_t>(height)) +
-                            element("\x2e\xb5\x24", "RGBA");
-  const std::string track = element("\xd7", 1) + element("\x73\xc5", 1) +  // number, unique id
-                            element("\x83", 1) +                           // it is video
-                            element("\x86", "V_UNCOMPRESSED") + element("\xe0", video);
-  return head + "\x18\x53\x80\x67" + std::string(kUnknownLength) + info +
-         element("\x16\x54\xae\x6b", element("\xae", track));
-}
-
-std::string film_stream_picture(std::uint64_t moment, std::size_t bytes) {
-  using namespace std::string_literals;
-  const std::string timestamp = element("\xe7", moment);
-  const std::string about = "\x81\x00\x00\x80"s;  // of track 1, at the cluster's time, a key frame
-  const std::string block = "\xa3" + length(about.size() + bytes) + about;
-  return "\x1f\x43\xb6\x75" + length(timestamp.size() + block.size() + bytes) + timestamp + block;
-}
-
-namespace {
 
 using Words = std::vector<std::string>;
 
@@ -131,59 +99,19 @@ void add_webp(Words& words, const FilmSettings& s) {
               "libwebp_anim", "-lossless", "1", "-loop", "0", "-f", "webp"});
 }
 
-}  // namespace
-
-std::vector<std::string> film_words(const FilmSettings& s, const std::string& file) {
-  Words words = {"-nostdin", "-hide_banner", "-loglevel", "error", "-y",
-                 "-f",       "matroska",     "-i",        "pipe:0"};
-  switch (s.kind) {
-    case FilmKind::mp4:
-      add_mp4(words, s);
-      break;
-    case FilmKind::webm:
-      add_webm(words, s);
-      break;
-    case FilmKind::gif:
-      add_gif(words, s);
-      break;
-    case FilmKind::apng:
-      add_apng(words, s);
-      break;
-    case FilmKind::webp:
-      add_webp(words, s);
-      break;
-  }
-  add(words,
-      {"-metadata", "title=" + s.title, "-fflags", "+bitexact", "-flags:v", "+bitexact", file});
-  return words;
-}
-
-double usual_rate(FilmKind kind) { return kind == FilmKind::gif ? 25 : 30; }
-
-std::optional<std::string> film_problem(const FilmSettings& s) {
-  if (s.kind == FilmKind::mp4 && s.transparent)
-    return "an MP4 has no transparency; name a .webm, .webp, .apng or .gif";
-  if (s.kind == FilmKind::mp4 && (s.width % 2 != 0 || s.height % 2 != 0))
-    return fmt::format("an MP4 has even sides: --size {}x{}", s.width + s.width % 2,
-                       s.height + s.height % 2);
-  // Less than two hundredths are shown as ten.
-  const double hundredths = 100 / s.rate, whole = std::round(hundredths);
-  if (s.kind == FilmKind::gif && (whole < 2 || std::abs(hundredths - whole) > 1e-3))
-    return fmt::format(
-        "a GIF counts in hundredths of a second, two at least: --fps 50, 25, 20, 12.5 or 10");
-  return std::nullopt;
-}
-
-namespace {
+struct FilmFormat {
+  std::string_view ending;
+  FilmKind kind;
+  void (*add)(Words& words, const FilmSettings& settings);
+};
+constexpr FilmFormat kFormats[] = {{"mp4", FilmKind::mp4, add_mp4},
+                                   {"webm", FilmKind::webm, add_webm},
+                                   {"gif", FilmKind::gif, add_gif},
+                                   {"apng", FilmKind::apng, add_apng},
+                                   {"webp", FilmKind::webp, add_webp}};
 
 // One is drawn upon, one waits, one is on its way, and the last one may be sent again.
 constexpr std::size_t kImages = 4;
-
-constexpr std::array kFilmEndings = {
-    std::pair{"mp4", FilmKind::mp4},   std::pair{"webm", FilmKind::webm},
-    std::pair{"gif", FilmKind::gif},   std::pair{"apng", FilmKind::apng},
-    std::pair{"webp", FilmKind::webp},
-};
 
 std::size_t picture_bytes(const FilmSettings& settings) {
   return std::size_t{4} * static_cast<std::size_t>(settings.width) *
@@ -228,9 +156,58 @@ std::string last_words(std::string said, const std::string& target, const std::s
 
 }  // namespace
 
+std::string film_stream_start(int width, int height, double rate) {
+  constexpr std::string_view kUnknownLength = "\x01\xff\xff\xff\xff\xff\xff\xff";
+  const std::string head =
+      element("\x1a\x45\xdf\xa3", element("\x42\x82", "matroska") + element("\x42\x87", 4) +
+                                      element("\x42\x85", 2));  // DocType, versions
+  const auto nanoseconds = static_cast<std::uint64_t>(std::llround(1e9 / rate));
+  const std::string info = element("\x15\x49\xa9\x66", element("\x2a\xd7\xb1", nanoseconds));
+  const std::string video = element("\xb0", static_cast<std::uint64_t>(width)) +
+                            element("\xba", static_cast<std::uint64_t>(height)) +
+                            element("\x2e\xb5\x24", "RGBA");
+  const std::string track = element("\xd7", 1) + element("\x73\xc5", 1) +  // number, unique id
+                            element("\x83", 1) +                           // it is video
+                            element("\x86", "V_UNCOMPRESSED") + element("\xe0", video);
+  return head + "\x18\x53\x80\x67" + std::string(kUnknownLength) + info +
+         element("\x16\x54\xae\x6b", element("\xae", track));
+}
+
+std::string film_stream_picture(std::uint64_t moment, std::size_t bytes) {
+  using namespace std::string_literals;
+  const std::string timestamp = element("\xe7", moment);
+  const std::string about = "\x81\x00\x00\x80"s;  // of track 1, at the cluster's time, a key frame
+  const std::string block = "\xa3" + length(about.size() + bytes) + about;
+  return "\x1f\x43\xb6\x75" + length(timestamp.size() + block.size() + bytes) + timestamp + block;
+}
+
 std::optional<FilmKind> film_kind(std::string_view ending) {
-  for (const auto& [name, kind] : kFilmEndings)
-    if (ending == name) return kind;
+  const auto found = std::ranges::find(kFormats, ending, &FilmFormat::ending);
+  return found == std::end(kFormats) ? std::nullopt : std::optional(found->kind);
+}
+
+std::vector<std::string> film_words(const FilmSettings& s, const std::string& file) {
+  Words words = {"-nostdin", "-hide_banner", "-loglevel", "error", "-y",
+                 "-f",       "matroska",     "-i",        "pipe:0"};
+  std::ranges::find(kFormats, s.kind, &FilmFormat::kind)->add(words, s);
+  add(words,
+      {"-metadata", "title=" + s.title, "-fflags", "+bitexact", "-flags:v", "+bitexact", file});
+  return words;
+}
+
+double usual_rate(FilmKind kind) { return kind == FilmKind::gif ? 25 : 30; }
+
+std::optional<std::string> film_problem(const FilmSettings& s) {
+  if (s.kind == FilmKind::mp4 && s.transparent)
+    return "an MP4 has no transparency; name a .webm, .webp, .apng or .gif";
+  if (s.kind == FilmKind::mp4 && (s.width % 2 != 0 || s.height % 2 != 0))
+    return fmt::format("an MP4 has even sides: --size {}x{}", s.width + s.width % 2,
+                       s.height + s.height % 2);
+  // Less than two hundredths are shown as ten.
+  const double hundredths = 100 / s.rate, whole = std::round(hundredths);
+  if (s.kind == FilmKind::gif && (whole < 2 || std::abs(hundredths - whole) > 1e-3))
+    return fmt::format(
+        "a GIF counts in hundredths of a second, two at least: --fps 50, 25, 20, 12.5 or 10");
   return std::nullopt;
 }
 

@@ -1,14 +1,6 @@
 // Films: pictures on their way through ffmpeg into one file.
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "base/file.hpp"
 #include "render/image.hpp"
 #include "rooms.hpp"

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cctype>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "base/printable.hpp"
+#include "base/counted.hpp"
+#include "base/markup.hpp"
 #include "publish/packed.hpp"
 
 namespace lantern::publish {
@@ -32,12 +31,8 @@ std::string name_of(const GoldenCase& one) {
                            : fmt::format("frame {} ({})", one.frame, one.event);
 }
 
-std::string counted_frames(std::size_t count) {
-  return fmt::format("{} {}", count, count == 1 ? "frame" : "frames");
-}
-
 std::string differing_of(std::size_t differing, std::size_t frames) {
-  return fmt::format("{} of {} {}", differing, counted_frames(frames),
+  return fmt::format("{} of {} {}", differing, counted(frames, "frame"),
                      differing == 1 ? "differs" : "differ");
 }
 
@@ -126,14 +121,6 @@ class JunitWriter {
   Counts counts_;
 };
 
-}  // namespace
-
-std::string golden_junit(std::span<const GoldenSuite> suites) {
-  return JunitWriter().written(suites);
-}
-
-namespace {
-
 constexpr std::string_view kGoldenStyle = R"css(
 :root{color-scheme:light dark;--paper:#fff;--ink:#1b1f24;--quiet:#57606a;--rule:#d0d7de;--bad:#b3160b}
 @media(prefers-color-scheme:dark){:root{--paper:#14171b;--ink:#e8eaed;--quiet:#a2aab4;--rule:#3c444d;--bad:#ff8d80}}
@@ -159,8 +146,9 @@ class GoldenPage {
   std::string written() {
     std::size_t frames = 0, differing = 0;
     for (const GoldenSuite& s : suites_) frames += s.cases.size(), differing += s.differing();
-    const std::string title = differing > 0 ? differing_of(differing, frames)
-                                            : fmt::format("{} as expected", counted_frames(frames));
+    const std::string title = differing > 0
+                                  ? differing_of(differing, frames)
+                                  : fmt::format("{} as expected", counted(frames, "frame"));
     put("<style>{}</style>\n</head>\n<body>\n<main>\n<h1>{}</h1>\n", kGoldenStyle, title);
     put("<p class=\"quiet\">Compared with their golden frames; found by {}.</p>\n",
         escaped(made_by_));
@@ -266,7 +254,7 @@ class GoldenPage {
     for (const GoldenSuite& s : suites_)
       if (s.good())
         names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", escaped(s.scenario),
-                             counted_frames(s.cases.size()));
+                             counted(s.cases.size(), "frame"));
     if (!names.empty()) put("<h2>As expected</h2>\n<p>{}</p>\n", names);
   }
 
@@ -276,6 +264,10 @@ class GoldenPage {
 };
 
 }  // namespace
+
+std::string golden_junit(std::span<const GoldenSuite> suites) {
+  return JunitWriter().written(suites);
+}
 
 std::string golden_page(std::span<const GoldenSuite> suites, const std::string& made_by) {
   return GoldenPage(suites, made_by).written();

@@ -2,11 +2,7 @@
 // machine that builds.
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "render/compare.hpp"
 #include "rooms.hpp"
@@ -43,8 +39,6 @@ struct GoldenSuite {
 // "frame 7 (split)"
 std::string name_of(const GoldenCase& one);
 
-// "1 frame", "8 frames"
-std::string counted_frames(std::size_t count);
 // "1 of 8 frames differs", "3 of 8 frames differ"
 std::string differing_of(std::size_t differing, std::size_t frames);
 

@@ -1,24 +1,32 @@
 #include "publish/lesson.hpp"
 
-#include <array>
-#include <utility>
+#include <map>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/check.hpp"
+#include "base/counted.hpp"
+#include "base/error.hpp"
+#include "base/file.hpp"
 #include "base/json_writer.hpp"
 #include "base/printable.hpp"
+#include "base/markup.hpp"
+#include "base/stop.hpp"
+#include "draw/keys.hpp"
 #include "draw/theme.hpp"
 #include "embedded/lesson_files.hpp"
 #include "publish/packed.hpp"
 #include "render/canvas.hpp"
+#include "render/png.hpp"
 #include "render/svg.hpp"
 
 namespace lantern::publish {
 namespace {
 
-constexpr int kStillWidth = 1600;            // of the picture for those without scripts
+constexpr int kSmallest = 12;      // level of packing: a page is made once and opened often
+constexpr int kStillWidth = 1600;  // of the picture for those without scripts
 constexpr std::size_t kMostCover = 300'000;  // bytes of a picture for the index
 
 constexpr std::string_view kQuestionButton =
@@ -47,6 +55,185 @@ std::string beats() {
     text += "]";
   }
   return "[" + text + "]";
+}
+
+// The elements of a list, written by `write(element)`, as JSON.
+template <class List, class Write>
+std::string list_of(const List& elements, const Write& write) {
+  std::string text;
+  for (const auto& element : elements) {
+    stop_if_asked();
+    if (!text.empty()) text += ',';
+    text += write(element);
+  }
+  return "[" + text + "]";
+}
+
+std::string number(double x) { return fmt::format("{:.5g}", x == 0 ? 0.0 : x); }
+
+class FactsWriter {
+ public:
+  FactsWriter(const Frame& frame, const DrawList& list) : frame_(frame) {
+    const std::string prefix =
+        frame.get<FrameSide>().name.empty() ? "" : frame.get<FrameSide>().name + "/";
+    for (const WorldMap& map : list.maps)
+      if (map.prefix == prefix) map_ = &map;
+  }
+
+  std::string written() const {
+    const auto pair = [](const Pair& p) { return fmt::format("[{},{}]", p.a, p.b); };
+    return fmt::format(
+        "{{\"name\":{},\"title\":{},\"counts\":{},\"measures\":{},\"textures\":{},\"bodies\":{},"
+        "\"nodes\":{},"
+        "\"pairs\":{},\"contacts\":{}}}",
+        json_string(frame_.get<FrameSide>().name), json_string(frame_.get<FrameSide>().title),
+        list_of(frame_.counts, count), list_of(frame_.measures, measure),
+        list_of(frame_.get<FrameTextures>().textures, texture),
+        list_of(frame_.bodies, [&](const FrameBody& b) { return body(b); }), nodes(),
+        list_of(frame_.pairs,
+                [](const FramePair& p) {
+                  return fmt::format("[{},{},{}]", p.pair.a, p.pair.b, p.overlaps ? 1 : 0);
+                }),
+        list_of(frame_.contacts, [&](const FrameContact& c) { return pair(c.pair); }));
+  }
+
+ private:
+  static std::string count(const std::pair<std::string, std::int64_t>& c) {
+    return fmt::format("[{},{}]", json_string(c.first), c.second);
+  }
+  static std::string measure(const std::pair<std::string, double>& m) {
+    return fmt::format("[{},{}]", json_string(m.first), number(m.second));
+  }
+
+  static std::string texture(const FrameTexture& t) {
+    return fmt::format("[{},{}]", t.id, json_string(t.name));
+  }
+
+  std::string body(const FrameBody& b) const {
+    const std::string z = frame_.dimension == 3 ? "," + number(b.position.z) : "";
+    const char* state = b.is_static ? "static" : b.asleep ? "asleep" : "";
+    return fmt::format("[{},{},[{},{}{}],{},\"{}\"]", b.id, json_string(b.name),
+                       number(b.position.x), number(b.position.y), z,
+                       number(glm::length(b.velocity)), state);
+  }
+
+  std::string nodes() const {
+    std::string text;
+    for (std::uint32_t i = 0; i < frame_.nodes.size(); ++i) {
+      stop_if_asked();
+      const FrameNode& n = frame_.nodes[i];
+      const auto id = [](BodyId body) { return fmt::format("{}", body); };
+      text += fmt::format("{}[{},{},{},{},{},{},{}]", i > 0 ? "," : "",
+                          json_string(way_of(frame_.nodes, i)), json_string(n.label), n.depth,
+                          n.leaf ? 1 : 0, list_of(n.bodies, id), outline(n),
+                          n.pool_slot == kNone ? -1 : static_cast<std::int64_t>(n.pool_slot));
+    }
+    return "[" + text + "]";
+  }
+
+  // Cut to the picture: the cells that hold a half-space go on without end.
+  std::string outline(const FrameNode& node) const {
+    if (!map_) return "[]";
+    std::vector<Vec<2>> corners(node.region.begin(), node.region.end());
+    if (corners.empty()) {
+      const Vec<3>&lo = node.box.lo, &hi = node.box.hi;
+      corners = {{lo.x, lo.y}, {hi.x, lo.y}, {hi.x, hi.y}, {lo.x, hi.y}};
+    }
+    return list_of(corners, [&](const Vec<2>& p) {
+      const Vec<2> at = glm::clamp(map_->origin + Vec<2>(p.x, -p.y) * map_->scale, map_->picture.lo,
+                                   map_->picture.hi);
+      return fmt::format("{:.0f},{:.0f}", at.x, at.y);
+    });
+  }
+
+  const Frame& frame_;
+  const WorldMap* map_ = nullptr;  // none of a solid world, or where no world is shown
+};
+
+constexpr std::string_view kIndexMark =
+    "<meta name=\"generator\" content=\"Lantern lesson index\">";
+constexpr const char* kIndex = "index.html";
+constexpr std::size_t kMostPage = std::size_t{256} << 20;
+
+struct Listed {
+  std::string file;
+  LessonCard card;
+  std::string picture;  // a data URL
+};
+
+// What stands between two texts; nothing if they are not there.
+std::optional<std::string_view> between_marks(std::string_view text, std::string_view from,
+                                              std::string_view to) {
+  const std::size_t start = text.find(from);
+  if (start == text.npos) return std::nullopt;
+  const std::size_t begin = start + from.size(), end = text.find(to, begin);
+  if (end == text.npos) return std::nullopt;
+  return text.substr(begin, end - begin);
+}
+
+// A page of ours, or nothing.
+std::optional<Listed> listed(const Folder& folder, const std::string& file) {
+  const std::string page = folder.read(file, kMostPage).value_or("");
+  const auto json =
+      between_marks(page, "<script type=\"application/json\" id=\"card\">", "</script>");
+  const auto picture = between_marks(page, "<template id=\"cover\"><img src=\"", "\"");
+  if (!json || !picture) return std::nullopt;
+  auto card = lesson_card(*json);
+  if (!card) return std::nullopt;
+  return Listed{file, std::move(*card), std::string(*picture)};
+}
+
+std::vector<Listed> lessons_in(const Folder& folder) {
+  std::vector<Listed> lessons;
+  for (const std::string& name : folder.names()) {
+    if (!name.ends_with(".html") || name == kIndex || !folder.has_file(name)) continue;
+    if (auto lesson = listed(folder, name)) lessons.push_back(std::move(*lesson));
+  }
+  std::ranges::sort(lessons, [](const Listed& a, const Listed& b) {
+    if (a.card.lecture.has_value() != b.card.lecture.has_value()) return a.card.lecture.has_value();
+    return std::tie(a.card.lecture, a.card.scenario, a.file) <
+           std::tie(b.card.lecture, b.card.scenario, b.file);
+  });
+  return lessons;
+}
+
+// A file's name as a relative URL.
+std::string url_of(std::string_view file) {
+  std::string url;
+  for (const char c : file) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '-' || c == '_' || c == '.';
+    url += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return url;
+}
+
+std::string link_to(const std::string& file, std::string_view words) {
+  return fmt::format("<a href=\"{}\">{}</a>", url_of(file), escaped(words));
+}
+
+// The lessons to be seen before, linked where they stand in the folder.
+std::string needs_of(const Listed& lesson, const std::map<std::string, const Listed*>& by_name) {
+  std::string text;
+  for (const std::string& name : lesson.card.needs) {
+    const auto found = by_name.find(name);
+    text += text.empty() ? "<p class=\"needs\">after " : ", ";
+    text += found == by_name.end() ? escaped(name)
+                                   : link_to(found->second->file, found->second->card.title);
+  }
+  return text.empty() ? "" : text + "</p>\n";
+}
+
+std::string entry_of(const Listed& lesson, const std::map<std::string, const Listed*>& by_name) {
+  const LessonCard& card = lesson.card;
+  const std::string number = card.lecture ? fmt::format("<b>{}</b> ", *card.lecture) : "";
+  return fmt::format(
+      "<li>\n<a class=\"picture\" href=\"{}\" tabindex=\"-1\" aria-hidden=\"true\">"
+      "<img src=\"{}\" alt=\"\" loading=\"lazy\"></a>\n<h2>{}{}</h2>\n<p class=\"idea\">{}</p>\n{}"
+      "{}<p class=\"length\">{}</p>\n</li>\n",
+      url_of(lesson.file), lesson.picture, number, link_to(lesson.file, card.title),
+      escaped(card.idea), needs_of(lesson, by_name), question_list(card, url_of(lesson.file)),
+      counted(card.steps, "step"));
 }
 
 }  // namespace
@@ -162,8 +349,8 @@ std::string Lesson::part(std::string_view name) const {
     const std::string end = picture_of(last_);
     return base64(end.size() <= kMostCover ? end : picture_of(first_));
   }
-  if (name == "frames") return base64(deflated(frames_json()));
-  if (name == "facts") return base64(deflated("[" + facts_ + "]\n"));
+  if (name == "frames") return base64(deflated(frames_json(), kSmallest));
+  if (name == "facts") return base64(deflated("[" + facts_ + "]\n", kSmallest));
   LANTERN_CHECK(name, ==, std::string_view("script"));
   std::string script;
   for (const std::string_view file :
@@ -171,6 +358,34 @@ std::string Lesson::part(std::string_view name) const {
         page::lesson_tables_js, page::lesson_js})
     script += file;
   return script;
+}
+
+std::string facts_for_page(const Frame& frame, const DrawList& list) {
+  if (frame.sides.empty()) return "[" + FactsWriter(frame, list).written() + "]";
+  return list_of(frame.sides, [&](const Frame& side) { return FactsWriter(side, list).written(); });
+}
+
+std::string lesson_index(const Folder& folder) {
+  const std::vector<Listed> lessons = lessons_in(folder);
+  std::map<std::string, const Listed*> by_name;
+  for (const Listed& lesson : lessons) by_name.emplace(lesson.card.scenario, &lesson);
+  return html_page("Lessons", filled(page::index_html, [&](std::string_view name) {
+                     if (name == "mark") return std::string(kIndexMark);
+                     if (name == "colours") return lesson_colours();
+                     if (name == "style") return std::string(page::index_css);
+                     if (name == "count") return counted(lessons.size(), "lesson");
+                     std::string entries;
+                     for (const Listed& lesson : lessons) entries += entry_of(lesson, by_name);
+                     return entries;
+                   }));
+}
+
+bool write_lesson_index(const Folder& folder) {
+  if (folder.has(kIndex) && !folder.has_file(kIndex)) return false;
+  const auto before = folder.read(kIndex, kMostPage);
+  if (before && before->find(kIndexMark) == std::string::npos) return false;
+  write_file({folder, kIndex}, lesson_index(folder));
+  return true;
 }
 
 }  // namespace lantern::publish

@@ -1,12 +1,6 @@
 // A lesson page: one HTML file that a lecturer steps through, with nothing beside it.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "base/file.hpp"
 #include "draw/draw_list.hpp"
 #include "frame/frame.hpp"

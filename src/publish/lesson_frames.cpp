@@ -2,11 +2,7 @@
 #include "publish/lesson_frames.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <string_view>
-#include <system_error>
-#include <unordered_map>
+#include <array>
 #include <variant>
 
 #include <fmt/format.h>
@@ -16,7 +12,6 @@
 #include "draw/font.hpp"
 
 namespace lantern::publish {
-
 namespace {
 
 // "world/cell/root.0" as "world", "cell", "root.0".
@@ -103,6 +98,53 @@ class Entities {
   std::vector<std::string> found_;
 };
 
+std::int64_t whole(double x) { return static_cast<std::int64_t>(std::floor(x + 0.5)); }
+std::int64_t thousandths(double x) { return whole(1000 * x); }
+
+int number_of(Role role) { return static_cast<int>(role); }
+
+// A point, told by its way from another one.
+void add_way(std::string& row, const Vec<2>& from, const Vec<2>& to) {
+  row += fmt::format(",{},{}", hundredths(to.x) - hundredths(from.x),
+                     hundredths(to.y) - hundredths(from.y));
+}
+
+// A glyph's path in ems and absolute, as one of thousandths that goes on from where the pen is.
+std::string quoted_path(int glyph, Weight weight) {
+  std::string text = "\"";
+  std::array<std::int64_t, 2> pen{}, start{};
+  for (const PathStep& step : glyph_path(glyph, weight)) {
+    text += static_cast<char>(step.letter - 'A' + 'a');
+    std::array<std::int64_t, 2> at = pen;
+    for (std::size_t i = 0; i < 2 * step.points.size(); ++i) {  // all from where the pen was
+      at[i % 2] = thousandths(step.points[i / 2][static_cast<int>(i % 2)]);
+      const std::int64_t way = at[i % 2] - pen[i % 2];
+      if (i > 0 && way >= 0) text += ' ';  // a sign separates numbers as well
+      text += fmt::format("{}", way);
+    }
+    pen = step.letter == 'Z' ? start : at;  // a closed contour leaves the pen at its start
+    if (step.letter == 'M') start = pen;
+  }
+  return text + "\"";
+}
+
+// A list of whole numbers as JSON.
+class Numbers {
+ public:
+  void add(std::int64_t number) { text_ += fmt::format("{}{}", text_.empty() ? "" : ",", number); }
+  std::string json() const { return "[" + text_ + "]"; }
+
+ private:
+  std::string text_;
+};
+
+bool is_put(const Passage& p) { return !(p.own == p.start && p.own == p.end); }
+
+// Rows that stand still, one after the other.
+struct StandingRun {
+  std::size_t first = 0, count = 0;
+};
+
 }  // namespace
 
 std::vector<std::string> entities_of(const std::string& key, const Frame& frame) {
@@ -118,87 +160,6 @@ std::vector<std::string> entities_of(const std::string& key, const Frame& frame)
   }
   return Entities(prefix, *side).of(parts_of(rest));
 }
-
-namespace {
-
-std::int64_t whole(double x) { return static_cast<std::int64_t>(std::floor(x + 0.5)); }
-std::int64_t thousandths(double x) { return whole(1000 * x); }
-
-int number_of(Role role) { return static_cast<int>(role); }
-
-// A point, told by its way from another one.
-void add_way(std::string& row, const Vec<2>& from, const Vec<2>& to) {
-  row += fmt::format(",{},{}", hundredths(to.x) - hundredths(from.x),
-                     hundredths(to.y) - hundredths(from.y));
-}
-
-// A glyph's path in ems and absolute, as one of thousandths that goes on from where the pen is.
-class RelativePath {
- public:
-  explicit RelativePath(std::string_view path) : rest_(path) {}
-
-  std::string made() {
-    while (!rest_.empty()) {
-      const char command = rest_.front();
-      rest_.remove_prefix(1);
-      switch (command) {
-        case 'M':
-          start_[0] = pen_[0], start_[1] = pen_[1];  // a closed contour leaves the pen at its start
-          add('m', 1);
-          start_[0] = pen_[0], start_[1] = pen_[1];
-          break;
-        case 'L':
-          add('l', 1);
-          break;
-        case 'Q':
-          add('q', 2);
-          break;
-        case 'C':
-          add('c', 3);
-          break;
-        case 'Z':
-          result_ += 'z';
-          pen_[0] = start_[0], pen_[1] = start_[1];
-          break;
-        default:  // a blank
-          break;
-      }
-    }
-    return std::move(result_);
-  }
-
- private:
-  // So many points, all relative to where the pen was.
-  void add(char command, int points) {
-    result_ += command;
-    std::int64_t at[2] = {pen_[0], pen_[1]};
-    for (int i = 0; i < 2 * points; ++i) {
-      const std::int64_t way = (at[i % 2] = next()) - pen_[i % 2];
-      if (i > 0 && way >= 0) result_ += ' ';  // a sign separates numbers as well
-      result_ += fmt::format("{}", way);
-    }
-    pen_[0] = at[0], pen_[1] = at[1];
-  }
-
-  std::int64_t next() {
-    while (!rest_.empty() && rest_.front() == ' ') rest_.remove_prefix(1);
-    double value = 0;
-    const auto [end, error] = std::from_chars(rest_.data(), rest_.data() + rest_.size(), value);
-    LANTERN_CHECK(error == std::errc(), ==, true);
-    rest_.remove_prefix(static_cast<std::size_t>(end - rest_.data()));
-    return thousandths(value);
-  }
-
-  std::string_view rest_;
-  std::string result_;
-  std::int64_t pen_[2] = {0, 0}, start_[2] = {0, 0};
-};
-
-std::string quoted_path(int glyph, Weight weight) {
-  return fmt::format("\"{}\"", RelativePath(glyph_path(glyph, weight)).made());
-}
-
-}  // namespace
 
 std::int64_t hundredths(double length) { return whole(100 * length); }
 
@@ -291,27 +252,6 @@ std::string LessonShapes::json() const {
       "\"rows\": {},\n\"keys\": {},\n\"styles\": {},\n\"texts\": {},\n\"glyphs\": {}", rows_.json(),
       keys_.json(), styles_.json(), texts_.json(), glyphs_.json());
 }
-
-namespace {
-
-// A list of whole numbers as JSON.
-class Numbers {
- public:
-  void add(std::int64_t number) { text_ += fmt::format("{}{}", text_.empty() ? "" : ",", number); }
-  std::string json() const { return "[" + text_ + "]"; }
-
- private:
-  std::string text_;
-};
-
-bool is_put(const Passage& p) { return !(p.own == p.start && p.own == p.end); }
-
-// Rows that stand still, one after the other.
-struct StandingRun {
-  std::size_t first = 0, count = 0;
-};
-
-}  // namespace
 
 std::string whole_caption(const Frame& frame) {
   std::string words = frame.caption;

@@ -1,12 +1,7 @@
 // The shapes of a lesson's frames, each of them kept once, and what they point at.
 #pragma once
 
-#include <cstdint>
-#include <string>
-#include <string_view>
 #include <unordered_map>
-#include <utility>
-#include <vector>
 
 #include "draw/draw_list.hpp"
 #include "draw/tween.hpp"

@@ -2,23 +2,8 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <memory>
-#include <new>
-
-#include <libdeflate.h>
 
 namespace lantern::publish {
-
-std::string deflated(std::string_view bytes) {
-  constexpr int kLevel = 12;  // a page is made once and opened often
-  const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
-      libdeflate_alloc_compressor(kLevel), libdeflate_free_compressor);
-  if (!compressor) throw std::bad_alloc();
-  std::string out(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()), '\0');
-  out.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), out.data(),
-                                      out.size()));
-  return out;
-}
 
 std::string base64(std::string_view bytes) {
   constexpr std::string_view kLetters =

@@ -6,9 +6,6 @@
 
 namespace lantern::publish {
 
-// A zlib stream (RFC 1950) of these bytes, as small as libdeflate makes it.
-std::string deflated(std::string_view bytes);
-
 // RFC 4648, section 4.
 std::string base64(std::string_view bytes);
 

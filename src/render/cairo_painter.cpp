@@ -1,14 +1,7 @@
 #include "render/cairo_painter.hpp"
 
-#include <algorithm>
-#include <array>
-#include <charconv>
-#include <cstddef>
 #include <new>
-#include <string>
-#include <string_view>
 #include <variant>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -17,10 +10,10 @@
 #include "base/printable.hpp"
 #include "base/stop.hpp"
 #include "draw/font.hpp"
+#include "base/utf8.hpp"
 #include "render/canvas.hpp"
 
 namespace lantern::render {
-
 namespace {
 
 // The functions of a library one by one; the first that is missing is told.
@@ -79,26 +72,6 @@ std::array<void*, 2> loaded_faces() {
   return faces;
 }
 
-}  // namespace
-
-void Cairo::require(int code) const {
-  constexpr int kNoMemory = 1;  // CAIRO_STATUS_NO_MEMORY
-  if (code == kNoMemory) throw std::bad_alloc();
-  if (code != 0) throw BackendError(fmt::format("cairo: {}", status_to_string(code)));
-}
-
-const Cairo& cairo() {
-  static const Cairo functions = loaded_cairo();
-  return functions;
-}
-
-void* cairo_face(Weight weight) {
-  static const std::array<void*, 2> faces = (cairo(), loaded_faces());
-  return faces[static_cast<std::size_t>(weight)];
-}
-
-namespace {
-
 constexpr int kButtCap = 0, kRoundCap = 1, kSquareCap = 2, kMiterJoin = 0, kRoundJoin = 1;
 constexpr double kQuarterTurn = 1.5707963267948966;
 
@@ -130,6 +103,22 @@ std::size_t digits_from(const DrawList& list, std::size_t first) {
 }
 
 }  // namespace
+
+void Cairo::require(int code) const {
+  constexpr int kNoMemory = 1;  // CAIRO_STATUS_NO_MEMORY
+  if (code == kNoMemory) throw std::bad_alloc();
+  if (code != 0) throw BackendError(fmt::format("cairo: {}", status_to_string(code)));
+}
+
+const Cairo& cairo() {
+  static const Cairo functions = loaded_cairo();
+  return functions;
+}
+
+void* cairo_face(Weight weight) {
+  static const std::array<void*, 2> faces = (cairo(), loaded_faces());
+  return faces[static_cast<std::size_t>(weight)];
+}
 
 CairoPainter::CairoPainter(void* context, For what)
     : cairo_(cairo()), context_(context), for_(what) {
@@ -317,35 +306,25 @@ void CairoPainter::add_outlines(const TextShape& shape, const Vec<2>& at) {
     const Vec<2> origin(at.x + placed.x, at.y);
     Vec<2> pen = origin;
     for (const PathStep& step : glyph(placed.glyph, shape.weight)) {
-      const Vec<2> a = origin + em * step.points[0], b = origin + em * step.points[1],
-                   c = origin + em * step.points[2];
-      if (step.letter == 'M') cairo_.move_to(context_, a.x, a.y);
-      if (step.letter == 'L') cairo_.line_to(context_, a.x, a.y);
+      Vec<2> p[3];
+      for (std::size_t i = 0; i < step.points.size(); ++i) p[i] = origin + em * step.points[i];
+      if (step.letter == 'M') cairo_.move_to(context_, p[0].x, p[0].y);
+      if (step.letter == 'L') cairo_.line_to(context_, p[0].x, p[0].y);
       if (step.letter == 'Z') cairo_.close_path(context_);
-      if (step.letter == 'C') cairo_.curve_to(context_, a.x, a.y, b.x, b.y, c.x, c.y);
+      if (step.letter == 'C')
+        cairo_.curve_to(context_, p[0].x, p[0].y, p[1].x, p[1].y, p[2].x, p[2].y);
       if (step.letter == 'Q') {  // as the cubic curve that it is
-        const Vec<2> p = (pen + 2.0 * a) / 3.0, q = (b + 2.0 * a) / 3.0;
-        cairo_.curve_to(context_, p.x, p.y, q.x, q.y, b.x, b.y);
+        const Vec<2> a = (pen + 2.0 * p[0]) / 3.0, b = (p[1] + 2.0 * p[0]) / 3.0;
+        cairo_.curve_to(context_, a.x, a.y, b.x, b.y, p[1].x, p[1].y);
       }
-      pen = step.letter == 'C' ? c : step.letter == 'Q' ? b : a;
+      if (!step.points.empty()) pen = p[step.points.size() - 1];
     }
   }
 }
 
-const std::vector<CairoPainter::PathStep>& CairoPainter::glyph(int index, Weight weight) {
+const std::vector<PathStep>& CairoPainter::glyph(int index, Weight weight) {
   const auto [it, fresh] = glyphs_.try_emplace({index, weight});
-  if (!fresh) return it->second;
-  const std::string path = glyph_path(index, weight);
-  const char* const last = path.data() + path.size();
-  for (const char* at = path.data(); at != last;) {
-    PathStep step{*at++};
-    const int points = step.letter == 'Z' ? 0 : step.letter == 'C' ? 3 : step.letter == 'Q' ? 2 : 1;
-    for (int i = 0; i < 2 * points; ++i) {
-      at = std::from_chars(at, last, step.points[i / 2][i % 2]).ptr;
-      while (at != last && *at == ' ') ++at;
-    }
-    it->second.push_back(step);
-  }
+  if (fresh) it->second = glyph_path(index, weight);
   return it->second;
 }
 

@@ -3,11 +3,9 @@
 #pragma once
 
 #include <map>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "draw/draw_list.hpp"
+#include "draw/font.hpp"
 #include "draw/theme.hpp"
 #include "render/canvas.hpp"
 
@@ -116,11 +114,6 @@ class CairoPainter {
   Vec<2> beginning_of(const TextShape& shape) const;
   void stroke_halo(const Paint& halo);
 
-  // An outline's commands, parsed once a glyph: a letter and up to three points each.
-  struct PathStep {
-    char letter = 'Z';
-    Vec<2> points[3] = {};
-  };
   const std::vector<PathStep>& glyph(int index, Weight weight);
 
   const Cairo& cairo_;
@@ -129,7 +122,7 @@ class CairoPainter {
   Canvas canvas_;
   const Theme* theme_ = nullptr;
   const Tint* tint_ = nullptr;  // of the shape that is being drawn
-  std::map<std::pair<int, Weight>, std::vector<PathStep>> glyphs_;
+  std::map<std::pair<int, Weight>, std::vector<PathStep>> glyphs_;  // outlines
 };
 
 }  // namespace lantern::render

@@ -1,11 +1,6 @@
 // What all painters of draw lists have in common.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <cstdint>
-
 #include <fmt/format.h>
 
 #include "base/error.hpp"

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <cstdlib>
-#include <stdexcept>
 #include <thread>
 
 #include <EGL/egl.h>
@@ -21,7 +19,6 @@
 #include "render/gl.hpp"
 
 namespace lantern::render {
-
 namespace {
 
 // Measured with the Mesa of Debian 12: 300 MB with libraries and shaders, of these 100 MB once
@@ -65,21 +62,6 @@ void require_room(std::uint64_t bytes) {
                     bytes / 1'000'000));
   ::munmap(room, bytes);
 }
-
-}  // namespace
-
-void require_room_for_context() {
-  if (is_limited()) ::mallopt(M_ARENA_MAX, 1);
-  const std::uint64_t cores =
-      std::min<std::uint64_t>(std::thread::hardware_concurrency(), kMostCores);
-  require_room(kContext + 2 * cores * stack_bytes());
-}
-
-void require_room_for_pixels(std::uint64_t pixels) {
-  require_room(kShaders + kBytesPerPixel * pixels);
-}
-
-namespace {
 
 // --- OSMesa, Mesa's off-screen interface: a context without any window system. Gone since Mesa
 // 25.1. ---
@@ -260,6 +242,17 @@ std::string describe(const Gl& gl) {
 }
 
 }  // namespace
+
+void require_room_for_context() {
+  if (is_limited()) ::mallopt(M_ARENA_MAX, 1);
+  const std::uint64_t cores =
+      std::min<std::uint64_t>(std::thread::hardware_concurrency(), kMostCores);
+  require_room(kContext + 2 * cores * stack_bytes());
+}
+
+void require_room_for_pixels(std::uint64_t pixels) {
+  require_room(kShaders + kBytesPerPixel * pixels);
+}
 
 Gl::Gl(const Context& context) {
   const auto load = [&]<class Function>(Function& function, const char* name) {

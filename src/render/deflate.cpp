@@ -1,18 +1,15 @@
 #include "render/deflate.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstring>
 #include <numeric>
-#include <span>
 #include <utility>
 
 #include "base/stop.hpp"
 
 namespace lantern::render {
-
 namespace {
 
 // The depth of each leaf in the tree that Huffman (1952) builds for these weights, which ascend.
@@ -36,48 +33,6 @@ std::vector<std::uint8_t> depths(const std::vector<std::uint64_t>& ascending) {
   depth.resize(leaves);
   return depth;
 }
-
-}  // namespace
-
-std::vector<std::uint8_t> code_lengths(std::span<const std::uint32_t> counts, int most) {
-  std::vector<std::size_t> used;
-  for (std::size_t i = 0; i < counts.size(); ++i)
-    if (counts[i] > 0) used.push_back(i);
-  for (std::size_t i = 0; used.size() < 2; ++i)
-    if (counts[i] == 0) used.push_back(i);
-  std::ranges::stable_sort(used, {}, [&](std::size_t i) { return counts[i]; });
-  std::vector<std::uint64_t> weights;
-  for (const std::size_t i : used) weights.push_back(std::max<std::uint64_t>(counts[i], 1));
-  std::vector<std::uint8_t> depth = depths(weights);
-  // Flatter weights make a flatter tree: little is lost, since what is rare counts for little.
-  while (*std::ranges::max_element(depth) > most) {
-    for (std::uint64_t& w : weights) w = w / 2 + 1;
-    depth = depths(weights);
-  }
-  std::vector<std::uint8_t> lengths(counts.size());
-  for (std::size_t i = 0; i < used.size(); ++i) lengths[used[i]] = depth[i];
-  return lengths;
-}
-
-std::vector<std::uint32_t> codes_of(std::span<const std::uint8_t> lengths) {
-  constexpr int kMostBits = 15;
-  std::uint32_t count[kMostBits + 1] = {}, next[kMostBits + 1] = {};
-  for (const std::uint8_t length : lengths) ++count[length];
-  count[0] = 0;
-  for (int bits = 1; bits <= kMostBits; ++bits)
-    next[bits] = (next[bits - 1] + count[bits - 1]) << 1;
-  std::vector<std::uint32_t> codes;
-  codes.reserve(lengths.size());
-  for (const std::uint8_t length : lengths) {
-    const std::uint32_t code = length == 0 ? 0 : next[length]++;
-    std::uint32_t reversed = 0;  // Huffman codes are sent from their highest bit
-    for (int i = 0; i < length; ++i) reversed |= (code >> i & 1) << (length - 1 - i);
-    codes.push_back(reversed);
-  }
-  return codes;
-}
-
-namespace {
 
 constexpr int kMostLength = 258, kEndOfBlock = 256;
 
@@ -147,78 +102,6 @@ void put_symbol(BitWriter& bits, const Code& code, const Symbol& s) {
   bits.put(code.codes[i] | static_cast<std::uint32_t>(s.extra) << code.lengths[i],
            code.lengths[i] + s.extra_bits);
 }
-
-}  // namespace
-
-// The code of an alphabet.
-struct BlockWriter::Code {
-  std::vector<std::uint8_t> lengths;
-  std::vector<std::uint32_t> codes;
-  Code(std::span<const std::uint32_t> counts, int most)
-      : lengths(code_lengths(counts, most)), codes(codes_of(lengths)) {}
-  // Symbols up to the last that has a code.
-  std::size_t used(std::size_t least) const {
-    std::size_t size = lengths.size();
-    while (size > least && lengths[size - 1] == 0) --size;
-    return size;
-  }
-};
-void BlockWriter::repeat(int length, int distance, int unit) {
-  const int most = kMostLength / unit * unit;
-  const auto symbol = static_cast<std::size_t>(distance_symbol(distance).symbol);
-  for (; length > 0; length -= most) {
-    const int part = std::min(length, most);
-    tokens_.push_back(static_cast<std::uint32_t>(part) << 16 |
-                      static_cast<std::uint32_t>(distance - 1));
-    ++lengths_[static_cast<std::size_t>(length_symbols()[static_cast<std::size_t>(part)].symbol)];
-    ++distances_[symbol];
-  }
-}
-void BlockWriter::finish() {
-  lengths_[kEndOfBlock] = 1;
-  write_block();
-  bits_.put(0, 3);
-  bits_.finish();
-  for (const std::uint32_t half : {0u, 0xffffu}) bits_.put(half, 16);
-  bits_.finish();
-}
-
-// The lengths of all codes, themselves Huffman-coded.
-void BlockWriter::write_header(const Code& length, const Code& distance) {
-  const std::size_t first = length.used(257), second = distance.used(1);
-  std::vector<std::uint8_t> all(length.lengths.begin(),
-                                length.lengths.begin() + static_cast<std::ptrdiff_t>(first));
-  all.insert(all.end(), distance.lengths.begin(),
-             distance.lengths.begin() + static_cast<std::ptrdiff_t>(second));
-  const std::vector<Symbol> runs = runs_of(all);
-  std::array<std::uint32_t, 19> counts{};
-  for (const Symbol& run : runs) ++counts[static_cast<std::size_t>(run.symbol)];
-  const Code code(counts, 7);
-  bits_.put(0, 1);  // not the last block
-  bits_.put(2, 2);  // codes made for this block
-  bits_.put(static_cast<std::uint32_t>(first - 257), 5);
-  bits_.put(static_cast<std::uint32_t>(second - 1), 5);
-  bits_.put(19 - 4, 4);
-  for (const int i : {16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15})
-    bits_.put(code.lengths[static_cast<std::size_t>(i)], 3);
-  for (const Symbol& run : runs) put_symbol(bits_, code, run);
-}
-
-void BlockWriter::write_block() {
-  const Code length(lengths_, 15), distance(distances_, 15);
-  write_header(length, distance);
-  for (const std::uint32_t token : tokens_) {
-    if (token < 256) {
-      bits_.put(length.codes[token], length.lengths[token]);
-      continue;
-    }
-    put_symbol(bits_, length, length_symbols()[token >> 16]);
-    put_symbol(bits_, distance, distance_symbol(static_cast<int>(token & 0xffff) + 1));
-  }
-  bits_.put(length.codes[kEndOfBlock], length.lengths[kEndOfBlock]);
-}
-
-namespace {
 
 static_assert(std::endian::native == std::endian::little,
               "a pixel's first byte is its word's lowest");
@@ -367,6 +250,112 @@ class BandPacker {
 };
 
 }  // namespace
+
+std::vector<std::uint8_t> code_lengths(std::span<const std::uint32_t> counts, int most) {
+  std::vector<std::size_t> used;
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    if (counts[i] > 0) used.push_back(i);
+  for (std::size_t i = 0; used.size() < 2; ++i)
+    if (counts[i] == 0) used.push_back(i);
+  std::ranges::stable_sort(used, {}, [&](std::size_t i) { return counts[i]; });
+  std::vector<std::uint64_t> weights;
+  for (const std::size_t i : used) weights.push_back(std::max<std::uint64_t>(counts[i], 1));
+  std::vector<std::uint8_t> depth = depths(weights);
+  // Flatter weights make a flatter tree: little is lost, since what is rare counts for little.
+  while (*std::ranges::max_element(depth) > most) {
+    for (std::uint64_t& w : weights) w = w / 2 + 1;
+    depth = depths(weights);
+  }
+  std::vector<std::uint8_t> lengths(counts.size());
+  for (std::size_t i = 0; i < used.size(); ++i) lengths[used[i]] = depth[i];
+  return lengths;
+}
+
+std::vector<std::uint32_t> codes_of(std::span<const std::uint8_t> lengths) {
+  constexpr int kMostBits = 15;
+  std::uint32_t count[kMostBits + 1] = {}, next[kMostBits + 1] = {};
+  for (const std::uint8_t length : lengths) ++count[length];
+  count[0] = 0;
+  for (int bits = 1; bits <= kMostBits; ++bits)
+    next[bits] = (next[bits - 1] + count[bits - 1]) << 1;
+  std::vector<std::uint32_t> codes;
+  codes.reserve(lengths.size());
+  for (const std::uint8_t length : lengths) {
+    const std::uint32_t code = length == 0 ? 0 : next[length]++;
+    std::uint32_t reversed = 0;  // Huffman codes are sent from their highest bit
+    for (int i = 0; i < length; ++i) reversed |= (code >> i & 1) << (length - 1 - i);
+    codes.push_back(reversed);
+  }
+  return codes;
+}
+
+// The code of an alphabet.
+struct BlockWriter::Code {
+  std::vector<std::uint8_t> lengths;
+  std::vector<std::uint32_t> codes;
+  Code(std::span<const std::uint32_t> counts, int most)
+      : lengths(code_lengths(counts, most)), codes(codes_of(lengths)) {}
+  // Symbols up to the last that has a code.
+  std::size_t used(std::size_t least) const {
+    std::size_t size = lengths.size();
+    while (size > least && lengths[size - 1] == 0) --size;
+    return size;
+  }
+};
+void BlockWriter::repeat(int length, int distance, int unit) {
+  const int most = kMostLength / unit * unit;
+  const auto symbol = static_cast<std::size_t>(distance_symbol(distance).symbol);
+  for (; length > 0; length -= most) {
+    const int part = std::min(length, most);
+    tokens_.push_back(static_cast<std::uint32_t>(part) << 16 |
+                      static_cast<std::uint32_t>(distance - 1));
+    ++lengths_[static_cast<std::size_t>(length_symbols()[static_cast<std::size_t>(part)].symbol)];
+    ++distances_[symbol];
+  }
+}
+void BlockWriter::finish() {
+  lengths_[kEndOfBlock] = 1;
+  write_block();
+  bits_.put(0, 3);
+  bits_.finish();
+  for (const std::uint32_t half : {0u, 0xffffu}) bits_.put(half, 16);
+  bits_.finish();
+}
+
+// The lengths of all codes, themselves Huffman-coded.
+void BlockWriter::write_header(const Code& length, const Code& distance) {
+  const std::size_t first = length.used(257), second = distance.used(1);
+  std::vector<std::uint8_t> all(length.lengths.begin(),
+                                length.lengths.begin() + static_cast<std::ptrdiff_t>(first));
+  all.insert(all.end(), distance.lengths.begin(),
+             distance.lengths.begin() + static_cast<std::ptrdiff_t>(second));
+  const std::vector<Symbol> runs = runs_of(all);
+  std::array<std::uint32_t, 19> counts{};
+  for (const Symbol& run : runs) ++counts[static_cast<std::size_t>(run.symbol)];
+  const Code code(counts, 7);
+  bits_.put(0, 1);  // not the last block
+  bits_.put(2, 2);  // codes made for this block
+  bits_.put(static_cast<std::uint32_t>(first - 257), 5);
+  bits_.put(static_cast<std::uint32_t>(second - 1), 5);
+  bits_.put(19 - 4, 4);
+  for (const int i : {16, 17, 18, 0, 8, 7, 9, 6, 10, 5, 11, 4, 12, 3, 13, 2, 14, 1, 15})
+    bits_.put(code.lengths[static_cast<std::size_t>(i)], 3);
+  for (const Symbol& run : runs) put_symbol(bits_, code, run);
+}
+
+void BlockWriter::write_block() {
+  const Code length(lengths_, 15), distance(distances_, 15);
+  write_header(length, distance);
+  for (const std::uint32_t token : tokens_) {
+    if (token < 256) {
+      bits_.put(length.codes[token], length.lengths[token]);
+      continue;
+    }
+    put_symbol(bits_, length, length_symbols()[token >> 16]);
+    put_symbol(bits_, distance, distance_symbol(static_cast<int>(token & 0xffff) + 1));
+  }
+  bits_.put(length.codes[kEndOfBlock], length.lengths[kEndOfBlock]);
+}
 
 PackedBand pack(const Band& band, int channels) {
   PackedBand packed;

@@ -1,16 +1,10 @@
 #include "render/masks.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <span>
-#include <vector>
-
 #include "geometry/closest.hpp"
 #include "geometry/ray.hpp"
 #include "render/canvas.hpp"
 
 namespace lantern::render {
-
 namespace {
 
 // How far square ends must reach beyond a corner to close its notch: tan of half the turn times
@@ -21,62 +15,6 @@ double reach_at_corner(const Vec<2>& in, const Vec<2>& out, double width) {
   const double sine = std::abs(in.x * out.y - in.y * out.x);
   return 0.5 * width * sine / (1 + cosine);
 }
-
-}  // namespace
-
-std::vector<DashPiece> cut_dashes(const std::vector<Vec<2>>& points, bool closed, double dash,
-                                  double width, const Box<2>& visible) {
-  std::vector<DashPiece> pieces;
-  std::vector<Vec<2>> corners;  // without repeated points
-  for (const Vec<2>& p : points)
-    if (corners.empty() || corners.back() != p) corners.push_back(p);
-  if (closed && corners.size() > 1 && corners.front() != corners.back())
-    corners.push_back(corners.front());
-  const std::size_t segments = corners.empty() ? 0 : corners.size() - 1;
-  const auto direction = [&](std::size_t i) { return glm::normalize(corners[i + 1] - corners[i]); };
-  const Box<2> near{visible.lo - Vec<2>(width), visible.hi + Vec<2>(width)};
-  const double period = 2 * dash;
-  double start = 0;  // way along the outline to the segment's first point
-  for (std::size_t i = 0; i < segments; ++i) {
-    const Vec<2> from = corners[i], to = corners[i + 1], along = direction(i);
-    const double length = glm::length(to - from);
-    const RaySpan seen = span_in(Ray<2>{from, to - from, 1}, near).value_or(RaySpan{1, 0});
-    const double before = i > 0 ? reach_at_corner(direction(i - 1), along, width) : 0;
-    const double after = i + 1 < segments ? reach_at_corner(along, direction(i + 1), width) : 0;
-    double number = std::floor((start + seen.from * length) / period);
-    for (; seen.from <= seen.to && number * period < start + seen.to * length; ++number) {
-      const double a = number * period - start, b = a + dash;  // from the segment's first point
-      if (b <= 0 || a >= length) continue;
-      const double first = a < 0 ? -before : a;
-      const double last = b > length ? length + after : b;
-      pieces.push_back({from + along * first, from + along * last});
-    }
-    start += length;
-  }
-  return pieces;
-}
-
-std::vector<Vec<2>> outline_of(const Box<2>& box, double radius) {
-  std::vector<Vec<2>> points;
-  // A chord over an angle t leaves the arc by r t^2 / 8.
-  const int steps = radius <= 0 ? 0 : 1 + static_cast<int>(std::sqrt(3.1 * std::min(radius, 1e4)));
-  const Vec<2> lo = box.lo + Vec<2>(radius), hi = box.hi - Vec<2>(radius);
-  const Vec<2> centers[] = {{hi.x, lo.y}, {hi.x, hi.y}, {lo.x, hi.y}, {lo.x, lo.y}};
-  Vec<2> from{0, -1}, to{1, 0};
-  for (const Vec<2>& center : centers) {
-    for (int i = 0; i <= steps; ++i) {
-      // The quarter circle by its rational parameter: sines differ from one C library to the next.
-      const double t = steps == 0 ? 0 : static_cast<double>(i) / steps;
-      const double c = (1 - t * t) / (1 + t * t), s = 2 * t / (1 + t * t);
-      points.push_back(center + radius * (c * from + s * to));
-    }
-    from = to;
-    to = {-to.y, to.x};
-  }
-  return points;
-}
-
-namespace {
 
 std::uint8_t byte(double share) { return static_cast<std::uint8_t>(share * 255 + 0.5); }
 
@@ -151,7 +89,94 @@ void add_tile(std::span<const Edge> edges, double half_line, const PixelRect& r,
   if (!line_coverage(kept, half_line, r, store.at(tile.stroke))) tile.stroke = 0;
 }
 
+constexpr float kFar = 1e12f;
+
+// For each i the least of (i - j)^2 + f[j]: the lower envelope of parabolas, one for each j.
+struct Envelope {
+  explicit Envelope(int most) : f(most), at(most), from(most + 1) {}
+
+  std::vector<float> f;  // to be filled before solve()
+  std::vector<int> at;
+  std::vector<float> from;
+
+  template <class Store>
+  void solve(int n, Store store) {
+    int last = -1;  // index of the envelope's last parabola
+    for (int j = 0; j < n; ++j) {
+      if (f[j] >= kFar) continue;
+      float meet = -kFar;  // where parabola j gets below the last one
+      while (last >= 0) {
+        const int k = at[last];
+        meet = (f[j] - f[k] + static_cast<float>(j * j - k * k)) / static_cast<float>(2 * (j - k));
+        if (meet > from[last]) break;
+        --last;
+        meet = -kFar;
+      }
+      ++last;
+      at[last] = j;
+      from[last] = meet;
+    }
+    for (int i = 0, k = 0; i < n; ++i) {
+      while (k < last && from[k + 1] < static_cast<float>(i)) ++k;
+      const int d = last < 0 ? 0 : i - at[k];
+      store(i, last < 0 ? kFar : static_cast<float>(d * d) + f[at[k]]);
+    }
+  }
+};
+
 }  // namespace
+
+std::vector<DashPiece> cut_dashes(const std::vector<Vec<2>>& points, bool closed, double dash,
+                                  double width, const Box<2>& visible) {
+  std::vector<DashPiece> pieces;
+  std::vector<Vec<2>> corners;  // without repeated points
+  for (const Vec<2>& p : points)
+    if (corners.empty() || corners.back() != p) corners.push_back(p);
+  if (closed && corners.size() > 1 && corners.front() != corners.back())
+    corners.push_back(corners.front());
+  const std::size_t segments = corners.empty() ? 0 : corners.size() - 1;
+  const auto direction = [&](std::size_t i) { return glm::normalize(corners[i + 1] - corners[i]); };
+  const Box<2> near{visible.lo - Vec<2>(width), visible.hi + Vec<2>(width)};
+  const double period = 2 * dash;
+  double start = 0;  // way along the outline to the segment's first point
+  for (std::size_t i = 0; i < segments; ++i) {
+    const Vec<2> from = corners[i], to = corners[i + 1], along = direction(i);
+    const double length = glm::length(to - from);
+    const RaySpan seen = span_in(Ray<2>{from, to - from, 1}, near).value_or(RaySpan{1, 0});
+    const double before = i > 0 ? reach_at_corner(direction(i - 1), along, width) : 0;
+    const double after = i + 1 < segments ? reach_at_corner(along, direction(i + 1), width) : 0;
+    double number = std::floor((start + seen.from * length) / period);
+    for (; seen.from <= seen.to && number * period < start + seen.to * length; ++number) {
+      const double a = number * period - start, b = a + dash;  // from the segment's first point
+      if (b <= 0 || a >= length) continue;
+      const double first = a < 0 ? -before : a;
+      const double last = b > length ? length + after : b;
+      pieces.push_back({from + along * first, from + along * last});
+    }
+    start += length;
+  }
+  return pieces;
+}
+
+std::vector<Vec<2>> outline_of(const Box<2>& box, double radius) {
+  std::vector<Vec<2>> points;
+  // A chord over an angle t leaves the arc by r t^2 / 8.
+  const int steps = radius <= 0 ? 0 : 1 + static_cast<int>(std::sqrt(3.1 * std::min(radius, 1e4)));
+  const Vec<2> lo = box.lo + Vec<2>(radius), hi = box.hi - Vec<2>(radius);
+  const Vec<2> centers[] = {{hi.x, lo.y}, {hi.x, hi.y}, {lo.x, hi.y}, {lo.x, lo.y}};
+  Vec<2> from{0, -1}, to{1, 0};
+  for (const Vec<2>& center : centers) {
+    for (int i = 0; i <= steps; ++i) {
+      // The quarter circle by its rational parameter: sines differ from one C library to the next.
+      const double t = steps == 0 ? 0 : static_cast<double>(i) / steps;
+      const double c = (1 - t * t) / (1 + t * t), s = 2 * t / (1 + t * t);
+      points.push_back(center + radius * (c * from + s * to));
+    }
+    from = to;
+    to = {-to.y, to.x};
+  }
+  return points;
+}
 
 void fill_coverage(std::span<const Edge> edges, int winding, const PixelRect& rect,
                    std::uint8_t* mask) {
@@ -240,45 +265,6 @@ const std::vector<PolygonTile>& PolygonMasks::tiles(const std::vector<Vec<2>>& c
                store_, it->second);
   return it->second;
 }
-
-namespace {
-
-constexpr float kFar = 1e12f;
-
-// For each i the least of (i - j)^2 + f[j]: the lower envelope of parabolas, one for each j.
-struct Envelope {
-  explicit Envelope(int most) : f(most), at(most), from(most + 1) {}
-
-  std::vector<float> f;  // to be filled before solve()
-  std::vector<int> at;
-  std::vector<float> from;
-
-  template <class Store>
-  void solve(int n, Store store) {
-    int last = -1;  // index of the envelope's last parabola
-    for (int j = 0; j < n; ++j) {
-      if (f[j] >= kFar) continue;
-      float meet = -kFar;  // where parabola j gets below the last one
-      while (last >= 0) {
-        const int k = at[last];
-        meet = (f[j] - f[k] + static_cast<float>(j * j - k * k)) / static_cast<float>(2 * (j - k));
-        if (meet > from[last]) break;
-        --last;
-        meet = -kFar;
-      }
-      ++last;
-      at[last] = j;
-      from[last] = meet;
-    }
-    for (int i = 0, k = 0; i < n; ++i) {
-      while (k < last && from[k + 1] < static_cast<float>(i)) ++k;
-      const int d = last < 0 ? 0 : i - at[k];
-      store(i, last < 0 ? kFar : static_cast<float>(d * d) + f[at[k]]);
-    }
-  }
-};
-
-}  // namespace
 
 std::vector<std::uint8_t> dilated(std::span<const std::uint8_t> coverage, int width, int height,
                                   int margin, double radius) {

@@ -1,14 +1,10 @@
 // Coverage masks of polygons and letters, and dashes of lines.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <map>
 #include <optional>
 #include <span>
-#include <string>
 #include <tuple>
-#include <vector>
 
 #include "draw/font.hpp"
 #include "geometry/box.hpp"

@@ -1,7 +1,6 @@
 #include "render/pipeline.hpp"
 
 #include <algorithm>
-#include <cstddef>
 #include <system_error>
 
 #include <fmt/format.h>

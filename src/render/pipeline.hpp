@@ -5,14 +5,9 @@
 #include <condition_variable>
 #include <deque>
 #include <exception>
-#include <functional>
-#include <memory>
 #include <mutex>
-#include <optional>
 #include <stop_token>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include "base/file.hpp"
 #include "base/work.hpp"
@@ -22,7 +17,6 @@
 #include "render/image.hpp"
 #include "render/png.hpp"
 #include "render/renderer.hpp"
-#include "render/seal.hpp"
 
 namespace lantern::render {
 

@@ -1,12 +1,11 @@
 #include "render/png.hpp"
 
 #include <algorithm>
-#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <new>
-#include <vector>
 
+#include <fmt/format.h>
 #include <libdeflate.h>
 
 #include "base/check.hpp"
@@ -28,27 +27,6 @@
 
 namespace lantern::render {
 namespace {
-
-constexpr int kLevel = 6;  // of libdeflate's 12: 7 takes a quarter longer for files 1 % smaller
-
-// A zlib stream of these bytes, as small as is not slow.
-std::string deflated(std::string_view bytes) {
-  thread_local const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)>
-      compressor(libdeflate_alloc_compressor(kLevel), libdeflate_free_compressor);
-  if (!compressor) throw std::bad_alloc();
-  std::string out(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()), '\0');
-  out.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), out.data(),
-                                      out.size()));
-  return out;
-}
-
-// Bands with their place in the image, from the uppermost down.
-std::vector<Band> bands_of(const Image& image) {
-  std::vector<Band> bands;
-  for (int row = 0; row < image.height; row += kBandRows)
-    take_band(image, row, bands.emplace_back());
-  return bands;
-}
 
 void put32(std::string& to, std::uint32_t value) {
   for (int shift = 24; shift >= 0; shift -= 8) to += static_cast<char>(value >> shift & 255);
@@ -87,7 +65,41 @@ bool chunks_are_whole(std::string_view bytes) {
   return false;
 }
 
+constexpr std::size_t kKey = 16;  // hexadecimal digits
+
+// What ends a file without a seal, and is its end with a seal, too.
+std::string_view ending(FileKind kind) {
+  constexpr std::string_view kEndings[] = {kPngEnd, "", "\n}\n"};
+  return kEndings[static_cast<int>(kind)];
+}
+
+// What the seal of a kind begins with.
+constexpr std::string_view kSvgSeal = "<!-- Lantern made this from ";
+constexpr std::string_view kJsonSeal = ",\n\"made_from\": \"";
+
+// The seal of what stands before it.
+std::string seal(FileKind kind, std::string_view before, const MadeFrom& from) {
+  std::uint32_t crc = libdeflate_crc32(0, before.data(), before.size());
+  for (const std::string& key : {from.facts, from.picture})
+    crc = libdeflate_crc32(crc, key.data(), key.size());
+  const std::string keys = from.facts + "-" + from.picture;
+  if (kind == FileKind::png)
+    return png_text({"Made from", fmt::format("{}, checksum {:08x}", keys, crc)});
+  if (kind == FileKind::svg) return fmt::format("{}{}, checksum {:08x} -->\n", kSvgSeal, keys, crc);
+  return fmt::format("{}{}\",\n\"checksum\": \"{:08x}\"", kJsonSeal, keys, crc);
+}
+
 }  // namespace
+
+std::string deflated(std::string_view bytes, int level) {
+  const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
+      libdeflate_alloc_compressor(level), libdeflate_free_compressor);
+  if (!compressor) throw std::bad_alloc();
+  std::string out(libdeflate_zlib_compress_bound(compressor.get(), bytes.size()), '\0');
+  out.resize(libdeflate_zlib_compress(compressor.get(), bytes.data(), bytes.size(), out.data(),
+                                      out.size()));
+  return out;
+}
 
 std::string png_text(const PngText& text) {
   LANTERN_CHECK(text.key.size() - 1, <, 79u);
@@ -131,7 +143,8 @@ std::string small_stream(std::span<const Band* const> bands, int channels) {
         std::memcpy(to, pixel, static_cast<std::size_t>(channels));
     }
   }
-  return deflated(rows);
+  constexpr int kLevel = 6;  // of 12: 7 takes a quarter longer for files 1 % smaller
+  return deflated(rows, kLevel);
 }
 
 PngBody png_body(int width, int height, int channels, const std::string& stream) {
@@ -143,24 +156,6 @@ PngBody png_body(int width, int height, int channels, const std::string& stream)
   put_chunk(body.header, "IHDR", header);
   put_chunk(body.pixels, "IDAT", stream);
   return body;
-}
-
-PngBody compress(const Image& image, PngEffort effort) {
-  LANTERN_CHECK(image.rgba.size(), ==, std::size_t{4} * image.width * image.height);
-  LANTERN_CHECK(image.rgba.empty(), ==, false);
-  const std::vector<Band> bands = bands_of(image);
-  const int channels = std::ranges::all_of(bands, &Band::is_opaque) ? 3 : 4;
-  std::string stream;
-  if (effort == PngEffort::fast) {
-    BandStream joined;
-    for (const Band& band : bands) joined.add(pack(band, channels));
-    stream = joined.finish();
-  } else {
-    std::vector<const Band*> all;
-    for (const Band& band : bands) all.push_back(&band);
-    stream = small_stream(all, channels);
-  }
-  return png_body(image.width, image.height, channels, stream);
 }
 
 std::string assemble(const PngBody& body, const std::vector<PngText>& texts, int pixels_per_metre) {
@@ -179,7 +174,23 @@ std::string assemble(const PngBody& body, const std::vector<PngText>& texts, int
 
 std::string encode_png(const Image& image, PngEffort effort, const std::vector<PngText>& texts,
                        int pixels_per_metre) {
-  return assemble(compress(image, effort), texts, pixels_per_metre);
+  LANTERN_CHECK(image.rgba.size(), ==, std::size_t{4} * image.width * image.height);
+  LANTERN_CHECK(image.rgba.empty(), ==, false);
+  std::vector<Band> bands;  // from the uppermost down
+  for (int row = 0; row < image.height; row += kBandRows)
+    take_band(image, row, bands.emplace_back());
+  const int channels = std::ranges::all_of(bands, &Band::is_opaque) ? 3 : 4;
+  std::string stream;
+  if (effort == PngEffort::fast) {
+    BandStream joined;
+    for (const Band& band : bands) joined.add(pack(band, channels));
+    stream = joined.finish();
+  } else {
+    std::vector<const Band*> all;
+    for (const Band& band : bands) all.push_back(&band);
+    stream = small_stream(all, channels);
+  }
+  return assemble(png_body(image.width, image.height, channels, stream), texts, pixels_per_metre);
 }
 
 std::optional<Image> decode_png(std::string_view bytes, std::size_t most_pixels) {
@@ -196,6 +207,40 @@ std::optional<Image> decode_png(std::string_view bytes, std::size_t most_pixels)
   Image image{width, height, {}};
   image.rgba.assign(pixels.get(), pixels.get() + std::size_t{4} * width * height);
   return image;
+}
+
+std::string sealed(FileKind kind, std::string bytes, const MadeFrom& from) {
+  LANTERN_CHECK(from.facts.size(), ==, kKey);
+  LANTERN_CHECK(from.picture.size(), ==, kKey);
+  const std::string_view end = ending(kind);
+  LANTERN_CHECK(bytes.ends_with(end), ==, true);
+  bytes.resize(bytes.size() - end.size());
+  bytes += seal(kind, bytes, from);
+  return bytes += end;
+}
+
+std::optional<MadeFrom> made_from(FileKind kind, std::string_view bytes) {
+  // In all seals of a kind the keys begin at the same place, and all are as long.
+  const MadeFrom model{std::string(kKey, 'f'), std::string(kKey, 'p')};
+  const std::string any = seal(kind, "", model);
+  const std::size_t keys = any.find(model.facts + "-" + model.picture);
+  const std::string_view end = ending(kind);
+  if (bytes.size() < any.size() + end.size() || !bytes.ends_with(end)) return std::nullopt;
+  bytes.remove_suffix(end.size());
+  const std::string_view before = bytes.substr(0, bytes.size() - any.size());
+  const std::string_view written = bytes.substr(before.size());
+  const MadeFrom from{std::string(written.substr(keys, kKey)),
+                      std::string(written.substr(keys + kKey + 1, kKey))};
+  if (seal(kind, before, from) != written) return std::nullopt;
+  return from;
+}
+
+std::string_view before_seal(FileKind kind, std::string_view bytes) {
+  if (kind == FileKind::png) return bytes;
+  const std::size_t at = bytes.rfind(kind == FileKind::svg ? kSvgSeal : kJsonSeal);
+  if (at != bytes.npos) return bytes.substr(0, at);
+  const std::string_view end = ending(kind);
+  return bytes.substr(0, bytes.size() - (bytes.ends_with(end) ? end.size() : 0));
 }
 
 }  // namespace lantern::render

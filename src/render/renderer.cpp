@@ -1,15 +1,8 @@
 // The fragment shaders, each compiled when it is worth it.
 #include "render/renderer.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-#include <cstdint>
 #include <cstring>
-#include <optional>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 

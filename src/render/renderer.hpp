@@ -1,10 +1,6 @@
 // Draws a DrawList with OpenGL 3.3 core into a framebuffer object of its own.
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <vector>
-
 #include "draw/draw_list.hpp"
 #include "draw/theme.hpp"
 #include "render/context.hpp"

@@ -2,10 +2,6 @@
 // without a context.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "draw/draw_list.hpp"
 #include "draw/theme.hpp"
 #include "geometry/ray.hpp"

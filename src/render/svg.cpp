@@ -1,7 +1,5 @@
 #include "render/svg.hpp"
 
-#include <charconv>
-#include <cmath>
 #include <map>
 #include <utility>
 
@@ -111,12 +109,7 @@ class SvgWriter {
     const std::string place =
         fmt::format(" transform=\"translate({} {}) scale({})\"", number(s.at.x - s.align * width),
                     number(s.at.y), fmt::format("{:.6f}", s.size / 1000));
-    if (const Paint halo = tinted(theme_, s.halo, tint_, &Tint::line); halo[3] != 0)
-      body_ += fmt::format("<g{}{}{} stroke-width=\"{}\" stroke-linejoin=\"round\">{}</g>\n", place,
-                           colored("fill", halo), colored("stroke", halo),
-                           number(6 * 1000 / s.size), letters);
-    if (const Paint ink = fill_of(s.role); ink[3] != 0)
-      body_ += fmt::format("<g{}{}>{}</g>\n", place, colored("fill", ink), letters);
+    put_letters(s, "g", place, 6 * 1000 / s.size, "", letters);
   }
 
   // The halo is a text of its own: not every program knows paint-order.
@@ -128,20 +121,25 @@ class SvgWriter {
         "lengthAdjust=\"spacingAndGlyphs\"",
         number(s.at.x - s.align * width), number(s.at.y), number(s.size),
         s.weight == Weight::semibold ? " font-weight=\"600\"" : "", number(width));
+    put_letters(s, "text", place, 6, " aria-hidden=\"true\"", escaped(s.text));
+  }
+
+  // Letters upon their halo, of whose element `more` is told.
+  void put_letters(const TextShape& s, const char* tag, const std::string& place, double width,
+                   const char* more, const std::string& letters) {
     if (const Paint halo = tinted(theme_, s.halo, tint_, &Tint::line); halo[3] != 0)
       body_ += fmt::format(
-          "<text{}{}{} stroke-width=\"6\" stroke-linejoin=\"round\" aria-hidden=\"true\">{}"
-          "</text>\n",
-          place, colored("fill", halo), colored("stroke", halo), escaped(s.text));
+          "<{0}{1}{2}{3} stroke-width=\"{4}\" stroke-linejoin=\"round\"{5}>{6}</{0}>\n", tag, place,
+          colored("fill", halo), colored("stroke", halo), number(width), more, letters);
     if (const Paint ink = fill_of(s.role); ink[3] != 0)
-      body_ += fmt::format("<text{}{}>{}</text>\n", place, colored("fill", ink), escaped(s.text));
+      body_ += fmt::format("<{0}{1}{2}>{3}</{0}>\n", tag, place, colored("fill", ink), letters);
   }
 
   // The number of a glyph in <defs>, where it is put when first met; -1 for a blank.
   int glyph(int index, Weight weight) {
     const auto [it, fresh] = glyphs_.try_emplace({index, weight}, -1);
     if (!fresh) return it->second;
-    const std::string path = glyph_path(index, weight);
+    const std::vector<PathStep> path = glyph_path(index, weight);
     if (path.empty()) return -1;
     it->second = static_cast<int>(glyphs_.size()) - 1;
     defs_ += fmt::format("<path id=\"{}g{}\" d=\"{}\"/>\n", words_.prefix, it->second,
@@ -150,22 +148,18 @@ class SvgWriter {
   }
 
   // A path in units of one em, in units of a thousandth.
-  static std::string thousandfold(const std::string& path) {
+  static std::string thousandfold(const std::vector<PathStep>& path) {
     std::string result;
-    const char* const last = path.data() + path.size();
-    for (const char* at = path.data(); at != last;) {
-      double value = 0;
-      const auto [end, error] = std::from_chars(at, last, value);  // deaf to the locale
-      if (error != std::errc()) {
-        result += *at++;
-        continue;
-      }
-      // A sign separates numbers as well as a blank does.
-      const bool after_number = !result.empty() && result.back() >= '0' && result.back() <= '9';
-      const std::string text = number(1000 * value);
-      if (after_number && text[0] != '-') result += ' ';
-      result += text;
-      for (at = end; at != last && *at == ' ';) ++at;
+    for (const PathStep& step : path) {
+      result += step.letter;
+      for (const Vec<2>& point : step.points)
+        for (const double value : {point.x, point.y}) {
+          // A sign separates numbers as well as a blank does.
+          const bool after_number = result.back() >= '0' && result.back() <= '9';
+          const std::string text = number(1000 * value);
+          if (after_number && text[0] != '-') result += ' ';
+          result += text;
+        }
     }
     return result;
   }

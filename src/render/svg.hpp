@@ -1,8 +1,6 @@
 // A DrawList as SVG: no graphics library.
 #pragma once
 
-#include <string>
-
 #include "draw/draw_list.hpp"
 #include "draw/theme.hpp"
 

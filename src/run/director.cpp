@@ -5,7 +5,6 @@
 #include "base/stop.hpp"
 #include "run/event_text.hpp"
 #include "run/script_run.hpp"
-#include "run/sides_run.hpp"
 
 namespace lantern::run {
 
@@ -31,6 +30,12 @@ std::vector<FrameLook> ScriptRun::let_time_pass(bool with_looks) {
   return looks;
 }
 
+DirectorReport ScriptRun::report() {
+  DirectorReport report = frames.take_report();
+  if (stage.engine) report.world = engine().world_work();
+  return report;
+}
+
 void ScriptRun::focus(std::size_t body) { frames.focus.insert(*engine().id_of(body)); }
 
 void ScriptRun::watch_movers() {
@@ -48,13 +53,8 @@ void ScriptRun::witness(const Event& event) {
   if (event.kind == Kind::make_child && structure.eager_children) return;
   Touched now = frames.touched;
   (event.kind == Kind::miss ? now.passed : now.lit).insert(event.node);
-  const StructureTraits traits = traits_of(structure.kind);
-  const std::string body = name_of(event.body);
-  const auto node = [&] { return engine().label_of(event.node); };
-  const std::string text = !traits.is_tree ? list_event_text(event, traits.words, body)
-                           : traits.holds_once
-                               ? fitting_event_text(event, node(), body)
-                               : event_text(event, node(), body, structure.max_depth);
+  const std::string text =
+      event_text(event, structure, engine().label_of(event.node), name_of(event.body));
   frames.emit(now, event_name(event.kind), text, event.body);
 }
 
@@ -82,7 +82,7 @@ void carry(const V& verb, ScriptRun& run) {
   if constexpr (requires { act(verb, run); }) {
     act(verb, run);
   } else {
-    if constexpr (V::kTraits.changes_bodies) change(verb, run.engine());
+    if constexpr (V::kTraits.changes_bodies) run.engine().apply(verb);
     if constexpr (requires { verb.body; }) run.focus(verb.body);
     run.frames.settle(V::kTraits.name);
   }
@@ -121,9 +121,7 @@ DirectorReport direct(const Scenario& scenario, Pace pace, Work& work,
     run.play(step, index++);
     if (run.frames.stopped()) break;
   }
-  DirectorReport report = run.frames.take_report();
-  if (run.stage.engine) report.world = run.engine().world_work();
-  return report;
+  return run.report();
 }
 
 }  // namespace lantern::run

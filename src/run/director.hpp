@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <vector>
 
 #include "base/error.hpp"
 #include "base/work.hpp"

@@ -1,18 +1,11 @@
 #include "run/engine.hpp"
 
-#include <algorithm>
-#include <set>
-
 #include <fmt/format.h>
 
-#include "run/brains.hpp"
-#include "run/collision_log.hpp"
-#include "run/comparison.hpp"
-#include "run/island_picture.hpp"
-#include "run/narrow_asked.hpp"
-#include "run/queries.hpp"
+#include "base/stop.hpp"
+#include "run/asked.hpp"
+#include "run/step_by_step.hpp"
 #include "run/structure_picture.hpp"
-#include "run/trails.hpp"
 #include "run/world_picture.hpp"
 
 namespace lantern::run {
@@ -37,7 +30,17 @@ class EngineOf : public Engine {
     players_.enter(body);
     steered_ = false;
   }
-  void leave(std::span<const std::size_t> bodies) override { players_.leave(bodies); }
+  void apply(const Insert& insert) override {
+    for (const std::size_t body : insert.bodies) enter(body);
+  }
+  void apply(const Emit& emit) override {
+    emissions_.push_back({emit.bodies, emit.every, 0, 1});
+    let_in();
+  }
+  void apply(const Remove& remove) override {
+    stop_if_asked();
+    players_.leave(remove.bodies);
+  }
 
   void store(std::span<const std::size_t> bodies, const Watch& watch) override {
     if (!has_structure()) return;
@@ -46,7 +49,7 @@ class EngineOf : public Engine {
     being_stored_ = false;
   }
 
-  void move(const Move& move) override {
+  void apply(const Move& move) override {
     const Body<D> before = *players_.body(move.body);
     const Vec<D> to = move.to ? in_dimension<D>(*move.to) : before.position;
     const Vec<D> velocity = move.velocity ? in_dimension<D>(*move.velocity) : before.velocity;
@@ -73,10 +76,12 @@ class EngineOf : public Engine {
                           struck.position + in_dimension<D>(impulse.at));
   }
 
-  void sleep(std::size_t body) override { world().sleep(*players_.id_of(body)); }
-  void wake(std::span<const std::size_t> bodies) override { world().wake(ids_of(bodies)); }
+  void apply(const Sleep& sleep) override {
+    for (const BodyId id : ids_of(sleep.bodies)) world().sleep(id);
+  }
+  void apply(const Wake& wake) override { world().wake(ids_of(wake.bodies)); }
 
-  void solve_by(const SolveBy& method) override {
+  void apply(const SolveBy& method) override {
     const WorldConfig<D>& now = world().config();
     world().switch_contacts(method.contacts,
                             method.sub_steps > 0 ? method.sub_steps : now.sub_steps,
@@ -109,11 +114,6 @@ class EngineOf : public Engine {
     step();
     world().keep_impact_looks(false);
     return looks_of(world().impacts(), scenario_.world.time_step);
-  }
-
-  void emit(const std::vector<std::size_t>& bodies, std::uint64_t every) override {
-    emissions_.push_back({bodies, every, 0, 1});
-    let_in();
   }
 
   void rebuild() override { outdated_ = true; }
@@ -232,7 +232,7 @@ class EngineOf : public Engine {
     return found;
   }
 
-  void picture(const Touched& touched, Frame& frame) override {
+  void picture(const Touched& touched, const SweptSoFar* swept, Frame& frame) override {
     if (has_structure()) bring_up_to_date();
     picture_world(players_, frame);
     const StepFindings found = findings();
@@ -244,7 +244,8 @@ class EngineOf : public Engine {
     if (frame.display.forces) picture_forces(players_, frame);
     frame.counts.emplace_back("bodies", frame.bodies.size());
     frame.add<FrameStructure>().may_sleep = scenario_.world.may_sleep;
-    picture_structure(structure_, players_.world(), scenario_.tells_sleepers(), touched, frame);
+    picture_structure(structure_, players_.world(), scenario_.tells_sleepers(), touched, swept,
+                      frame);
     count_tests(frame);
     if (!being_stored_) light_those_that_left(frame);
     work_.pair_searches += has_structure();

@@ -3,14 +3,9 @@
 #pragma once
 
 #include <functional>
-#include <limits>
 #include <map>
 #include <memory>
-#include <optional>
-#include <set>
 #include <span>
-#include <string>
-#include <vector>
 
 #include "base/work.hpp"
 #include "frame/body_state.hpp"
@@ -18,7 +13,6 @@
 #include "frame/parts/motion.hpp"
 #include "frame/parts/panels.hpp"
 #include "physics/world_config.hpp"
-#include "run/step_findings.hpp"
 #include "spatial/query.hpp"
 
 namespace lantern::run {
@@ -45,6 +39,42 @@ struct Finding {
   std::optional<FrameQuery> region;
 };
 
+// How far a sweep has come. The state stays as it is; of its pairs those are told that were met.
+struct SweptSoFar {
+  std::uint64_t state = 0;  // its hash
+  BodyId at = 0;            // at whose beginning it stands
+  std::set<Pair> met;
+};
+
+// What a step of the world finds and does, beside how bodies lie: the record from which frames of
+// its phases are made. Nothing found: a step that has not begun.
+struct StepFindings {
+  using Counts = std::vector<std::pair<std::string_view, std::uint64_t>>;
+
+  std::vector<FrameContact> contacts;
+  std::vector<Pair> tested;  // whose shapes were, in order of ids
+  WorldWork work;
+  std::uint64_t begins = 0, ends = 0;  // of contacts
+  double time_of_impact = 1;           // of the first; a share of the step
+
+  // Its counts, in the order in which frames have them.
+  Counts contact_counts() const;
+  Counts solver_counts() const;
+  Counts motion_counts() const;
+  double penetration() const;  // of the deepest contact
+
+  // In place of what a frame tells of a step, of the numbers that it has.
+  void put_on(Frame& frame) const;
+};
+
+template <int D>
+class Players;
+
+// Of the last step: contacts, tested pairs and the first impact; time steps have `h` seconds. Pairs
+// of which a body has left since are not among them.
+template <int D>
+StepFindings findings_of(const Players<D>& players, double h);
+
 class WorldWatch;
 
 // Bodies are named by their index in the scenario. Each call throws Refused as world and trees do.
@@ -54,17 +84,18 @@ class Engine {
   virtual ~Engine() = default;
 
   virtual void enter(std::size_t body) = 0;  // into the world only
-  // The first of them now, then one each `every` world steps.
-  virtual void emit(const std::vector<std::size_t>& bodies, std::uint64_t every) = 0;
   // Into the structure as well, one after another.
   virtual void store(std::span<const std::size_t> bodies, const Watch& watch) = 0;
-  virtual void leave(std::span<const std::size_t> bodies) = 0;
-  virtual void move(const Move& move) = 0;
+  // What a verb does to bodies, without frames.
+  virtual void apply(const Insert& insert) = 0;  // into the world only
+  virtual void apply(const Emit& emit) = 0;      // the first of them now, the others in later steps
+  virtual void apply(const Remove& remove) = 0;
+  virtual void apply(const Move& move) = 0;
   virtual void apply(const ApplyForce& force) = 0;
   virtual void apply(const ApplyImpulse& impulse) = 0;
-  virtual void sleep(std::size_t body) = 0;
-  virtual void wake(std::span<const std::size_t> bodies) = 0;
-  virtual void solve_by(const SolveBy& method) = 0;
+  virtual void apply(const Sleep& sleep) = 0;
+  virtual void apply(const Wake& wake) = 0;
+  virtual void apply(const SolveBy& method) = 0;
   virtual void step() = 0;  // one world step
   // From now on the structure is that of the bodies as they are. It is built, its memory reused,
   // when a frame, a query or the next step of a world with contacts needs it.
@@ -115,8 +146,9 @@ class Engine {
   virtual StepFindings findings() const = 0;
   // Events of contacts are counted from here on.
   virtual void forget_events() = 0;
-  // Bodies, nodes, pairs, contacts, links, counts and measures as they are.
-  virtual void picture(const Touched& touched, Frame& frame) = 0;
+  // Bodies, nodes, pairs, contacts, links, counts and measures as they are; of pairs only what was
+  // `swept`, unless it is null.
+  virtual void picture(const Touched& touched, const SweptSoFar* swept, Frame& frame) = 0;
 };
 
 std::unique_ptr<Engine> make_engine(const Scenario& scenario, Work& work);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.hpp"
+
 namespace lantern::run {
 namespace {
 
@@ -14,6 +16,35 @@ std::string place_of(const std::string& node) {
 std::string capitalised(std::string text) {
   if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = char(text[0] - 'a' + 'A');
   return text;
+}
+
+// Of a tree that has a leaf for each body, and fits its boxes to them; empty if it has no words of
+// its own.
+std::string fitting_text(const Event& e, const std::string& place, const std::string& name,
+                         const std::string& body) {
+  switch (e.kind) {
+    case Event::Kind::test:
+      return fmt::format("{} comes to {}: would all boxes together grow least beside it?",
+                         capitalised(body), place);
+    case Event::Kind::miss:
+      return fmt::format("{} would grow more by {}: it is left out.", name, body);
+    case Event::Kind::store:
+      return fmt::format("{} is the leaf of {}.", name, body);
+    case Event::Kind::split:
+      return fmt::format("A new node takes the place of {}: it holds what was there, and {}.",
+                         place, body);
+    case Event::Kind::rotate:
+      return fmt::format(
+          "A rotation: a child of {} and the sibling of {} change places, and {} shrinks.", place,
+          place, place);
+    case Event::Kind::leave:
+      return fmt::format(
+          "{} has left its box: its leaf goes, the sibling takes the parent's place, and {} is "
+          "inserted again.",
+          capitalised(body), body);
+    default:
+      return {};
+  }
 }
 
 }  // namespace
@@ -30,10 +61,15 @@ std::string_view event_name(AtlasEvent::Kind kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
-std::string event_text(const Event& e, const std::string& node, const std::string& body,
-                       std::uint32_t depth_limit) {
-  const std::string place = place_of(node);
-  const std::string name = capitalised(place);
+std::string event_text(const Event& e, const StructureSpec& structure, const std::string& node,
+                       const std::string& body) {
+  const StructureTraits& traits = traits_of(structure.kind);
+  if (!traits.is_tree)
+    return fmt::format("{} lists {}: {} in all.", capitalised(std::string(traits.words)), body,
+                       e.count);
+  const std::string place = place_of(node), name = capitalised(place);
+  if (traits.holds_once)
+    if (std::string text = fitting_text(e, place, name, body); !text.empty()) return text;
   switch (e.kind) {
     case Event::Kind::test:
       return fmt::format("{} reaches {}.", capitalised(body), place);
@@ -56,7 +92,7 @@ std::string event_text(const Event& e, const std::string& node, const std::strin
       return fmt::format(
           "{} holds {}, its limit is {}. But it lies at depth {}, and no node may lie deeper: it "
           "stays a leaf.",
-          name, e.count, e.limit, depth_limit);
+          name, e.count, e.limit, structure.max_depth);
     case Event::Kind::no_progress:
       return fmt::format(
           "{} holds {}, its limit is {}. But all share one point, so a split would separate no "
@@ -64,41 +100,9 @@ std::string event_text(const Event& e, const std::string& node, const std::strin
           name, e.count, e.limit);
     case Event::Kind::rotate:
     case Event::Kind::leave:
-      return fitting_event_text(e, node, body);
+      return fitting_text(e, place, name, body);
   }
   return {};
-}
-
-std::string fitting_event_text(const Event& e, const std::string& node, const std::string& body) {
-  const std::string place = place_of(node);
-  const std::string name = capitalised(place);
-  switch (e.kind) {
-    case Event::Kind::test:
-      return fmt::format("{} comes to {}: would all boxes together grow least beside it?",
-                         capitalised(body), place);
-    case Event::Kind::miss:
-      return fmt::format("{} would grow more by {}: it is left out.", name, body);
-    case Event::Kind::store:
-      return fmt::format("{} is the leaf of {}.", name, body);
-    case Event::Kind::split:
-      return fmt::format("A new node takes the place of {}: it holds what was there, and {}.",
-                         place, body);
-    case Event::Kind::rotate:
-      return fmt::format(
-          "A rotation: a child of {} and the sibling of {} change places, and {} shrinks.", place,
-          place, place);
-    case Event::Kind::leave:
-      return fmt::format(
-          "{} has left its box: its leaf goes, the sibling takes the parent's place, and {} is "
-          "inserted again.",
-          capitalised(body), body);
-    default:
-      return event_text(e, node, body, 0);
-  }
-}
-
-std::string list_event_text(const Event& e, std::string_view structure, const std::string& body) {
-  return fmt::format("{} lists {}: {} in all.", capitalised(std::string(structure)), body, e.count);
 }
 
 std::string event_text(const AtlasEvent& e, const std::string& node, const std::string& texture,
@@ -195,19 +199,15 @@ std::string look_text(const FrameLook& look) {
 }
 
 std::string phase_text(std::string_view phase, const Frame& frame) {
-  const auto counted = [](std::int64_t n, std::string_view one, std::string_view many) {
-    return fmt::format("{} {}", n, n == 1 ? one : many);
-  };
   const auto pairs = static_cast<std::int64_t>(frame.pairs.size());
   const auto contacts = static_cast<std::int64_t>(frame.contacts.size());
   if (phase == "broad_phase")
     return fmt::format("Broad phase: {}, where brute force has {}. These might touch.",
-                       counted(pairs, "candidate pair", "candidate pairs"),
-                       frame.count("testable_pairs").value_or(0));
+                       counted(pairs, "candidate pair"), frame.count("testable_pairs").value_or(0));
   const std::int64_t overlaps = frame.count("overlaps").value_or(0);
   if (phase == "boxes")
     return fmt::format("Boxes: of {}, {} overlap. Only their shapes need a test.",
-                       counted(pairs, "candidate pair", "candidate pairs"),
+                       counted(pairs, "candidate pair"),
                        overlaps == pairs ? "all" : fmt::format("the boxes of {}", overlaps));
   if (phase == "narrow_phase") {
     const std::int64_t tested = frame.count("pairs_tested").value_or(0);
@@ -216,12 +216,12 @@ std::string phase_text(std::string_view phase, const Frame& frame) {
                               : overlaps == 1    ? "its true shapes"
                                                  : "their true shapes";
     return fmt::format("Narrow phase: the boxes of {} overlap; {} are tested. {} really {}.",
-                       counted(overlaps, "pair", "pairs"), whose, contacts,
+                       counted(overlaps, "pair"), whose, contacts,
                        contacts == 1 ? "touches" : "touch");
   }
   return fmt::format(
       "Resolution: impulses at {} push the bodies apart. The arrows show how strong they are.",
-      counted(frame.count("contact_points").value_or(0), "contact point", "contact points"));
+      counted(frame.count("contact_points").value_or(0), "contact point"));
 }
 
 }  // namespace lantern::run

@@ -1,9 +1,6 @@
 // What an algorithm's event is called, and how it is said in words.
 #pragma once
 
-#include <string>
-#include <string_view>
-
 #include "atlas/atlas.hpp"
 #include "frame/parts/asked.hpp"
 #include "frame/parts/motion.hpp"
@@ -15,19 +12,12 @@ namespace lantern::run {
 std::string_view event_name(Event::Kind kind);
 std::string_view event_name(AtlasEvent::Kind kind);
 
-// One sentence with the real numbers: "Node 1 holds 3, its limit is 2: it splits."
-std::string event_text(const Event& event, const std::string& node, const std::string& body,
-                       std::uint32_t depth_limit);
+// One sentence with the real numbers: "Node 1 holds 3, its limit is 2: it splits." The node of a
+// structure that is no tree is not named.
+std::string event_text(const Event& event, const StructureSpec& structure, const std::string& node,
+                       const std::string& body);
 std::string event_text(const AtlasEvent& event, const std::string& node, const std::string& texture,
                        int width, int height);
-
-// The same of a tree that has a leaf for each body, and fits its boxes to them.
-std::string fitting_event_text(const Event& event, const std::string& node,
-                               const std::string& body);
-
-// The same of a structure that is no tree, but one list of all bodies.
-std::string list_event_text(const Event& event, std::string_view structure,
-                            const std::string& body);
 
 // Of a walk through a structure: `event` is "visit", "skip", "hit" or "miss".
 std::string query_text(std::string_view event, const std::string& node, const std::string& body);
@@ -43,10 +33,10 @@ std::string search_text(const FrameSearch& search, const std::string& a, const s
 std::string bind_text(const std::string& image, const std::string& bound, std::uint64_t bindings);
 std::string draw_text(const std::string& texture, bool from_atlas);
 
-// Of a world step shown phase by phase: "broad_phase", "narrow_phase" or "solve".
 // Of a look for the moment of an impact.
 std::string look_text(const FrameLook& look);
 
+// Of a world step shown phase by phase: "broad_phase", "narrow_phase" or "solve".
 std::string phase_text(std::string_view phase, const Frame& frame);
 
 }  // namespace lantern::run

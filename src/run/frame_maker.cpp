@@ -1,20 +1,20 @@
 #include "run/frame_maker.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "base/error.hpp"
 #include "base/stop.hpp"
+#include "frame/comparison.hpp"
 #include "frame/frame.hpp"
 #include "geometry/flat.hpp"
 #include "language/code_text.hpp"
 #include "language/counts.hpp"
 #include "run/comparison.hpp"
+#include "language/script/caption.hpp"
 #include "run/panel.hpp"
-#include "run/rulers.hpp"
+#include "run/shown.hpp"
 
 namespace lantern::run {
 namespace {
@@ -122,11 +122,7 @@ void FrameMaker::add_row(FrameComparison::Row row, const std::string& answer) {
   answer_ = answer;
 }
 
-Frame FrameMaker::picture(const Touched& now, std::string_view event) {
-  return drawn(now, event, false);
-}
-
-Frame FrameMaker::drawn(const Touched& now, std::string_view event, bool midst) {
+Frame FrameMaker::picture(const Touched& now, std::string_view event, bool midst) {
   stop_if_asked();
   Frame frame;
   frame.scenario = scenario_.name;
@@ -147,7 +143,7 @@ Frame FrameMaker::drawn(const Touched& now, std::string_view event, bool midst) 
   frame.bounds = scenario_.world.bounds;
   looks_.show(frame);
   frame.headline = headline_;
-  if (stage_.engine) stage_.engine->picture(now, frame);
+  if (stage_.engine) stage_.engine->picture(now, swept ? &*swept : nullptr, frame);
   if (stage_.engine) tell_faults(frame);
   if (stage_.engine) narrow.add_to(frame, *stage_.engine);
   // Speeds that numbers still hold may have squares that they do not.
@@ -157,7 +153,7 @@ Frame FrameMaker::drawn(const Touched& now, std::string_view event, bool midst) 
     stage_.level->picture(stage_.engine && stage_.engine->structure().of_level, frame);
   if (stage_.atlas) stage_.atlas->picture(now, frame);
   if (stage_.screen) stage_.screen->picture(frame);
-  frame.hash = state_hash(frame);
+  frame.hash = swept ? swept->state : state_hash(frame);
   add_finding(frame);
   add_comparison(frame);
   add_rulers(frame);
@@ -214,7 +210,7 @@ void FrameMaker::tell_faults(const Frame& frame) {
 
 // One point a moment: the last that was so.
 void FrameMaker::trace(Frame& frame) {
-  if (const auto n = frame.count(trace_->name)) {
+  if (const auto n = frame.count(trace_->name); n && !swept) {
     const Vec<2> now{frame.time - trace_begun_, static_cast<double>(*n)};
     std::vector<Vec<2>>& points = trace_->points;
     if (!points.empty() && points.back().x == now.x) points.pop_back();
@@ -252,7 +248,7 @@ void FrameMaker::emit(const Touched& now, std::string_view event, std::string ca
   if (stage_.engine && traits_of(stage_.engine->structure().kind).is_plain &&
       std::holds_alternative<Insert>(step_->verb))
     light_code(event);
-  Frame frame = drawn(now, event, true);
+  Frame frame = picture(now, event, true);
   frame.caption = std::move(caption);
   for (FrameBody& body : frame.bodies) body.lit = body.id == about;
   give(std::move(frame), true);

@@ -1,23 +1,12 @@
 // From the pieces on the stage to finished frames: pictured, lit, captioned, verified and given on.
 #pragma once
 
-#include <functional>
-#include <memory>
-#include <optional>
-#include <set>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "run/atlas_stage.hpp"
 #include "run/director.hpp"
 #include "run/engine.hpp"
 #include "run/level_stage.hpp"
-#include "run/lighting.hpp"
-#include "run/looks.hpp"
-#include "run/narrow_shown.hpp"
 #include "run/plotter.hpp"
-#include "run/screen_stage.hpp"
+#include "run/shown.hpp"
 
 namespace lantern::run {
 
@@ -55,6 +44,7 @@ class FrameMaker {
 
   // What the step is about, for all frames to come of it.
   Touched touched;
+  std::optional<SweptSoFar> swept;  // a sweep is under way
   std::set<BodyId> focus;
   std::string texture;
   void note_refused(const std::string& name);
@@ -68,8 +58,8 @@ class FrameMaker {
   // The same of two bodies that are measured, or whose distance is searched for.
   NarrowShown narrow;
 
-  // The state as it is; with no caption, given to nobody.
-  Frame picture(const Touched& touched, std::string_view event);
+  // The state as it is, or `midst` the algorithm; with no caption, given to nobody.
+  Frame picture(const Touched& touched, std::string_view event, bool midst = false);
   // A frame of a finished state, on which the step's promises are verified; its `expect` on the
   // last one of the step.
   void settle(std::string_view verb, bool last = true, const std::string& caption = {});
@@ -87,7 +77,6 @@ class FrameMaker {
   DirectorReport take_report() { return std::move(report_); }
 
  private:
-  Frame drawn(const Touched& touched, std::string_view event, bool midst);
   void add_finding(Frame& frame) const;
   void add_comparison(Frame& frame);
   void trace(Frame& frame);

@@ -1,12 +1,6 @@
 // The level of a scenario: its BSP is compiled here, asked, and pictured.
 #pragma once
 
-#include <functional>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "frame/frame.hpp"
 #include "spatial/level/level_bsp.hpp"
 

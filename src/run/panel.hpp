@@ -2,9 +2,6 @@
 // one is in language/panel.cpp, how it is drawn in draw/panel.hpp.
 #pragma once
 
-#include <string_view>
-#include <vector>
-
 #include "frame/frame.hpp"
 #include "language/specs.hpp"
 
@@ -20,7 +17,7 @@ struct PanelRun {
   };
 
   std::string_view name = {};   // as in `panels`; of a program's own, that of its kind
-  std::string_view stage = {};  // of a run, as it is tallied: "tree panel"
+  std::string_view stage = {};  // as it is tallied; empty: "tree panel", by its name
   std::vector<Content> shows = {};
   // Adds the panel's part to a frame that has all else. Null: whoever runs the step has done it.
   void (*gather)(const Stage& stage, Frame& frame) = nullptr;

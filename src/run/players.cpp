@@ -1,9 +1,33 @@
 #include "run/players.hpp"
 
+#include <map>
+
 #include "base/stop.hpp"
 
 namespace lantern::run {
 namespace {
+
+// Entries and nodes of one tree; more are refused.
+constexpr std::uint64_t kMostEntries = 2'000'000;
+
+template <int D>
+std::vector<BspPlane<D>> planes_of(const StructureSpec& spec) {
+  std::vector<BspPlane<D>> planes;
+  std::map<std::string, std::uint32_t> node_at;  // way from the root -> index
+  for (const PlaneSpec& p : spec.planes) {
+    BspPlane<D> plane{Plane<D>::through(in_dimension<D>(p.point), in_dimension<D>(p.normal)), kNone,
+                      false};
+    if (p.at != "root") {
+      const std::size_t dot = p.at.rfind('.');
+      const std::string parent = dot == std::string::npos ? "root" : p.at.substr(0, dot);
+      plane.parent = node_at.at(parent);
+      plane.front = p.at.substr(dot == std::string::npos ? 0 : dot + 1) == "front";
+    }
+    node_at[p.at] = static_cast<std::uint32_t>(planes.size());
+    planes.push_back(plane);
+  }
+  return planes;
+}
 
 template <int D>
 WorldConfig<D> config_of(const Scenario& scenario) {
@@ -44,6 +68,29 @@ Body<D> body_of(const BodySpec& spec) {
 }
 
 }  // namespace
+
+template <int D>
+BroadPhaseConfig<D> broad_phase_of(const StructureSpec& spec, const Box<D>& bounds) {
+  BroadPhaseConfig<D> config;
+  const bool any = spec.kind != StructureKind::none;
+  config.kind = any ? spec.kind : StructureKind::brute_force;
+  config.bounds = bounds;
+  config.capacity = spec.capacity;
+  config.max_depth = spec.max_depth;
+  config.eager_children = spec.children == Children::eager;
+  config.no_progress_stop = spec.no_progress_stop;
+  config.margin = spec.margin;
+  config.following = spec.following;
+  if (spec.axis != SweepAxis::widest) config.sweep_axis = static_cast<int>(spec.axis) - 1;
+  config.planes = planes_of<D>(spec);
+  config.cell = spec.cell;
+  config.levels = spec.levels;
+  config.open = spec.open;
+  config.split_static = spec.split_static;
+  config.in_proportion = false;
+  config.most_entries = kMostEntries;
+  return config;
+}
 
 template <int D>
 Players<D>::Players(const Scenario& scenario)
@@ -141,5 +188,7 @@ BodyId Players<D>::add_anchor(const Vec<D>& at) {
 
 template class Players<2>;
 template class Players<3>;
+template BroadPhaseConfig<2> broad_phase_of(const StructureSpec&, const Box<2>&);
+template BroadPhaseConfig<3> broad_phase_of(const StructureSpec&, const Box<3>&);
 
 }  // namespace lantern::run

@@ -3,16 +3,19 @@
 #pragma once
 
 #include <limits>
-#include <optional>
-#include <span>
-#include <utility>
-#include <vector>
 
 #include "language/scenario.hpp"
 #include "physics/world.hpp"
-#include "run/structure_picture.hpp"
 
 namespace lantern::run {
+
+// Pairs met on one frame; more are refused.
+inline constexpr std::uint64_t kMostPairs = 2'000'000;
+
+// What a scenario says of its structure, as the world is told it. Without one the world compares
+// every body with every other.
+template <int D>
+BroadPhaseConfig<D> broad_phase_of(const StructureSpec& spec, const Box<D>& bounds);
 
 // Bodies are named by their index in the scenario. Each call throws Refused as the world does.
 template <int D>
@@ -90,8 +93,5 @@ class WorldWatch {
   virtual void see_world(const Players<2>& players) = 0;
   virtual void see_world(const Players<3>& players) = 0;
 };
-
-extern template class Players<2>;
-extern template class Players<3>;
 
 }  // namespace lantern::run

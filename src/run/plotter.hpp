@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 #include <vector>
-
 #include "frame/parts/panels.hpp"
+#include "frame/frame.hpp"
 
 namespace lantern::run {
 

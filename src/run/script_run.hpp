@@ -1,9 +1,6 @@
 // A script while it runs: what its verbs act on.
 #pragma once
 
-#include <functional>
-#include <string>
-
 #include "run/frame_maker.hpp"
 #include "run/warnings.hpp"
 
@@ -40,18 +37,9 @@ struct ScriptRun {
   // One step of the script, the `index`-th. Throws ScenarioError, at its place, when the engine
   // refuses what it asks for.
   void play(const Step& step, std::uint32_t index);
+  // Of all that were played; taken once.
+  DirectorReport report();
 };
-
-// What a verb changes, for whoever wants no frames as well.
-void change(const Insert& insert, Engine& engine);
-void change(const Emit& emit, Engine& engine);
-void change(const Remove& remove, Engine& engine);
-void change(const Move& move, Engine& engine);
-void change(const Sleep& sleep, Engine& engine);
-void change(const Wake& wake, Engine& engine);
-void change(const ApplyForce& force, Engine& engine);
-void change(const ApplyImpulse& impulse, Engine& engine);
-void change(const SolveBy& method, Engine& engine);
 
 // What a verb does, with its frames. One that is not here is one change, shown when it is done.
 void act(const Insert& insert, ScriptRun& run);
@@ -77,5 +65,11 @@ void act(const See& see, ScriptRun& run);
 void act(const Pack& pack, ScriptRun& run);
 void act(const AskRoom& ask, ScriptRun& run);
 void act(const DrawScreen& draw, ScriptRun& run);
+
+// As `direct`, of a scenario with sides: the k-th frame of a step has the k-th of each side. A side
+// that has fewer holds its last. Throws ScenarioError, at the step's place, too, when the frames of
+// one step need more memory than there is.
+DirectorReport direct_sides(const Scenario& scenario, Pace pace, Work& work,
+                            const std::function<bool(const Frame&)>& sink, RunWatch* watch);
 
 }  // namespace lantern::run

@@ -1,14 +1,9 @@
-#include "run/sides_run.hpp"
-
+// The script under the settings of every side, on one clock.
 #include <algorithm>
 #include <deque>
 #include <map>
 #include <memory>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -65,11 +60,7 @@ class Side {
     return {std::nullopt, shown.frame.count(name)};
   }
 
-  DirectorReport report() {
-    DirectorReport report = run_.frames.take_report();
-    if (run_.stage.engine) report.world = run_.engine().world_work();
-    return report;
-  }
+  DirectorReport report() { return run_.report(); }
 
  private:
   bool take(const Frame& frame) {

@@ -1,9 +1,9 @@
-#include "run/step_findings.hpp"
-
 #include <algorithm>
 #include <set>
 
 #include "base/stop.hpp"
+#include "run/engine.hpp"
+#include "run/players.hpp"
 
 namespace lantern::run {
 namespace {

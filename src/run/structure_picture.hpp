@@ -2,40 +2,349 @@
 // meet there, and its counts. There is no other structure: what is drawn is what physics uses.
 #pragma once
 
-#include <string>
+#include <cmath>
 
+#include <fmt/format.h>
+
+#include "base/stop.hpp"
 #include "frame/frame.hpp"
 #include "physics/world.hpp"
+#include "run/engine.hpp"
+#include "spatial/pairs.hpp"
 
 namespace lantern::run {
 
-// Pairs met on one frame; more are refused.
-inline constexpr std::uint64_t kMostPairs = 2'000'000;
-// Entries and nodes of one tree; more are refused.
-inline constexpr std::uint64_t kMostEntries = 2'000'000;
+// Of a child of the node `parent`: "1.3", or in a BSP "front.back"; children of the root have no
+// prefix. Of a grid's node that is no cell: a level, "L1", or a bucket, "B17".
+inline std::string child_label(const StructureSpec& spec, const std::string& parent,
+                               std::uint32_t slot, bool leaf) {
+  std::string way = fmt::format("{}", slot + 1);
+  const NodeNames names = traits_of(spec.kind).names;
+  if (names == NodeNames::sides) way = slot == 0 ? "back" : "front";
+  if (names == NodeNames::cells) {
+    const bool level = spec.levels > 1 && parent == "root";
+    if (leaf && slot == kGridLarge)
+      way = "large";
+    else if (!leaf)
+      way = fmt::format("{}{}", level ? 'L' : 'B', slot + 1);
+  }
+  return parent == "root" ? way : parent + "." + way;
+}
 
-// What a scenario says of its structure, as the world is told it. Without one the world compares
-// every body with every other.
+// A node of a compiled level, by its place in the order of visiting: a leaf has its sector's
+// number.
+inline std::string level_label(const StructureSpec& spec, std::uint32_t id) {
+  const std::uint32_t sector = spec.sectors.at(id);
+  if (sector != kNone) return fmt::format("{}", sector + 1);
+  return id == 0 ? "root" : "";
+}
+
+// "spatial hash, cells of 4, 3 levels"
+inline std::string grid_text(const StructureSpec& s) {
+  return fmt::format("{}cells {}{}", s.open ? "spatial hash, " : "",
+                     s.cell == 0 ? "that suit the bodies" : fmt::format("of {:g}", s.cell),
+                     s.levels == 1 ? "" : fmt::format(", {} levels", s.levels));
+}
+
+// "capacity 2, depth limit 4, all children made"
+inline std::string settings_text(const StructureSpec& s, int sweep_axis) {
+  const std::string split = s.split_static ? ", static bodies apart" : "";
+  const StructureTraits& traits = traits_of(s.kind);
+  if (s.kind == StructureKind::brute_force) return "every body with every other" + split;
+  if (traits.has(Setting::axis))
+    return fmt::format("sorted along {}, then swept{}", "xyz"[sweep_axis], split);
+  if (traits.has(Setting::planes))
+    return fmt::format("{} dividing line{}{}", s.planes.size(), s.planes.size() == 1 ? "" : "s",
+                       split);
+  if (traits.has(Setting::cell)) return grid_text(s) + split;
+  if (traits.has(Setting::margin))
+    return fmt::format(
+        "a leaf for each body, {}{}",
+        s.margin > 0 ? fmt::format("boxes enlarged by {}", s.margin) : "boxes not enlarged", split);
+  if (!traits.has(Setting::capacity)) return std::string(traits.words) + split;
+  const std::string limits = fmt::format("capacity {}, depth limit {}", s.capacity, s.max_depth);
+  if (traits.is_own) return fmt::format("{}, {}{}, events inferred", traits.words, limits, split);
+  if (traits.is_plain) return "the lecture's own code, " + limits + split;
+  if (traits.is_fitted) return "fitted to its bodies, " + limits + split;
+  return fmt::format("{}, {}{}{}", limits,
+                     s.children == Children::eager ? "all children made" : "children on demand",
+                     s.no_progress_stop ? ", stops without progress" : "", split);
+}
+
+inline Box<2> bounding_box_of(const Polygon& region, const Box<2>& fallback) {
+  if (region.empty()) return fallback;
+  Box<2> box{region[0], region[0]};
+  for (const Vec<2>& corner : region) box = united(box, Box<2>{corner, corner});
+  return box;
+}
+
+// Fills a frame with the nodes of one structure after another.
 template <int D>
-BroadPhaseConfig<D> broad_phase_of(const StructureSpec& spec, const Box<D>& bounds);
+class NodePicture {
+ public:
+  NodePicture(const StructureSpec& spec, const Touched& touched, Frame& frame)
+      : spec_(spec),
+        traits_(traits_of(spec.kind)),
+        touched_(touched),
+        shows_memory_(shows(frame.panels, "memory")),
+        shows_pool_(shows(frame.panels, "pool")),
+        frame_(frame) {
+    for (std::uint32_t i = 0; i < touched.met.size(); ++i) met_.emplace(touched.met[i], i);
+  }
+
+  // `awake`: null if nothing sleeps.
+  void add(const StructureView<D>& structure, const AwakeNodes* awake, bool of_static) {
+    first_ = static_cast<std::uint32_t>(frame_.nodes.size());
+    now_ = structure.counters();
+    structure.visit([&](const NodeView<D>& view) {
+      add_node(view, awake, of_static);
+      return true;
+    });
+    add_counters(now_, of_static);
+  }
+
+  Counters counters;  // of all structures together
+  std::uint64_t most_in_leaf = 0;
+
+ private:
+  void add_node(const NodeView<D>& view, const AwakeNodes* awake, bool of_static) {
+    stop_if_asked();
+    FrameNode node = frame_node(view);
+    node.of_static = of_static;
+    if (!of_static) mark(node, view.handle);
+    // The array of what moves is pictured; that of what does not is another one.
+    if (shows_memory_ && !of_static) {
+      node.first = view.first;
+      node.room = view.room;
+    }
+    if (shows_pool_ && !of_static && now_.pool > 0) {
+      node.pool_slot = view.handle;
+      node.reused = view.handle < now_.nodes_reused;
+    }
+    if (awake) node.awake = (*awake)[view.handle];
+    most_in_leaf = std::max<std::uint64_t>(most_in_leaf, node.bodies.size());
+    frame_.nodes.push_back(std::move(node));
+  }
+
+  void mark(FrameNode& node, NodeHandle handle) {
+    node.mark = touched_.mark_of(handle);
+    node.skipped = touched_.skipped.contains(handle) ||
+                   (node.parent != kNone && frame_.nodes[node.parent].skipped);
+    if (!node.leaf) return;
+    if (const auto at = met_.find(handle); at != met_.end()) node.met = at->second;
+  }
+
+  void add_counters(const Counters& c, bool of_static) {
+    using C = Counters;
+    for (const auto count :
+         {&C::nodes, &C::leaves, &C::entries, &C::box_tests, &C::splits, &C::nodes_reused,
+          &C::allocations, &C::places, &C::node_bytes, &C::swaps, &C::reinserted, &C::refitted})
+      counters.*count += c.*count;
+    counters.depth = std::max(counters.depth, c.depth);
+    if (shows_memory_ && !of_static)
+      frame_.add<FrameStructure>().array_size = static_cast<std::uint32_t>(c.places);
+    if (shows_pool_ && !of_static)
+      frame_.add<FrameStructure>().pool_size = static_cast<std::uint32_t>(c.pool);
+  }
+
+  FrameNode frame_node(const NodeView<D>& view) const {
+    FrameNode node;
+    node.id = first_ + view.id;
+    node.parent = view.parent == kNone ? kNone : first_ + view.parent;
+    node.slot = view.slot;
+    node.depth = view.depth;
+    node.leaf = view.leaf;
+    node.box = solid(view.box);
+    node.bodies.assign(view.bodies.begin(), view.bodies.end());
+    node.label = "root";
+    const FrameNode* parent = node.parent == kNone ? nullptr : &frame_.nodes[node.parent];
+    if (spec_.of_level)
+      node.label = level_label(spec_, view.id);
+    else if (parent)
+      node.label = child_label(spec_, parent->label, view.slot, view.leaf);
+    if (view.plane) node.plane = solid(*view.plane);
+    if (traits_.has(Setting::planes)) place_in_bsp(node, parent);
+    // What is no tree has no cells: its one node is the whole world.
+    if (!traits_.is_tree) node.box = frame_.bounds;
+    node.over_capacity = traits_.splits && node.bodies.size() > spec_.capacity;
+    return node;
+  }
+
+  // A flat BSP's region is cut from its parent's.
+  void place_in_bsp(FrameNode& node, const FrameNode* parent) const {
+    for (const PlaneSpec& p : spec_.planes)
+      if (node.plane && !spec_.of_level && p.at == node.label) node.plane_name = p.name;
+    if constexpr (D == 2) {
+      node.region = parent ? clipped(parent->region, flat(*parent->plane), node.slot == 1)
+                           : polygon_of(flat(frame_.bounds));
+      node.box = solid(bounding_box_of(node.region, flat(node.box)));
+    }
+  }
+
+  const StructureSpec& spec_;
+  const StructureTraits& traits_;
+  const Touched& touched_;
+  bool shows_memory_;
+  bool shows_pool_;
+  std::map<NodeHandle, std::uint32_t> met_;  // when a ray met them first
+  Counters now_;                             // of the structure that is being added
+  Frame& frame_;
+  std::uint32_t first_ = 0;  // node of the structure that is being added
+};
+
+// Leaves were met among inner nodes: now they count by themselves.
+inline void number_leaves_met(Frame& frame) {
+  std::vector<FrameNode*> leaves;
+  for (FrameNode& node : frame.nodes)
+    if (node.met != kNone) leaves.push_back(&node);
+  std::ranges::sort(leaves, {}, &FrameNode::met);
+  for (std::uint32_t i = 0; i < leaves.size(); ++i) leaves[i]->met = i;
+}
+
+// Nodes below which nothing is awake, and how many branches a walk for pairs leaves out for it.
+struct Sleepers {
+  std::uint64_t nodes = 0;
+  std::uint64_t leaves = 0;
+  std::uint64_t branches = 0;
+};
+
+inline Sleepers count_sleepers(const Frame& frame) {
+  Sleepers asleep;
+  for (const FrameNode& node : frame.nodes) {
+    if (node.awake || node.of_static) continue;
+    ++asleep.nodes;
+    asleep.leaves += node.leaf;
+    asleep.branches += node.parent == kNone || frame.nodes[node.parent].awake;
+  }
+  return asleep;
+}
+
+template <int D>
+std::uint64_t count_stale(const World<D>& world) {
+  return static_cast<std::uint64_t>(std::ranges::count_if(world.bodies(), [&](const Body<D>& body) {
+    return world.broad_phase()->is_stale({body.id, body.box()});
+  }));
+}
+
+// The sum of all inner nodes' surfaces; of what has no end, none.
+inline void measure_boxes(Frame& frame) {
+  double sum = 0;
+  for (const FrameNode& node : frame.nodes) {
+    if (node.leaf) continue;
+    const Vec<3> size = node.box.size();
+    sum += frame.dimension == 2 ? 2 * (size.x + size.y)
+                                : 2 * (size.x * size.y + size.y * size.z + size.z * size.x);
+  }
+  if (std::isfinite(sum)) frame.measures.emplace_back("tree_cost", sum);
+}
+
+// Pairs of which a broad phase would test one: not both never move.
+inline std::uint64_t testable_pairs_of(const Frame& frame) {
+  const auto never_move = static_cast<std::uint64_t>(
+      std::ranges::count_if(frame.bodies, [](const FrameBody& body) { return body.is_static; }));
+  return testable_pairs(frame.bodies.size(), never_move);
+}
 
 // "root", "1.3", "front.back"; empty if there is no such node.
 template <int D>
-std::string label_of(const StructureSpec& spec, const BroadPhase<D>& structure, NodeHandle node);
+std::string label_of(const StructureSpec& spec, const BroadPhase<D>& structure, NodeHandle handle) {
+  std::string found;
+  for (const StructureView<D>& tree : structure.each()) {
+    std::vector<std::string> labels;
+    tree.visit([&](const NodeView<D>& node) {
+      labels.push_back(spec.of_level ? level_label(spec, node.id)
+                       : node.parent == kNone
+                           ? "root"
+                           : child_label(spec, labels[node.parent], node.slot, node.leaf));
+      if (node.handle == handle && found.empty()) found = labels.back();
+      return found.empty();
+    });
+    if (!found.empty()) break;
+  }
+  return found;
+}
 
 // Nodes, pairs and counts of the world's structure as it stands. `tells_sleepers`: whether anything
 // in this world may rest, so that nodes are told asleep from awake.
 template <int D>
 void picture_structure(const StructureSpec& spec, const World<D>& world, bool tells_sleepers,
-                       const Touched& touched, Frame& frame);
+                       const Touched& touched, const SweptSoFar* swept, Frame& frame) {
+  frame.structure = spec.kind;
+  if (spec.kind == StructureKind::none) {
+    frame.add_count("all_pairs", all_pairs(frame.bodies.size()));
+    frame.add_count("testable_pairs", testable_pairs_of(frame));
+    return;
+  }
+  const BroadPhase<D>& structure = *world.broad_phase();
+  const Arrangement arrangement = structure.arrangement();
+  FrameStructure& told = frame.add<FrameStructure>();
+  told.sweep_axis = arrangement.axis.value_or(0);
+  told.settings = settings_text(spec, told.sweep_axis);
+  told.capacity = traits_of(spec.kind).splits ? spec.capacity : 0;
+  told.grid_levels = arrangement.levels;
+  told.hashed = spec.open;
+  if (swept) told.swept_to = swept->at;
+  const auto awake = [&](BodyId id) { return world.find(id)->stirs(); };
+  NodePicture<D> picture(spec, touched, frame);
+  AwakeNodes nodes;
+  const StructureView<D> dynamic = structure.dynamic();
+  if (tells_sleepers)
+    nodes.find(
+        dynamic.counters().nodes, [&](NodeLook<D> look) { dynamic.visit(look); }, awake);
+  picture.add(dynamic, tells_sleepers ? &nodes : nullptr, false);
+  if (spec.split_static) picture.add(structure.fixed(), nullptr, true);
+  number_leaves_met(frame);
 
-extern template BroadPhaseConfig<2> broad_phase_of(const StructureSpec&, const Box<2>&);
-extern template BroadPhaseConfig<3> broad_phase_of(const StructureSpec&, const Box<3>&);
-extern template std::string label_of(const StructureSpec&, const BroadPhase<2>&, NodeHandle);
-extern template std::string label_of(const StructureSpec&, const BroadPhase<3>&, NodeHandle);
-extern template void picture_structure(const StructureSpec&, const World<2>&, bool, const Touched&,
-                                       Frame&);
-extern template void picture_structure(const StructureSpec&, const World<3>&, bool, const Touched&,
-                                       Frame&);
+  PairChain chain = structure.pair_chain(awake, kMostPairs);
+  if (swept) {
+    const auto unmet = [&](const Pair& pair) { return !swept->met.contains(pair); };
+    std::erase_if(chain.pairs, unmet);
+    std::erase_if(chain.overlapping, unmet);
+    chain.met = chain.pairs.size();
+  }
+  for (const Pair& pair : chain.pairs)
+    frame.pairs.push_back({pair, false, std::ranges::binary_search(chain.overlapping, pair)});
+  for (FrameBody& body : frame.bodies)
+    if (const auto stored = structure.box_of(body.id)) body.stored_box = solid(*stored);
+
+  const Counters& c = picture.counters;
+  frame.add_count("nodes", c.nodes);
+  frame.add_count("leaves", c.leaves);
+  frame.add_count("depth", c.depth);
+  frame.add_count("entries", c.entries);
+  frame.add_count("most_in_leaf", picture.most_in_leaf);
+  frame.add_count("pairs", chain.pairs.size());
+  frame.add_count("pair_tests", chain.met);
+  frame.add_count("all_pairs", all_pairs(frame.bodies.size()));
+  frame.add_count("testable_pairs", testable_pairs_of(frame));
+  frame.add_count("overlaps", chain.overlapping.size());
+  const bool inside = !traits_of(spec.kind).is_own;
+  if (inside) frame.add_count("box_tests", c.box_tests);
+  frame.add_count("splits", c.splits);
+  if (inside) frame.add_count("nodes_reused", c.nodes_reused);
+  if (inside) frame.add_count("allocations", c.allocations);
+  if (c.node_bytes > 0) {
+    frame.add_count("slots", c.places);
+    frame.add_count("node_bytes", c.node_bytes);
+    frame.add_count("node_bytes_with_bounds", c.node_bytes + c.nodes * sizeof(Box<D>));
+  }
+  if (arrangement.axis) frame.add_count("swaps", c.swaps);
+  if (traits_of(spec.kind).follows) {
+    frame.add_count("reinserted", c.reinserted);
+    frame.add_count("refitted", c.refitted);
+    measure_boxes(frame);
+  }
+  if (tells_sleepers) {
+    const Sleepers asleep = count_sleepers(frame);
+    frame.add_count("nodes_asleep", asleep.nodes);
+    frame.add_count("leaves_asleep", asleep.leaves);
+    frame.add_count("branches_asleep", asleep.branches);
+  }
+  if (spec.split_static) {
+    frame.add_count("static_builds", structure.counters().static_builds);
+    frame.add_count("dynamic_builds", structure.counters().dynamic_builds);
+  }
+  if (traits_of(spec.kind).is_fitted) frame.add_count("stale", count_stale(world));
+}
 
 }  // namespace lantern::run

@@ -1,7 +1,6 @@
 #include "run/tally.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -18,7 +17,7 @@ Amount amount(std::uint64_t n, std::string name, std::string many = {}) {
   return {n, std::move(name), std::move(many)};
 }
 
-std::uint64_t counted(const Frame& frame, std::string_view name) {
+std::uint64_t count_of(const Frame& frame, std::string_view name) {
   return static_cast<std::uint64_t>(frame.count(name).value_or(0));
 }
 
@@ -28,46 +27,34 @@ std::uint64_t points_of(const FrameChart& chart) {
   return points;
 }
 
-// What there is on a frame, on all sides together.
-struct Seen {
-  std::uint64_t bodies = 0, asleep = 0, springs = 0, joints = 0, textures = 0, walls = 0,
-                sectors = 0;
-
-  void add(const Frame& frame) {
-    bodies += frame.bodies.size();
-    for (const FrameBody& body : frame.bodies) asleep += body.asleep;
-    for (const FrameLink& link : frame.get<FrameLinks>().links)
-      ++(link.kind == FrameLink::Kind::spring ? springs : joints);
-    textures += counted(frame, "textures");
-    walls += counted(frame, "walls");
-    sectors += counted(frame, "sectors");
-  }
-};
-
-void raise(std::uint64_t& most, std::uint64_t n) { most = std::max(most, n); }
-
 }  // namespace
 
 bool StageTally::used() const {
   return std::any_of(amounts.begin(), amounts.end(), [](const Amount& a) { return a.n > 0; });
 }
 
+void Tally::Seen::add(const Frame& frame) {
+  bodies += frame.bodies.size();
+  for (const FrameBody& body : frame.bodies) asleep += body.asleep;
+  for (const FrameLink& link : frame.get<FrameLinks>().links)
+    ++(link.kind == FrameLink::Kind::spring ? springs : joints);
+  textures += count_of(frame, "textures");
+  walls += count_of(frame, "walls");
+  sectors += count_of(frame, "sectors");
+}
+
 // A step always ends with a frame, and never builds two kinds: what was built since the frame
 // before is of this frame's kind.
 void Tally::see(const Frame& frame) {
   seconds_ = std::max(seconds_, frame.time);
-  raise(points_, points_of(frame.get<FrameChart>()));
   solid_ += frame.dimension == 3;
   Seen seen;
+  seen.points = points_of(frame.get<FrameChart>());
   if (frame.sides.empty()) seen.add(frame);
   for (const Frame& side : frame.sides) seen.add(side);
-  raise(bodies_, seen.bodies);
-  raise(asleep_, seen.asleep);
-  raise(springs_, seen.springs);
-  raise(joints_, seen.joints);
-  raise(textures_, seen.textures);
-  raise(walls_, seen.walls);
-  raise(sectors_, seen.sectors);
+  for (const auto n : {&Seen::bodies, &Seen::asleep, &Seen::springs, &Seen::joints, &Seen::textures,
+                       &Seen::walls, &Seen::sectors, &Seen::points})
+    most_.*n = std::max(most_.*n, seen.*n);
   for (std::size_t i = 0; i < panel_kinds().size(); ++i)
     for (const PanelRun::Content& content : run_of(Panel(i)).shows)
       with_[{i, content.what}] +=
@@ -102,7 +89,7 @@ std::vector<StageTally> Tally::stages(const DirectorReport& report) const {
 void Tally::list_motion(const WorldWork& world, Stages& all) const {
   const char* still = work_.world_steps == 0 ? "no world step was made" : "";
   all.push_back({"world",
-                 {amount(bodies_, "body", "bodies"), amount(work_.worlds_created, "world")},
+                 {amount(most_.bodies, "body", "bodies"), amount(work_.worlds_created, "world")},
                  scenario_.bodies.empty() ? "the scenario has no bodies" : ""});
   all.push_back({"motion",
                  {amount(work_.world_steps, "step")},
@@ -112,7 +99,7 @@ void Tally::list_motion(const WorldWork& world, Stages& all) const {
   all.push_back({"rotation", {amount(world.rotations_integrated, "rotation")}, still});
   all.push_back({"forces", {amount(world.force_evaluations, "evaluation")}, still});
   all.push_back({"springs and joints",
-                 {amount(springs_, "spring"), amount(joints_, "joint")},
+                 {amount(most_.springs, "spring"), amount(most_.joints, "joint")},
                  scenario_.links.empty() ? "nothing is tied to anything" : ""});
 }
 
@@ -162,7 +149,7 @@ void Tally::list_contacts(const WorldWork& world, Stages& all) const {
                  world.islands_solved > 0 ? methods : off});
   all.push_back({"friction", {amount(world.friction_rows, "row")}, off});
   all.push_back({"sleeping",
-                 {amount(asleep_, "body at most", "bodies at most"),
+                 {amount(most_.asleep, "body at most", "bodies at most"),
                   amount(world.rest_checks, "check for rest", "checks for rest")},
                  scenario_.world.may_sleep ? "" : "no body falls asleep by itself"});
 }
@@ -172,19 +159,19 @@ void Tally::list_others(const DirectorReport& report, Stages& all) const {
                  {amount(work_.queries, "ray, cull or query", "rays, culls or queries")},
                  work_.queries == 0 ? "no step asks" : ""});
   all.push_back({"level",
-                 {amount(walls_, "wall"), amount(sectors_, "sector")},
-                 !scenario_.level ? "the scenario has none"
-                 : walls_ == 0    ? "no step compiles it"
-                                  : ""});
+                 {amount(most_.walls, "wall"), amount(most_.sectors, "sector")},
+                 !scenario_.level   ? "the scenario has none"
+                 : most_.walls == 0 ? "no step compiles it"
+                                    : ""});
   all.push_back({"atlas",
                  {amount(work_.atlases_created, "atlas", "atlases"),
-                  amount(textures_, "texture packed", "textures packed")},
+                  amount(most_.textures, "texture packed", "textures packed")},
                  scenario_.atlas ? "" : "the scenario has none"});
   all.push_back({"expectations",
                  {amount(report.expectations, "check")},
                  report.unmet.empty() ? "" : fmt::format("{} do not hold", report.unmet.count())});
   all.push_back({"chart",
-                 {amount(points_, "point or bar", "points or bars")},
+                 {amount(most_.points, "point or bar", "points or bars")},
                  scenario_.chart ? "" : "the scenario has none"});
 }
 
@@ -193,7 +180,8 @@ void Tally::list_pictures(Stages& all) const {
     const PanelRun& panel = run_of(Panel(i));
     const bool drawn = shows(scenario_.panels, panel.name);
     StageTally& tally = all.emplace_back();
-    tally.stage = panel.stage;
+    tally.stage =
+        panel.stage.empty() ? fmt::format("{} panel", panel.name) : std::string(panel.stage);
     tally.note = drawn ? "" : "none of the scenario's panels";
     for (const PanelRun::Content& content : panel.shows) {
       const auto with = with_.find({i, content.what});

@@ -1,13 +1,8 @@
 // What one run did, stage by stage, counted while it ran: nothing is guessed from the file.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <map>
 #include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include "base/work.hpp"
 #include "run/director.hpp"
@@ -21,7 +16,7 @@ struct Amount {
 };
 
 struct StageTally {
-  std::string_view stage;  // "world", "motion", "structure", "tree panel", ...
+  std::string stage;  // "world", "motion", "structure", "tree panel", ...
   std::vector<Amount> amounts;
   std::string note;  // a fact of the file or of the run: "10.3 s passed"; may be empty
 
@@ -50,10 +45,14 @@ class Tally {
   const Scenario& scenario_;
   const Work& work_;
   double seconds_ = 0;  // that passed
-  // The most on one frame.
-  std::uint64_t bodies_ = 0, asleep_ = 0, springs_ = 0, joints_ = 0, textures_ = 0, points_ = 0;
-  std::uint64_t walls_ = 0, sectors_ = 0;  // of the level, once it is compiled
-  std::uint64_t solid_ = 0;                // 3D frames
+  // What there is on a frame, on all sides together; walls and sectors once a level is compiled.
+  struct Seen {
+    std::uint64_t bodies = 0, asleep = 0, springs = 0, joints = 0, textures = 0, walls = 0;
+    std::uint64_t sectors = 0, points = 0;
+    void add(const Frame& frame);
+  };
+  Seen most_;
+  std::uint64_t solid_ = 0;  // 3D frames
   // Frames with what a panel shows, by its place in the list.
   std::map<std::pair<std::size_t, std::string_view>, std::uint64_t> with_;
   std::map<StructureKind, std::uint64_t> builds_;

@@ -7,41 +7,12 @@
 #include "run/script_run.hpp"
 
 namespace lantern::run {
-
-void act(const CompileLevel&, ScriptRun& run) {
-  FrameMaker& frames = run.frames;
-  run.stage.level->compile([&](const LevelMoment& moment) {
-    if (!frames.stopped() && frames.by_event() && frames.wanted(moment.event))
-      frames.emit({}, moment.event, moment.text);
-  });
-  if (run.stage.engine) {
-    const StructureSpec& structure = run.engine().structure();
-    if (structure.of_level || structure.kind == StructureKind::none)
-      run.engine().rebuild_as(run.stage.level->structure());
-  }
-  frames.settle("compile");
-}
-
-void act(const Locate& locate, ScriptRun& run) {
-  run.stage.level->locate(locate.point);
-  run.frames.settle("locate");
-}
-
-void act(const OrderFrom& order, ScriptRun& run) {
-  run.stage.level->order_from(order.eye);
-  run.frames.settle("order");
-}
-
-void act(const See& see, ScriptRun& run) {
-  FrameMaker& frames = run.frames;
-  run.stage.level->see(see.eye, [&](const LevelMoment& moment) {
-    if (!frames.stopped() && frames.by_event() && frames.wanted(moment.event))
-      frames.emit({}, moment.event, moment.text);
-  });
-  frames.settle("see");
-}
-
 namespace {
+
+void show(const LevelMoment& moment, FrameMaker& frames) {
+  if (!frames.stopped() && frames.by_event() && frames.wanted(moment.event))
+    frames.emit({}, moment.event, moment.text);
+}
 
 void witness(const AtlasEvent& event, ScriptRun& run) {
   FrameMaker& frames = run.frames;
@@ -105,6 +76,31 @@ void tell_draw(const char* event, std::size_t texture, bool from_atlas, const st
 }
 
 }  // namespace
+
+void act(const CompileLevel&, ScriptRun& run) {
+  run.stage.level->compile([&](const LevelMoment& moment) { show(moment, run.frames); });
+  if (run.stage.engine) {
+    const StructureSpec& structure = run.engine().structure();
+    if (structure.of_level || structure.kind == StructureKind::none)
+      run.engine().rebuild_as(run.stage.level->structure());
+  }
+  run.frames.settle("compile");
+}
+
+void act(const Locate& locate, ScriptRun& run) {
+  run.stage.level->locate(locate.point);
+  run.frames.settle("locate");
+}
+
+void act(const OrderFrom& order, ScriptRun& run) {
+  run.stage.level->order_from(order.eye);
+  run.frames.settle("order");
+}
+
+void act(const See& see, ScriptRun& run) {
+  run.stage.level->see(see.eye, [&](const LevelMoment& moment) { show(moment, run.frames); });
+  run.frames.settle("see");
+}
 
 void act(const Pack& pack, ScriptRun& run) {
   if (run.scenario.atlas->rule == AtlasRule::best_texture) return pack_chosen(pack, run);

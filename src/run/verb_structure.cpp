@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "base/counted.hpp"
 #include "run/event_text.hpp"
-#include "run/running_finding.hpp"
 #include "run/script_run.hpp"
 
 namespace lantern::run {
@@ -34,9 +34,76 @@ std::vector<BodyId> in_order(const Frame& frame) {
 std::string text_of(const std::string& name, const std::vector<std::string>& others) {
   if (others.empty()) return fmt::format("Nobody begins before {} ends: nothing to compare.", name);
   return fmt::format("Before {} ends, {} begin{}: {} to compare.", name, fmt::join(others, " and "),
-                     others.size() == 1 ? "s" : "",
-                     others.size() == 1 ? "1 pair" : fmt::format("{} pairs", others.size()));
+                     others.size() == 1 ? "s" : "", counted(others.size(), "pair"));
 }
+
+// What the walk of a finding has brought to light so far, event by event: hits, counts, how far a
+// ray reaches, and which nodes were gone through or left out. After the last event it is the
+// finding itself.
+class RunningFinding {
+ public:
+  // Of a walk that has not begun. `whole` must outlive this.
+  explicit RunningFinding(const Finding& whole) : whole_(whole) {
+    so_far_.done = false;
+    so_far_.nearest = whole.nearest;
+    so_far_.view = whole.view;
+    so_far_.region = whole.region;
+    so_far_.asked = whole.asked;
+    if (whole.ray) so_far_.ray = FrameRay{whole.ray->from, whole.asked, {}};
+  }
+
+  // The next event of whole.walk has happened.
+  void go_on() {
+    using Kind = QueryEvent::Kind;
+    const QueryEvent& event = whole_.walk[at_];
+    const bool marks = !is_of_static();
+    switch (event.kind) {
+      case Kind::visit:
+        ++so_far_.counts.nodes_visited;
+        if (marks) touched_.passed.insert(event.node);
+        if (marks && whole_.ray) touched_.met.push_back(event.node);
+        break;
+      case Kind::skip:
+        ++so_far_.counts.nodes_skipped;
+        if (marks) touched_.skipped.insert(event.node);
+        break;
+      case Kind::test:
+        ++so_far_.counts.objects_tested;
+        so_far_.missed.insert(event.body);
+        break;
+      case Kind::hit:
+        so_far_.missed.erase(event.body);
+        so_far_.hits.push_back(event.body);
+        break;
+    }
+    ++at_;
+  }
+
+  // Hits of a ray in order along it, else by id.
+  Finding so_far() const {
+    if (at_ == whole_.walk.size()) return whole_;
+    Finding found = so_far_;
+    const auto order = [&](BodyId id) {
+      return std::pair{whole_.ray ? whole_.met.at(id).distance : 0, id};
+    };
+    std::ranges::sort(found.hits, {}, order);
+    if (!whole_.ray) return found;
+    if (whole_.nearest && !found.hits.empty()) found.hits.resize(1);
+    for (const BodyId id : found.hits) found.ray->hits.push_back({id, whole_.met.at(id).position});
+    if (whole_.nearest && !found.hits.empty()) found.ray->to = found.ray->hits[0].position;
+    return found;
+  }
+  // Nodes of the structure of what moves.
+  const Touched& touched() const { return touched_; }
+  // Is the next event of the other structure, of what never moves?
+  bool is_of_static() const { return at_ >= whole_.first_static; }
+
+ private:
+  const Finding& whole_;
+  Finding so_far_;  // its hits as they were found
+  Touched touched_;
+  std::size_t at_ = 0;  // in the walk
+};
 
 // One frame for each thing that the walk did, of which each knows what was found up to it.
 void replay(const Finding& whole, ScriptRun& run) {
@@ -91,31 +158,24 @@ void act(const Compare& compare, ScriptRun& run) {
 }
 
 void act(const language::Sweep&, ScriptRun& run) {
-  Frame whole = run.frames.picture(run.frames.touched, "sweep");
+  FrameMaker& frames = run.frames;
+  const Frame whole = frames.picture(frames.touched, "sweep");
   std::vector<Pair> met;
   run.engine().each_swept([&](BodyId a, BodyId b) { met.push_back({a, b}); });
   const auto name_of = [&](BodyId id) { return whole.body_of(id)->name; };
-  std::set<Pair> found;
+  SweptSoFar& swept = frames.swept.emplace(SweptSoFar{whole.hash, 0, {}});
   std::size_t next = 0;
   for (const BodyId at : in_order(whole)) {
     std::vector<std::string> others;
     for (; next < met.size() && met[next].a == at; ++next) {
-      found.insert({std::min(at, met[next].b), std::max(at, met[next].b)});
+      swept.met.insert({std::min(at, met[next].b), std::max(at, met[next].b)});
       others.push_back(name_of(met[next].b));
     }
-    Frame frame = whole;
-    frame.add<FrameStructure>().swept_to = at;
-    std::erase_if(frame.pairs, [&](const FramePair& p) { return !found.contains(p.pair); });
-    for (FramePair& pair : frame.pairs) pair.lit = pair.pair.a == at || pair.pair.b == at;
-    for (auto& [name, number] : frame.counts) {
-      if (name == "pairs" || name == "pair_tests") number = std::ssize(frame.pairs);
-      if (name == "overlaps") number = std::ranges::count_if(frame.pairs, &FramePair::overlaps);
-    }
-    for (FrameBody& body : frame.bodies) body.lit = body.id == at;
-    frame.caption = text_of(name_of(at), others);
-    run.frames.give(std::move(frame), true);
+    swept.at = at;
+    if (!frames.stopped()) frames.emit({}, "sweep", text_of(name_of(at), others), at);
   }
-  run.frames.settle("sweep");
+  frames.swept.reset();
+  frames.settle("sweep");
 }
 
 void act(const CastRay& ray, ScriptRun& run) { answer(run.engine().ask(ray), "ray", run); }

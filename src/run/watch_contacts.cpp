@@ -1,5 +1,5 @@
 // A warning of bodies that fall into each other, in a world in which nothing touches.
-#include <algorithm>
+#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
@@ -147,12 +147,175 @@ class ContactsWatch : public Watcher {
   bool put_ = true;
 };
 
+class CrushWatch : public Watcher {
+ public:
+  explicit CrushWatch(const Scenario& scenario) : scenario_(scenario) {}
+
+  void see_world(const Players<2>& players) override { look(players.world()); }
+  void see_world(const Players<3>& players) override { look(players.world()); }
+
+  std::vector<Diagnostic> warnings() const override {
+    return found_.list("pairs of bodies crush one of them");
+  }
+
+ private:
+  template <int D>
+  void look(const World<D>& world) {
+    for (const ContactEvent& event : world.events())
+      if (event.crushes && told_.insert({event.a, event.b}).second)
+        found_.add([&] { return crushed(world, {event.a, event.b}); });
+  }
+
+  template <int D>
+  Diagnostic crushed(const World<D>& world, const Pair& pair) const {
+    const auto contact = std::ranges::lower_bound(world.contacts(), pair, {}, &Contact<D>::pair);
+    double depth = 0;
+    for (const ManifoldPoint<D>& p : contact->manifold.points())
+      depth = std::max(depth, -p.separation);
+    return warning(
+        scenario_, place_of_firmness(scenario_.world),
+        fmt::format("'{}' and '{}' are pressed {:.3g} into each other at {:.4g} s: one "
+                    "of them is crushed against a third",
+                    world.find(pair.a)->name, world.find(pair.b)->name, depth, world.time()),
+        "let what pushes it stop, or " + firmer(scenario_.world) +
+            if_meant(scenario_, Warning::crush));
+  }
+
+  const Scenario& scenario_;
+  std::set<Pair> told_;
+  Diagnostics found_;
+};
+
+// Half sizes of the box around a shape, along its own axes. Nothing for a half-space.
+template <int D>
+std::optional<Vec<D>> half_sizes(const Shape<D>& shape) {
+  if (std::holds_alternative<HalfSpace<D>>(shape)) return std::nullopt;
+  return bounding_box(shape, Vec<D>(0.0)).hi;
+}
+
+//      x from        Did the way of a centre lead through the middle of the static body, across the
+//    ___\____        direction in which that is thinnest?
+//   |____\___|
+//         x to
+template <int D>
+bool crossed(const Body<D>& obstacle, const Vec<D>& from, const Vec<D>& to) {
+  const std::optional<Vec<D>> half = half_sizes(obstacle.shape);
+  if (!half) return false;
+  Mat<D> axes(1.0);
+  if (turns<D>(obstacle.shape)) axes = matrix(obstacle.orientation);
+  const Vec<D> a = glm::transpose(axes) * (from - obstacle.position);
+  const Vec<D> b = glm::transpose(axes) * (to - obstacle.position);
+  int thin = 0;
+  for (int i = 1; i < D; ++i)
+    if ((*half)[i] < (*half)[thin]) thin = i;
+  if (!(a[thin] * b[thin] < 0)) return false;
+  const Vec<D> middle = a + (b - a) * (a[thin] / (a[thin] - b[thin]));
+  for (int i = 0; i < D; ++i)
+    if (i != thin && !(std::abs(middle[i]) < (*half)[i])) return false;
+  return true;
+}
+
+class ThroughWatch : public Watcher {
+ public:
+  explicit ThroughWatch(const Scenario& scenario) : scenario_(scenario) {
+    for (const LinkSpec& link : scenario.links)
+      if (link.b) linked_.insert(std::minmax(link.a, *link.b));
+  }
+
+  // What a step puts somewhere else has not been pushed there.
+  void begin(const Step& step) override {
+    if (std::holds_alternative<Move>(step.verb) || entering(step.verb)) before_.clear();
+  }
+
+  void see_world(const Players<2>& players) override { look(players); }
+  void see_world(const Players<3>& players) override { look(players); }
+
+  std::vector<Diagnostic> warnings() const override {
+    return found_.list("bodies are pushed through a static one");
+  }
+
+ private:
+  template <int D>
+  void look(const Players<D>& players) {
+    const World<D>& world = players.world();
+    for (const Contact<D>& contact : world.contacts()) {
+      double depth = 0;
+      for (const ManifoldPoint<D>& point : contact.manifold.points())
+        depth = std::max(depth, -point.separation);
+      if (depth > 0)
+        for_dynamic_and_static(
+            players, {contact.a, contact.b}, [&](const auto& moved, const auto& obstacle) {
+              const double width = 2 * thickness<D>(moved.shape);
+              if (!(depth > width) || !(width > 0)) return;
+              tell(players, moved, obstacle,
+                   fmt::format("lies {:.3g} deep in '{}', more than its own thickness,", depth,
+                               obstacle.name));
+            });
+    }
+    for (const Pair& pair : world.pairs())
+      for_dynamic_and_static(players, pair, [&](const auto& moved, const auto& obstacle) {
+        if (moved.id < before_.size() && before_[moved.id] &&
+            crossed<D>(obstacle, in_dimension<D>(*before_[moved.id]), moved.position))
+          tell(players, moved, obstacle, fmt::format("is pushed through '{}'", obstacle.name));
+      });
+    for (const Body<D>& body : world.bodies()) {
+      if (before_.size() <= body.id) before_.resize(body.id + std::size_t{1});
+      if (body.kind == BodyKind::dynamic_body) before_[body.id] = solid(body.position);
+    }
+  }
+
+  // f(dynamic, static), if the pair is one of these and not tied together.
+  template <int D, class F>
+  void for_dynamic_and_static(const Players<D>& players, const Pair& pair, F&& f) const {
+    const Body<D>* a = players.world().find(pair.a);
+    const Body<D>* b = players.world().find(pair.b);
+    if (!a || !b) return;
+    if (a->kind == BodyKind::static_body) std::swap(a, b);
+    if (a->kind != BodyKind::dynamic_body || b->kind != BodyKind::static_body) return;
+    const auto i = players.index_of(a->id), j = players.index_of(b->id);
+    if (i && j && !linked_.contains(std::minmax(*i, *j))) f(*a, *b);
+  }
+
+  template <int D>
+  void tell(const Players<D>& players, const Body<D>& moved, const Body<D>& obstacle,
+            const std::string& what) {
+    if (!told_.insert({moved.id, obstacle.id}).second) return;
+    found_.add([&] {
+      return warning(scenario_, place_of_firmness(scenario_.world),
+                     fmt::format("'{}' {} at {:.4g} s", moved.name, what, players.world().time()),
+                     firmer(scenario_.world) + ", or '" + obstacle.name + "' a larger size");
+    });
+  }
+
+  const Scenario& scenario_;
+  std::set<std::pair<std::size_t, std::size_t>> linked_;
+  std::vector<std::optional<Vec<3>>> before_;  // centres of dynamic bodies a step ago, by id
+  std::set<std::pair<BodyId, BodyId>> told_;
+  Diagnostics found_;
+};
+
 }  // namespace
 
 Watching watch_contacts(const Scenario& scenario) {
   if (scenario.has_contacts() || !anything_pushes(scenario) || scenario.bodies.size() < 2)
     return nullptr;
   return std::make_unique<ContactsWatch>(scenario);
+}
+
+// A warning of bodies that are crushed between others.
+
+Watching watch_crush(const Scenario& scenario) {
+  if (!scenario.has_contacts() || scenario.bodies.size() < 3) return nullptr;
+  return std::make_unique<CrushWatch>(scenario);
+}
+
+// A warning of bodies that are pushed into or through one that never moves.
+
+Watching watch_through(const Scenario& scenario) {
+  if (!scenario.has_contacts() || !scenario.has_body_of(BodyKind::dynamic_body) ||
+      !scenario.has_body_of(BodyKind::static_body))
+    return nullptr;
+  return std::make_unique<ThroughWatch>(scenario);
 }
 
 }  // namespace lantern::run

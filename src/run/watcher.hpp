@@ -3,10 +3,7 @@
 
 #include <functional>
 #include <memory>
-#include <string>
-#include <string_view>
 #include <unordered_map>
-#include <vector>
 
 #include "frame/frame.hpp"
 #include "run/players.hpp"
@@ -17,8 +14,7 @@ class Watcher : public WorldWatch {
  public:
   virtual void begin(const Step&) {}
   virtual void see_frame(const Frame&) {}
-  // After a world step, for those that ask for it.
-  virtual bool sees_worlds() const { return false; }
+  // After a world step.
   void see_world(const Players<2>&) override {}
   void see_world(const Players<3>&) override {}
   virtual std::vector<Diagnostic> warnings() const = 0;

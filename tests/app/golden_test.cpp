@@ -19,7 +19,6 @@
 #include "base/hash.hpp"
 #include "render/compare.hpp"
 #include "render/png.hpp"
-#include "render/seal.hpp"
 #include "rooms.hpp"
 
 namespace lantern::app {

@@ -70,9 +70,9 @@ TEST(Font, RasterisesAndOutlines) {
   EXPECT_NEAR(bitmap.height, 40 * cap_height(Weight::regular), 1.5);
   EXPECT_NEAR(-bitmap.top, 40 * cap_height(Weight::regular), 1.5) << "stands on the baseline";
   EXPECT_GT(*std::max_element(bitmap.coverage.begin(), bitmap.coverage.end()), 250);
-  const std::string path = glyph_path(glyph, Weight::regular);
-  EXPECT_EQ(path.front(), 'M');
-  EXPECT_EQ(path.back(), 'Z');
+  const std::vector<PathStep> path = glyph_path(glyph, Weight::regular);
+  EXPECT_EQ(path.front().letter, 'M');
+  EXPECT_EQ(path.back().letter, 'Z');
   const int space = shape_text(" ", 10, Weight::regular)[0].glyph;
   EXPECT_TRUE(glyph_path(space, Weight::regular).empty());
   EXPECT_TRUE(rasterise_glyph(space, Weight::regular, 40, 0).coverage.empty());

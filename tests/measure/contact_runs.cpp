@@ -19,7 +19,7 @@ class EngineRun : public Simulation {
   void advance(std::uint64_t steps) override {
     while (steps-- > 0) engine_->step();
   }
-  void act(const Verb& verb) override { engine_->move(std::get<Move>(verb)); }
+  void act(const Verb& verb) override { engine_->apply(std::get<Move>(verb)); }
   void observe(std::vector<BodyState>& states) const override { engine_->observe(states); }
   std::uint64_t impacts() const override { return engine_->world_work().impacts_located; }
 

@@ -1,5 +1,5 @@
 // Documents: the same bytes twice, the picture of the other renderer, and words that are found.
-#include "publish/pdf.hpp"
+#include "publish/paper.hpp"
 
 #include <cmath>
 #include <cstdio>

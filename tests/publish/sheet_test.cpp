@@ -1,12 +1,11 @@
 // Contact sheets: every picture and every word in its place.
-#include "publish/sheet.hpp"
-
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
 #include "draw/font.hpp"
+#include "publish/paper.hpp"
 #include "render/sample_scene.hpp"
 
 namespace lantern::publish {

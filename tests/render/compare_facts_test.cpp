@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "render/compare.hpp"
-#include "render/seal.hpp"
+#include "render/png.hpp"
 
 namespace lantern::render {
 namespace {

@@ -1,6 +1,4 @@
 // A file tells what it was made from, and whether it is as it was written.
-#include "render/seal.hpp"
-
 #include <gtest/gtest.h>
 
 #include "render/png.hpp"

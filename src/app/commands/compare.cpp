@@ -21,7 +21,6 @@
 #include "base/json_writer.hpp"
 #include "base/number.hpp"
 #include "render/png.hpp"
-#include "render/seal.hpp"
 
 namespace lantern::app {
 namespace {

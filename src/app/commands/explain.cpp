@@ -73,7 +73,7 @@ int explain_scenario(const ExplainOptions& options) {
   }
   std::vector<std::vector<std::string>> rows;
   for (const StageTally& stage : stages)
-    rows.push_back({stage.used() ? "uses" : "leaves out", std::string(stage.stage), told(stage)});
+    rows.push_back({stage.used() ? "uses" : "leaves out", stage.stage, told(stage)});
   print(fmt::format("{}: {}\n\n{}\nCounted in a run without pixels: {} in {:.2g} s.\n",
                     scenario.name, scenario.title, table(rows), counted(report.frames, "frame"),
                     seconds));

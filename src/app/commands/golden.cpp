@@ -19,6 +19,7 @@
 #include "app/run_scenario.hpp"
 #include "app/scenario_folder.hpp"
 #include "app/terminal.hpp"
+#include "base/counted.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
 #include "embedded/version.hpp"
@@ -305,7 +306,7 @@ class GoldenRun {
     const std::string of =
         suites_.size() == 1 ? "1 scenario" : fmt::format("{} scenarios", suites_.size());
     if (bad == 0)
-      say(fmt::format("{} of {} as expected{}", counted_frames(frames), of, place));
+      say(fmt::format("{} of {} as expected{}", counted(frames, "frame"), of, place));
     else
       say(fmt::format("{} of {} not as expected{}", bad, of, place));
   }

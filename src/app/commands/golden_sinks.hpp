@@ -28,7 +28,6 @@
 #include "render/compare.hpp"
 #include "render/png.hpp"
 #include "render/renderer.hpp"
-#include "render/seal.hpp"
 
 namespace lantern::app {
 

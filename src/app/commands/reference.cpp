@@ -17,7 +17,6 @@
 #include "language/language.hpp"
 #include "render/png.hpp"
 #include "render/renderer.hpp"
-#include "render/seal.hpp"
 #include "render/svg.hpp"
 #include "run/director.hpp"
 

@@ -14,7 +14,6 @@
 #include "base/file.hpp"
 #include "frame/frame.hpp"
 #include "render/png.hpp"
-#include "render/seal.hpp"
 
 namespace lantern::app {
 

@@ -17,8 +17,7 @@
 #include "base/memory.hpp"
 #include "draw/page.hpp"
 #include "embedded/version.hpp"
-#include "publish/pdf.hpp"
-#include "publish/sheet.hpp"
+#include "publish/paper.hpp"
 #include "render/renderer.hpp"
 
 namespace lantern::app {

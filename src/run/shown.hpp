@@ -1,0 +1,95 @@
+// What a frame shows beside the state: what is lit, its cause and no more; from where it is looked
+// at; what the narrow phase was asked; rulers and comparisons.
+#pragma once
+
+#include "frame/frame.hpp"
+#include "language/scenario.hpp"
+#include "run/engine.hpp"
+
+namespace lantern::run {
+
+// Why there is a frame.
+struct Cause {
+  const VerbTraits& verb;
+  const std::set<BodyId>& focus;  // the bodies that the step is about
+  bool midst = false;             // in the midst of the algorithm; else what it has led to
+};
+
+// A step lights the bodies that it is about, the leaves that hold them and, as passed, the way to
+// them. When it is about many, or about all that can move, only nodes and pairs are lit that are
+// new. The first frame of a run lights nothing: all of it is new.
+class Lighting {
+ public:
+  // Nodes that are marked already were watched at work and stay as they are.
+  void light(const Cause& cause, Frame& frame) const;
+
+  // The next frame's news are what this one does not have.
+  void remember(const Frame& frame, bool midst);
+
+ private:
+  void light_nodes(const Cause& cause, bool few, Frame& frame) const;
+  void light_pairs(bool few, Frame& frame) const;
+  void light_edges(Frame& frame) const;
+
+  std::vector<Pair> pairs_;            // of the last frame, ascending
+  std::vector<Pair> edges_;            // the same
+  std::vector<std::uint64_t> places_;  // of nodes, of the last frame that was not in the midst
+};
+
+// Where frames are looked at from, and what of the world they show, from step to step.
+class Looks {
+ public:
+  // The scenario must outlive this.
+  explicit Looks(const Scenario& scenario);
+
+  // What follows belongs to this step, which begins at that time of the world, in seconds.
+  void begin(const Step& step, double time);
+
+  // Fills the frame's display, view and camera; its time and bounds must be there.
+  void show(Frame& frame) const;
+
+ private:
+  double angle_at(double time) const;
+  void aim(Frame& frame) const;
+
+  const Scenario& scenario_;
+  const Step* step_ = nullptr;
+  std::optional<Box<2>> view_;  // none: all
+  std::optional<Camera> from_;  // before it goes round; none: as all is seen
+  bool goes_round_ = false;     // somewhere in the script
+  double angle_ = 0;            // radians that it went round before this step
+  double began_ = 0;            // the step, seconds
+  double seconds_ = 0;          // that the step may last
+};
+
+// What `test_shapes`, `separate` and `gjk` have told: shown in their own step, counted from then
+// on.
+class NarrowShown {
+ public:
+  // What a step before has shown is no longer drawn.
+  void begin_step() { drawn_ = Drawn::nothing; }
+
+  void show(ShapeTests tests);
+  void show(FrameSeparation separation);
+  void show(FrameSearch search);
+
+  // Also the difference of the two that were searched last, or else of the first two bodies there.
+  void add_to(Frame& frame, const Engine& engine) const;
+
+ private:
+  enum class Drawn { nothing, tests, separation, search };
+
+  Drawn drawn_ = Drawn::nothing;
+  std::optional<ShapeTests> tests_;
+  std::optional<FrameSeparation> separation_;
+  std::optional<FrameSearch> search_;
+};
+
+// Where a step's ruler begins and ends in the world; nothing while a body that it is laid to is not
+// there. `engine` may be null if there are no bodies.
+std::optional<std::pair<Vec<3>, Vec<3>>> ends_of(const RulerSpec& ruler, const Engine* engine);
+
+// Before anything was compared: the columns and rows that the script will fill.
+FrameComparison empty_comparison(const Scenario& scenario);
+
+}  // namespace lantern::run
