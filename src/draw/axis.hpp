@@ -1,11 +1,24 @@
 // A plot's axis: its range, where its ticks stand, and what is written at them.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace lantern::draw {
+
+// What an axis must hold.
+struct PlotRange {
+  double least = 1e300, most = -1e300;
+  void add(double value, bool logarithmic) {
+    if (!std::isfinite(value) || (logarithmic && value <= 0)) return;
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  bool empty() const { return least > most; }
+};
 
 class Axis {
  public:

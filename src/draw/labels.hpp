@@ -21,6 +21,9 @@ struct TextStyle {
   Role role = Role::ink;
   Role halo = Role::none;
 };
+// What most words of panels are set in.
+inline constexpr TextStyle kPlain{}, kStrong{kLabel, Weight::semibold},
+    kQuiet{kLabel, Weight::regular, Role::quiet_ink};
 
 // In page units, as text_width of its size and weight.
 double text_width(std::string_view text, const TextStyle& style);

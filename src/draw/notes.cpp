@@ -1,5 +1,3 @@
-#include "draw/notes.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "draw/font.hpp"
+#include "draw/panel.hpp"
 #include "draw/pen.hpp"
 
 namespace lantern::draw {

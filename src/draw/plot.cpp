@@ -8,7 +8,7 @@
 
 #include "draw/pen.hpp"
 #include "draw/plot_layout.hpp"
-#include "draw/plot_lines.hpp"
+#include "draw/plot_parts.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -10,7 +10,6 @@
 #include "draw/number_text.hpp"
 #include "draw/pen.hpp"
 #include "draw/plot.hpp"
-#include "draw/plot_lines.hpp"
 #include "draw/plot_marks.hpp"
 #include "draw/plot_parts.hpp"
 
@@ -31,16 +30,6 @@ struct PlotStyle {
     apart = 0;
     ticks_apart = Vec<2>(3.6, 2.1) * plot.size;
   }
-};
-
-struct PlotRange {
-  double least = 1e300, most = -1e300;
-  void add(double value, bool logarithmic) {
-    if (!std::isfinite(value) || (logarithmic && value <= 0)) return;
-    least = std::min(least, value);
-    most = std::max(most, value);
-  }
-  bool empty() const { return least > most; }
 };
 
 // A series on the page.

@@ -11,9 +11,10 @@
 #include <span>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
-#include "draw/axis_ranges.hpp"
+#include "draw/axis.hpp"
 #include "draw/keys.hpp"
 #include "frame/frame.hpp"
 #include "geometry/box.hpp"
@@ -41,6 +42,29 @@ struct UnionTree {
   std::uint32_t rows() const;
   // Nothing for a node beyond those kept.
   const UnionNode* find(std::string_view way) const;
+};
+
+// What the axes of a sequence must hold, so that none of them changes from frame to frame: of all
+// frames that it was shown. Nothing is known of what none of them has.
+class AxisRanges {
+ public:
+  using Ends = std::optional<std::pair<double, double>>;
+
+  void see(const frame::Frame& frame);
+  Ends chart() const { return ends_of(chart_); }      // of charts' values
+  Ends chart_x() const { return ends_of(chart_x_); }  // of what they are drawn against
+  double trace() const { return trace_; }             // the most of a sparkline
+  // That a part's sparkline goes on for.
+  std::optional<double> seconds_of(const std::string& part) const;
+
+ private:
+  static Ends ends_of(const PlotRange& range) {
+    return range.empty() ? Ends() : std::pair(range.least, range.most);
+  }
+
+  PlotRange chart_, chart_x_;
+  double trace_ = 0;
+  std::map<std::string, double> seconds_;  // by part
 };
 
 class Staging {

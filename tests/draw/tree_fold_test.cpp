@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "draw/page.hpp"
-#include "draw/panels.hpp"
+#include "draw/panel.hpp"
 #include "draw/sample_frames.hpp"
 #include "draw/tree/tree_layout.hpp"
 

@@ -6,7 +6,7 @@
 #include "base/random.hpp"
 #include "draw/colour_vision.hpp"
 #include "draw/page.hpp"
-#include "draw/panels.hpp"
+#include "draw/panel.hpp"
 #include "draw/theme.hpp"
 #include "draw/world/painter_order.hpp"
 #include "draw/world3d_samples.hpp"

@@ -10,7 +10,6 @@
 #include "draw/font.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
-#include "draw/panels.hpp"
 #include "draw/plot.hpp"
 #include "draw/plot_marks.hpp"
 #include "draw/plot_parts.hpp"
@@ -239,14 +238,12 @@ Plot plot_of(const FrameChart& chart, const AxisRanges& axes) {
   return plot;
 }
 
-void draw_chart(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
+void draw_chart(const Frame& frame, const Staging& staging, const Box<2>& place, DrawList& list,
                 Labels& labels) {
   const FrameChart& chart = frame.get<FrameChart>();
   for (const std::string& name : {chart.x_name, chart.y_name}) list.referents.insert(name);
   for (const FrameSeries& series : chart.series)
     list.referents.insert({series.name, chart.y_name + "." + series.name});
-  const Box<2> place = shrunk(panel, 4);
-  if (place.size().x < 40 || place.size().y < 40) return;
   // A chart of bars has no axes before its first bar.
   const bool of_bars = !chart.bars.empty() ||
                        (chart.x_name.empty() && !chart.y_name.empty() && chart.series.empty());
@@ -258,16 +255,12 @@ void draw_chart(const Frame& frame, const Staging& staging, const Box<2>& panel,
 
 }  // namespace
 
-std::string chart_words(std::string name) {
-  std::ranges::replace(name, '_', ' ');
-  if (const std::size_t dot = name.find('.'); dot != std::string::npos) name.replace(dot, 1, ": ");
-  return name;
-}
-
 // One count against another as lines, or counts as bars. Lines carry marks of different shapes and
 // their names at their ends; the newest point of each is larger and says its number. Bars lie
 // level in groups, their names before and their numbers behind them. Points that
 // are not finite are left out; what there is no room for is said.
-PanelView chart_panel() { return {.name = "chart", .draw = draw_chart, .enough = 300}; }
+PanelView chart_panel() {
+  return {.name = "chart", .draw = draw_chart, .enough = 300, .inset = 4, .smallest = {40, 40}};
+}
 
 }  // namespace lantern::draw

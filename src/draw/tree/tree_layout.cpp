@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "draw/font.hpp"
-#include "draw/panels.hpp"
+#include "draw/panel.hpp"
 #include "draw/tree/tidy_tree.hpp"
 
 namespace lantern::draw {

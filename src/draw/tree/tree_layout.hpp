@@ -39,10 +39,6 @@ struct BranchText {
 BranchText text_of(const Branch& branch, const FrameNode& node, bool atlas, const TreeScale& scale,
                    const TreeWords& words);
 
-// The last step of the way down, "…3", for a label whose whole way has no room; empty if the way
-// has one step only.
-std::string short_label(const std::string& label);
-
 // A way of more than three steps: longer than anyone reads.
 bool is_long_way(const std::string& label);
 

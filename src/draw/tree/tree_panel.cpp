@@ -8,7 +8,6 @@
 
 #include "draw/font.hpp"
 #include "draw/panel.hpp"
-#include "draw/panels.hpp"
 #include "draw/tree/tree_layout.hpp"
 
 namespace lantern::draw {
@@ -60,7 +59,7 @@ double number_width(std::int64_t number, const TextStyle& style) {
 // A count has room for two digits at least, so that the others do not move while a small tree
 // grows.
 int lay_out_facts(const std::vector<Fact>& facts, const Box<2>& panel, double top, Labels* labels) {
-  const TextStyle style{kLabel, Weight::regular, Role::quiet_ink};
+  const TextStyle& style = kQuiet;
   constexpr double kSpace = 6;
   double x = panel.lo.x;
   int line = 0;
@@ -114,17 +113,14 @@ std::vector<FrameNode> nodes_of_tree(const Frame& frame, bool of_static) {
   return nodes;
 }
 
-double share_of(const UnionTree& tree, bool beside) {
-  return beside ? std::min(tree.leaves(), 16u) : std::min(tree.rows(), 6u);
-}
-
 // In parts by what each tree needs, but none below a quarter of an even part.
 std::vector<Box<2>> cut(const std::vector<UnionTree>& trees, const Box<2>& area) {
   const Vec<2> size = area.size();
   const bool beside = size.x > kWideEnough * size.y;
   const int axis = beside ? 0 : 1;
   std::vector<double> shares;
-  for (const UnionTree& tree : trees) shares.push_back(share_of(tree, beside));
+  for (const UnionTree& tree : trees)
+    shares.push_back(beside ? std::min(tree.leaves(), 16u) : std::min(tree.rows(), 6u));
   const double even =
       std::accumulate(shares.begin(), shares.end(), 0.0) / static_cast<double>(trees.size());
   for (double& share : shares) share = std::max(share, (beside ? 0.6 : 0.7) * even);
@@ -182,9 +178,9 @@ void draw_tree(const Frame& frame, const Staging& staging, const Box<2>& panel, 
   Box<2> diagram = panel;
   diagram.hi.y -= height + 4;
   if (traits_of(frame.structure).has(Setting::axis))
-    return draw_sweep(frame, shrunk(diagram, 6), list, labels);
+    return draw_sweep({frame, staging, shrunk(diagram, 6), list, labels});
   if (!frame.get<FrameStructure>().grid_levels.empty() && staging.trees().size() < 2)
-    return draw_grid(frame, shrunk(diagram, 6), list, labels);
+    return draw_grid({frame, staging, shrunk(diagram, 6), list, labels});
   if (staging.trees().size() > 1) return draw_forest(frame, staging, diagram, list, labels);
   for (const UnionTree& tree : staging.trees())
     draw_staged_tree(frame, tree, staging, diagram, list, labels);

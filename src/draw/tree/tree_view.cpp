@@ -8,9 +8,8 @@
 #include "draw/keys.hpp"
 #include "draw/marks.hpp"
 #include "draw/naming.hpp"
-#include "draw/notes.hpp"
-#include "draw/panels.hpp"
-#include "draw/pattern.hpp"
+#include "draw/panel.hpp"
+#include "draw/texture_picture.hpp"
 #include "draw/tree/tree_layout.hpp"
 #include "draw/world/world2d_parts.hpp"
 
@@ -59,7 +58,7 @@ class TreeView {
 
   // What is drawn next belongs to a branch, and comes out of its parent's box.
   DrawList::Scope shown(std::string_view kind, std::size_t i) {
-    const std::uint32_t node = branches()[i].node;
+    const FrameNode& node = node_of(branches()[i]);
     return {list_, node_key(kind, frame_.nodes, node), parent_key("tree/node", frame_.nodes, node)};
   }
   // Its words, which appear where they stand.
@@ -68,8 +67,8 @@ class TreeView {
   }
   // A body or texture in a leaf, which comes there from the leaf's parent.
   DrawList::Scope carried(const std::string& what, const Branch& leaf) {
-    return {list_, node_key(what, frame_.nodes, leaf.node),
-            parent_key(what, frame_.nodes, leaf.node)};
+    const FrameNode& node = node_of(leaf);
+    return {list_, node_key(what, frame_.nodes, node), parent_key(what, frame_.nodes, node)};
   }
 
   bool is_lit_edge(const Branch& branch) const {
@@ -187,10 +186,10 @@ class TreeView {
       draw_pattern(texture.id, texture.color, place, 0.8, kMostPatternParts, list_, texture.turned);
       return list_.rect(place, Role::none, {Role::body_line, 1.2});
     }
-    const auto found = bodies_.find(id);
-    if (found == bodies_.end()) return;
-    const DrawList::Scope scope = carried(body_key("tree/body", *found->second), branch);
-    draw_character(*found->second, icon_box(*found->second, place), false, list_);
+    const FrameBody* body = body_of(bodies_, id);
+    if (!body) return;
+    const DrawList::Scope scope = carried(body_key("tree/body", *body), branch);
+    draw::draw_icon(body, place, list_);
   }
 
   // How an atlas's node is cut: two halves, and the strong line between.

@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "draw/body_shapes.hpp"
-#include "draw/borders.hpp"
 #include "draw/keys.hpp"
 #include "draw/pen.hpp"
+#include "draw/world/borders.hpp"
 #include "draw/world/world2d_parts.hpp"
 #include "geometry/not_finite.hpp"
 
@@ -164,9 +164,8 @@ void fill_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& 
     const FrameNode& node = frame.nodes[i];
     const Role role = ground_of(tone);
     grounds.push_back({page_region(node, map), role});
-    const auto at = static_cast<std::uint32_t>(i);
-    const DrawList::Scope scope(list, node_key("world/cell", frame.nodes, at),
-                                parent_key("world/cell", frame.nodes, at));
+    const DrawList::Scope scope(list, node_key("world/cell", frame.nodes, node),
+                                parent_key("world/cell", frame.nodes, node));
     if (node.region.empty())
       list.crisp_rect(cell_of(frame, node, map), role);
     else
@@ -195,7 +194,7 @@ void draw_planes(const Frame& frame, const View2D& map, DrawList& list) {
     const Vec<2> a = map.in_reach(map.to_page(line->first));
     const Vec<2> b = map.in_reach(map.to_page(line->second));
     const bool upright = a.x == b.x || a.y == b.y;
-    const std::string key = node_key("world/plane", frame.nodes, static_cast<std::uint32_t>(i));
+    const std::string key = node_key("world/plane", frame.nodes, node);
     const DrawList::Scope scope(list, key, key);
     list.shapes.emplace_back(LineShape{a, b, plane_stroke(node, level), upright});
   }

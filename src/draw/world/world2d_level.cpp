@@ -105,11 +105,11 @@ class Obstacles {
     if (frame.bodies.size() > kCrowd) return;
     for (const Stand& stand : stands_of(frame, map)) bodies_.push_back(stand.box);
     if (!frame.display.pairs) return;
-    for_each_pair(frame, by_id(frame.bodies),
-                  [&](const FrameBody& a, const FrameBody& b, const FramePair&) {
-                    links_.push_back({map.to_page(a.position), map.to_page(b.position)});
-                    return true;
-                  });
+    const BodiesById bodies = by_id(frame.bodies);
+    for (const FramePair& pair : frame.pairs)
+      if (const FrameBody* a = body_of(bodies, pair.pair.a), *b = body_of(bodies, pair.pair.b);
+          a && b)
+        links_.push_back({map.to_page(a->position), map.to_page(b->position)});
   }
 
   bool no_body_at(const Vec<2>& at) const {
@@ -233,8 +233,7 @@ void number_sectors(const Frame& frame, const Staging& staging, const View2D& ma
     if (found == places.end()) continue;
     const Vec<2> at = map.to_page(found->second);
     if (touches(bodies, Box<2>::around(at, kNarrowRoom))) continue;
-    const auto node = static_cast<std::uint32_t>(sector - frame.nodes.data());
-    const DrawList::Scope scope(list, node_key("world/cell name", frame.nodes, node));
+    const DrawList::Scope scope(list, node_key("world/cell name", frame.nodes, *sector));
     if (sector->order != kNone && draw_met(sector->order, at, map.picture(), list, labels))
       continue;
     TextStyle style{kLabel, Weight::semibold, Role::quiet_ink};

@@ -263,8 +263,7 @@ void label_cells(const Frame& frame, const Staging& staging, const View2D& map,
   std::ranges::stable_sort(leaves, {}, &FrameNode::depth);
   if (leaves.size() > kMostLabels) leaves.resize(kMostLabels);
   for (const FrameNode* leaf : leaves) {
-    const auto at = static_cast<std::uint32_t>(leaf - frame.nodes.data());
-    const DrawList::Scope scope(list, node_key("world/cell name", frame.nodes, at));
+    const DrawList::Scope scope(list, node_key("world/cell name", frame.nodes, *leaf));
     for (const std::string& name : leaf_names(frame, *leaf))
       if (label_cell(*leaf, name, map, bodies, grounds, labels)) break;
   }

@@ -7,13 +7,10 @@
 #include "draw/font.hpp"
 #include "draw/keys.hpp"
 #include "draw/naming.hpp"
-#include "draw/notes.hpp"
 #include "draw/page.hpp"
 #include "draw/panel.hpp"
-#include "draw/panels.hpp"
 #include "draw/pen.hpp"
 #include "draw/projection.hpp"
-#include "draw/world/locator.hpp"
 #include "draw/world/narrow_marks.hpp"
 #include "draw/world/world2d_parts.hpp"
 #include "draw/world/world3d_parts.hpp"
@@ -95,8 +92,7 @@ void name_world3d(const Frame& frame, const Staging& staging, const std::vector<
   });
   if (cells.size() > kMostCells) cells.resize(kMostCells);
   for (const FrameNode* cell : cells) {
-    const auto at = static_cast<std::uint32_t>(cell - frame.nodes.data());
-    const DrawList::Scope scope(list, node_key("world/cell name", frame.nodes, at));
+    const DrawList::Scope scope(list, node_key("world/cell name", frame.nodes, *cell));
     name_cell(*cell, bodies, view, list, labels);
   }
 }
