@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lantern::draw {
@@ -16,6 +17,9 @@ struct PlotRange {
     if (!std::isfinite(value) || (logarithmic && value <= 0)) return;
     least = std::min(least, value);
     most = std::max(most, value);
+  }
+  void add(const std::optional<std::pair<double, double>>& ends, bool logarithmic) {
+    if (ends) add(ends->first, logarithmic), add(ends->second, logarithmic);
   }
   bool empty() const { return least > most; }
 };

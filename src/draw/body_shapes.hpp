@@ -29,6 +29,20 @@ inline Role ground_of(Mark mark) {
   return mark == Mark::passed ? Role::passed_fill : Role::panel;
 }
 
+// In a tree of many leaves that are nearly all lit the marks tell nothing.
+inline bool is_nearly_all_lit(const std::vector<FrameNode>& nodes) {
+  constexpr std::size_t kMany = 200;
+  std::size_t leaves = 0, lit = 0;
+  for (const FrameNode& node : nodes) {
+    leaves += node.leaf;
+    lit += node.leaf && node.mark == Mark::lit;
+  }
+  return nodes.size() > kMany && 10 * lit > 7 * leaves;
+}
+// Has a ray, view or region left it out, and not already what is above it?
+inline bool is_topmost_skipped(const FrameNode& node, const Frame& frame) {
+  return node.skipped && (node.parent == kNone || !frame.nodes[node.parent].skipped);
+}
 // The level in a leaf that is shown as a bucket, within its box; nothing where none is shown.
 inline std::optional<Box<2>> level_in(const Frame& frame, const FrameNode& node, Box<2> box) {
   if (!frame.display.fill || frame.get<FrameStructure>().capacity == 0 || !node.leaf ||

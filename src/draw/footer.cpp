@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "base/grouped.hpp"
-#include "draw/font.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 
@@ -271,10 +270,7 @@ std::vector<std::string> caption_lines(const std::string& caption, double width,
     if (lines.size() == 2) return lines;
   }
   style.size = kLeastCaption;
-  std::vector<std::string> lines = wrapped(text, width, style);
-  if (lines.size() <= 2) return lines;
-  const std::size_t rest = text.find(lines[1], lines[0].size());
-  return {lines[0], shortened(std::string_view(text).substr(rest), width, style)};
+  return two_lines(text, width, style);
 }
 
 }  // namespace

@@ -135,5 +135,7 @@ std::string shortened(std::string_view text, double width, const TextStyle& styl
 // The text's lines, broken at spaces so that each is no wider than `width`. A word that is wider by
 // itself is broken anywhere.
 std::vector<std::string> wrapped(std::string_view text, double width, const TextStyle& style);
+// Two lines at most, the second one shortened.
+std::vector<std::string> two_lines(std::string_view text, double width, const TextStyle& style);
 
 }  // namespace lantern::draw

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "draw/font.hpp"
 #include "draw/panel.hpp"
 #include "draw/pen.hpp"
 
@@ -91,11 +90,7 @@ class Clutter {
         add(rect->box);
         if (rect->stroke.role != Role::none) add_outline(rect->box);
       }
-      if (const auto* polygon = std::get_if<PolygonShape>(&shape)) {
-        Box<2> box{Vec<2>(1e300), Vec<2>(-1e300)};
-        for (const Vec<2>& p : polygon->points) box = {glm::min(box.lo, p), glm::max(box.hi, p)};
-        add(box);
-      }
+      if (const auto* polygon = std::get_if<PolygonShape>(&shape)) add(box_of(polygon->points));
       if (const auto* line = std::get_if<LineShape>(&shape))
         lines_.push_back({line->from, line->to});
     }

@@ -1,7 +1,6 @@
 #include "draw/page.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -11,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "base/grouped.hpp"
-#include "draw/font.hpp"
 #include "draw/labels.hpp"
 #include "draw/legend.hpp"
 #include "draw/number_text.hpp"
@@ -113,11 +111,7 @@ void draw_words(const Frame& frame, const std::vector<Box<2>>& places, const Box
       continue;
     }
     const double left = places[i].lo.x, width = places[i].size().x;
-    std::vector<std::string> lines = wrapped(side.caption, width, style);
-    if (lines.size() > 2) {
-      const std::size_t rest = side.caption.find(lines[1], lines[0].size());
-      lines = {lines[0], shortened(std::string_view(side.caption).substr(rest), width, style)};
-    }
+    const std::vector<std::string> lines = two_lines(side.caption, width, style);
     for (std::size_t k = 0; k < lines.size(); ++k)
       labels.add(lines[k], {{left, y + kWordsLine * static_cast<double>(k)}, 0}, style, foot);
   }

@@ -1,7 +1,6 @@
 #include "draw/panel.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <numeric>
 #include <vector>

@@ -184,6 +184,12 @@ std::vector<Vec<2>> ring_of(const Vec<2>& center, double radius, int corners, do
   return points;
 }
 
+Box<2> box_of(const std::vector<Vec<2>>& points) {
+  Box<2> box{Vec<2>(1e300), Vec<2>(-1e300)};
+  for (const Vec<2>& p : points) box = {glm::min(box.lo, p), glm::max(box.hi, p)};
+  return box;
+}
+
 Vec<2> middle_of(const std::vector<Vec<2>>& points) {
   Vec<2> sum{0.0};
   for (const Vec<2>& p : points) sum += p;

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 
 #include "draw/plot.hpp"
 #include "draw/plot_parts.hpp"

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "draw/font.hpp"
 #include "draw/pen.hpp"
 #include "geometry/not_finite.hpp"
 

@@ -113,6 +113,13 @@ Staging::Staging(std::vector<const Frame*> frames, const AxisRanges& axes)
   for (const auto& [structure, own] : sides) sides_.emplace(structure, Staging(own, axes));
 }
 
+std::vector<const Frame*> Staging::some_frames(std::size_t most) const {
+  const std::size_t all = frames_.size(), some = std::min(all, most);
+  std::vector<const Frame*> found;
+  for (std::size_t i = 0; i < some; ++i) found.push_back(frames_[i * all / some]);
+  return found;
+}
+
 bool Staging::is_one_group(const Frame& before, const Frame& next) {
   const bool same_world = before.dimension == next.dimension &&
                           before.bounds.lo == next.bounds.lo && before.bounds.hi == next.bounds.hi;

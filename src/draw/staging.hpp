@@ -79,6 +79,8 @@ class Staging {
   static bool is_one_group(const Frame& before, const Frame& next);
 
   const std::vector<const Frame*>& frames() const { return frames_; }
+  // At most so many of them, here and there.
+  std::vector<const Frame*> some_frames(std::size_t most) const;
 
   // What the frames of one side share, by its name: with all sides of the same structure, so that
   // their trees can be compared node by node. Of a side that no frame has, this.

@@ -30,6 +30,15 @@ bool has(const std::vector<Branch>& branches, Kind kind) {
                      [&](const Branch& b) { return b.kind == kind; });
 }
 
+// Of a frame that stands alone.
+TreeLayout lay_out_alone(const Frame& frame, const Box<2>& panel) {
+  const Staging staging(frame);
+  const UnionTree& tree = staging.trees()[0];
+  const bool atlas = !frame.get<FrameTextures>().textures.empty();
+  return lay_out_tree(
+      frame, tree, stage_tree(tree, {{frame.nodes, frame.get<FrameFinding>().hits}}, atlas, panel));
+}
+
 std::vector<Frame> trees() {
   std::vector<Frame> frames{samples::crowd(500, 0.8), samples::crowd(5000, 0.2),
                             samples::atlas(60, 60), samples::ghosts(4)};
@@ -87,7 +96,7 @@ TEST(TreeLayout, NodesNeverOverlapNorShrinkBelowLegibility) {
   const Box<2> panels[] = {{{0, 0}, {740, 580}}, {{0, 0}, {420, 500}}, {{0, 0}, {1000, 250}}};
   for (const Frame& frame : trees())
     for (const Box<2>& panel : panels) {
-      const TreeLayout layout = lay_out_tree(frame, panel);
+      const TreeLayout layout = lay_out_alone(frame, panel);
       ASSERT_FALSE(layout.boxes.empty());
       EXPECT_LE(layout.boxes.size(), 300u) << "the cost of a diagram must not grow with the tree";
       for (std::size_t i = 0; i < layout.boxes.size(); ++i) {
@@ -161,7 +170,7 @@ TEST(TreeView, CountsStandWhereTheyDidAndInFrontOfNothing) {
 }
 
 TEST(TreeLayout, SmallTreesAreNotFolded) {
-  const TreeLayout layout = lay_out_tree(samples::ghosts(4), {{0, 0}, {740, 580}});
+  const TreeLayout layout = lay_out_alone(samples::ghosts(4), {{0, 0}, {740, 580}});
   EXPECT_EQ(layout.branches.size(), 9u);
 }
 

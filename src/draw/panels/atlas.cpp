@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "draw/body_shapes.hpp"
-#include "draw/font.hpp"
 #include "draw/keys.hpp"
 #include "draw/page.hpp"
 #include "draw/panel.hpp"

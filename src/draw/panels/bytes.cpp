@@ -8,7 +8,6 @@
 
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
-#include "draw/pen.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "draw/font.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 #include "draw/plot.hpp"

@@ -4,18 +4,14 @@
 //        | |||||  |||   |||||||   |   |      pips: frames left
 //        |  o           o                    touching
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "draw/body_shapes.hpp"
-#include "draw/number_text.hpp"
 #include "draw/panel.hpp"
-#include "draw/pen.hpp"
 
 namespace lantern::draw {
 namespace {

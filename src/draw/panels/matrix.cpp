@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "draw/font.hpp"
 #include "draw/panel.hpp"
 
 namespace lantern::draw {
@@ -34,8 +33,15 @@ class Matrix : PanelPicture {
   void draw() {
     if (matrix_.rows.empty() || cell_ < kLeastMatrixCell) return;
     for (std::size_t row = 0; row < matrix_.rows.size(); ++row)
-      for (std::size_t column = 0; column < matrix_.rows.size(); ++column) draw_square(row, column);
-    if (matrix_.lit != kNone) outline_row();
+      for (std::size_t column = 0; column < matrix_.rows.size(); ++column) {
+        const DrawList::Scope scope(list_, fmt::format("matrix/{}-{}", row, column));
+        draw_sample(matrix_.rows[row][column], row == matrix_.lit, square(row, column));
+      }
+    if (matrix_.lit != kNone) {
+      const DrawList::Scope scope(list_, "matrix/lit");
+      const Box<2> row{square(matrix_.lit, 0).lo, square(matrix_.lit, matrix_.rows.size() - 1).hi};
+      list_.rect(shrunk(row, -4), Role::none, {Role::lit, 3.2}, 4);
+    }
     for (std::size_t i = 0; i < matrix_.rows.size(); ++i) number(i);
     write(shortened("Who sees whom?", panel_.size().x, kStrong), {{corner_.x, panel_.lo.y + 26}, 0},
           kStrong);
@@ -59,18 +65,6 @@ class Matrix : PanelPicture {
       return list_.disc(box.center(), std::max(0.6, 0.07 * box.size().x), Role::cell_line_3);
     if (letter == '1') return list_.rect(box, lit ? Role::lit : Role::cell_line_1, {}, radius);
     list_.rect(box, Role::free_space, {Role::rule, 1.2}, radius);
-  }
-
-  void draw_square(std::size_t row, std::size_t column) {
-    const DrawList::Scope scope(list_, fmt::format("matrix/{}-{}", row, column));
-    draw_sample(matrix_.rows[row][column], row == matrix_.lit, square(row, column));
-  }
-
-  void outline_row() {
-    const DrawList::Scope scope(list_, "matrix/lit");
-    const std::size_t last = matrix_.rows.size() - 1;
-    const Box<2> row{square(matrix_.lit, 0).lo, square(matrix_.lit, last).hi};
-    list_.rect(shrunk(row, -4), Role::none, {Role::lit, 3.2}, 4);
   }
 
   // A sector's number before its row and over its column.

@@ -1,7 +1,6 @@
 // The pool of a tree's nodes: slots that change their owner from tree to tree, and are not given
 // back in between.
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>

@@ -12,7 +12,6 @@
 
 #include <fmt/format.h>
 
-#include "draw/font.hpp"
 #include "draw/panel.hpp"
 #include "draw/texture_picture.hpp"
 

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "draw/font.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 #include "draw/pen.hpp"

@@ -6,13 +6,11 @@
 #include <cmath>
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "draw/body_shapes.hpp"
-#include "draw/font.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 #include "spatial/structure.hpp"

@@ -84,9 +84,6 @@ TreeStage stage_tree(const UnionTree& tree, const std::vector<TreeOfFrame>& tree
 // scale, with the root in the middle.
 TreeLayout lay_out_tree(const Frame& frame, const UnionTree& tree, const TreeStage& stage);
 
-// Of a frame that stands alone.
-TreeLayout lay_out_tree(const Frame& frame, const Box<2>& panel);
-
 // How large a group's tree gets in a panel, as the side of a square of that area.
 double tree_size_in(const Staging& staging, const Box<2>& panel);
 

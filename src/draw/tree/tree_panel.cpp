@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "draw/font.hpp"
 #include "draw/panel.hpp"
 #include "draw/tree/tree_layout.hpp"
 

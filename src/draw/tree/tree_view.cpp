@@ -118,28 +118,21 @@ class TreeView {
     if (branch.kind == Branch::Kind::node)
       if (const auto level = level_in(frame_, node, shrunk(box, 3)))
         list_.rect(*level, Role::rule, {}, std::min(radius, 4.0));
-    if (labels_.has_notes()) tell_places(branch, box);
+    if (labels_.has_notes()) {
+      if (branch.copies == 1) labels_.tell_place(target_of_node(node.label), box);
+      labels_.tell_body(box);
+    }
     if (is_atlas() && branch.kind == Branch::Kind::node && !node_of(branch).leaf)
       draw_cut(node_of(branch), box, outline.role);
     else
       draw_content(branch, box);
     if (node.over_capacity && branch.kind == Branch::Kind::node) draw_badge(box);
-    if (branch.kind == Branch::Kind::node) draw_walk(node, box);
+    if (branch.kind == Branch::Kind::node) {  // its place on a ray's way
+      if (is_topmost_skipped(node, frame_)) draw_skipped({box.hi.x - 2, box.lo.y - 1}, list_);
+      const std::uint32_t place = node.met != kNone ? node.met : node.order;
+      if (place != kNone) draw_met(place, box.lo + Vec<2>(2, -11), panel_, list_, labels_);
+    }
     if (frame_.sleeps(node)) draw_zz(box.lo + Vec<2>(-9, -9), 24, 1.8, list_);
-  }
-
-  // What a ray, view or region left out, and the place of a leaf on a ray's way.
-  void draw_walk(const FrameNode& node, const Box<2>& box) {
-    if (node.skipped && (node.parent == kNone || !frame_.nodes[node.parent].skipped))
-      draw_skipped({box.hi.x - 2, box.lo.y - 1}, list_);
-    const std::uint32_t place = node.met != kNone ? node.met : node.order;
-    if (place != kNone) draw_met(place, box.lo + Vec<2>(2, -11), panel_, list_, labels_);
-  }
-
-  // For notes.
-  void tell_places(const Branch& branch, const Box<2>& box) {
-    if (branch.copies == 1) labels_.tell_place(target_of_node(node_of(branch).label), box);
-    labels_.tell_body(box);
   }
 
   // A dashed line where levels are left out.

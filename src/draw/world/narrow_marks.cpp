@@ -1,7 +1,6 @@
 #include "draw/world/narrow_marks.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 

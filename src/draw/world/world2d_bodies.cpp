@@ -1,7 +1,6 @@
 #include <cmath>
 #include <functional>
 #include <set>
-#include <unordered_map>
 
 #include <fmt/format.h>
 

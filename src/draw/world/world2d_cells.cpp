@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "draw/body_shapes.hpp"
@@ -123,25 +122,16 @@ void hatch_unmade(const Frame& frame, const View2D& map, DrawList& list) {
   }
 }
 
-// In a tree of many leaves that are nearly all lit, the tone would tell nothing and drown the
-// bodies.
+// The tone would drown the bodies.
 bool nearly_all_lit(const Frame& frame) {
-  constexpr std::size_t kMany = 200;  // nodes
-  std::size_t leaves = 0, lit = 0;
-  for (const FrameNode& node : frame.nodes) {
-    leaves += node.leaf;
-    lit += node.leaf && node.mark == Mark::lit;
-  }
-  return frame.nodes.size() > kMany && frame.bodies.size() > kMany / 4 && 10 * lit > 7 * leaves;
+  return frame.bodies.size() > 50 && is_nearly_all_lit(frame.nodes);
 }
 
 // What a ray, view or region has left out.
 void fill_skipped(const Frame& frame, const View2D& map, DrawList& list, Grounds& grounds) {
   std::size_t filled = 0;
   for (const FrameNode& node : frame.nodes) {
-    const bool topmost =
-        node.skipped && (node.parent == kNone || !frame.nodes[node.parent].skipped);
-    if (!topmost || !is_drawn(cell_of(frame, node, map))) continue;
+    if (!is_topmost_skipped(node, frame) || !is_drawn(cell_of(frame, node, map))) continue;
     if (++filled > kMostFills) return;
     grounds.push_back({page_region(node, map), Role::free_space});
     if (node.region.empty())

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "draw/body_shapes.hpp"
-#include "draw/font.hpp"
 #include "draw/keys.hpp"
 #include "draw/number_text.hpp"
 #include "draw/pen.hpp"
@@ -100,15 +99,8 @@ void draw_half_sizes(const FrameBody& body, const Box<2>& box, const View2D& map
   measure({{beside + 9, (c.y + box.lo.y) / 2 + 6}, 0}, half.y, {beside, c.y}, {beside, box.lo.y});
 }
 
-constexpr double kInsetShare = 0.24;   // of the picture's width
-constexpr double kInsetHighest = 0.3;  // and of its height at most
-constexpr double kFromRim = 12;        // from the picture's border
-
-Vec<2> size_in(const Box<2>& picture) {
-  const Vec<2> room = picture.size();
-  const double share = std::min(kInsetShare, kInsetHighest);
-  return room * share;
-}
+constexpr double kInsetShare = 0.24;  // of the picture's width and height
+constexpr double kFromRim = 12;       // from the picture's border
 
 // What of the bodies it would hide; those that the frame is about count most.
 double hidden_by(const Box<2>& place, const Frame& frame, const View2D& map) {
@@ -220,7 +212,7 @@ void draw_land(const Frame& frame, const View2D& map, DrawList& list) {
 
 Box<2> place_of_locator(const Frame& frame, const View2D& map) {
   const Box<2>& picture = map.picture();
-  const Vec<2> size = size_in(picture);
+  const Vec<2> size = picture.size() * kInsetShare;
   const Box<2> room = shrunk(picture, kFromRim);
   const Box<2> corners[] = {{{room.hi.x - size.x, room.lo.y}, {room.hi.x, room.lo.y + size.y}},
                             {room.lo, room.lo + size},

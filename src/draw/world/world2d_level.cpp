@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "draw/font.hpp"
 #include "draw/keys.hpp"
 #include "draw/pen.hpp"
 #include "draw/staging.hpp"
@@ -86,8 +85,7 @@ const Vec<2> kNarrowRoom{15, 14};  // in a sector without that room
 std::vector<Vec<2>> number_places(const Polygon& region, const Vec<2>& room) {
   constexpr int kSteps = 10;
   const Vec<2> middle = centroid(region);
-  Box<2> box{region[0], region[0]};
-  for (const Vec<2>& corner : region) box = united(box, Box<2>{corner, corner});
+  const Box<2> box = box_of(region);
   std::vector<Vec<2>> places{middle};
   for (int x = 1; x < kSteps; ++x)
     for (int y = 1; y < kSteps; ++y)
@@ -151,13 +149,11 @@ struct NumberPlaces {
 const SectorPlaces& sector_places(const Staging& staging, const Box<2>& panel) {
   return staging.once<SectorPlaces>("places of sectors", panel, [&] {
     constexpr std::size_t kMostLookedAt = 60;  // frames of a group, here and there
-    const std::size_t all = staging.frames().size(), looked_at = std::min(all, kMostLookedAt);
     const View2D map(flat(staging.frames()[0]->bounds), panel);
     std::map<std::string, NumberPlaces, std::less<>> sectors;
-    for (std::size_t i = 0; i < looked_at; ++i) {
-      const Frame& frame = *staging.frames()[i * all / looked_at];
-      const Obstacles obstacles(frame, map);
-      for (const FrameNode* sector : sectors_of(frame)) {
+    for (const Frame* frame : staging.some_frames(kMostLookedAt)) {
+      const Obstacles obstacles(*frame, map);
+      for (const FrameNode* sector : sectors_of(*frame)) {
         if (sector->label.empty()) continue;
         NumberPlaces& own = sectors[sector->label];
         if (own.frames == 0) own.places = number_places(page_region(*sector, map), kNumberRoom);

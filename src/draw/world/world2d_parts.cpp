@@ -74,9 +74,8 @@ const PlatePlaces& chosen_plates(const Staging& staging, const Box<2>& panel) {
   return staging.once<PlatePlaces>("plates of planes", panel, [&] {
     constexpr std::size_t kMostLookedAt = 120;  // frames of a group, here and there
     std::vector<PlateCounts> counts;
-    const std::size_t all = staging.frames().size(), looked_at = std::min(all, kMostLookedAt);
-    for (std::size_t i = 0; i < looked_at; ++i)
-      count_plates(*staging.frames()[i * all / looked_at], panel, counts);
+    for (const Frame* frame : staging.some_frames(kMostLookedAt))
+      count_plates(*frame, panel, counts);
     PlatePlaces places;
     std::vector<Box<2>> taken;
     for (PlateCounts& plane : counts) {

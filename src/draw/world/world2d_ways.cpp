@@ -77,10 +77,6 @@ std::vector<Vec<2>> places_in(const Box<2>& cell) {
           cell.center()};
 }
 
-bool is_topmost_skipped(const FrameNode& node, const Frame& frame) {
-  return node.skipped && (node.parent == kNone || !frame.nodes[node.parent].skipped);
-}
-
 // Draws at the first place that is free of bodies and of labels.
 template <class Draw>
 bool at_free_place(const Box<2>& cell, double radius, const std::vector<Box<2>>& bodies,
@@ -135,8 +131,7 @@ void draw_looks(const Frame& frame, const View2D& map, DrawList& list, Labels& l
       pen.path(outline, true, now ? Stroke{meets, 3.6} : kLookStroke);
       const TextStyle style{kLeastLabel, Weight::semibold, now ? Role::lit_ink : Role::ray,
                             Role::panel};
-      Box<2> box{outline[0], outline[0]};
-      for (const Vec<2>& p : outline) box = united(box, Box<2>{p, p});
+      const Box<2> box = box_of(outline);
       const Vec<2> c = box.center();
       labels.try_add(fmt::format("{:.2f}", look.time),
                      {{{c.x, box.hi.y + 24}, 0.5},
