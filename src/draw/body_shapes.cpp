@@ -3,9 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "geometry/flat.hpp"
-#include "geometry/polygon.hpp"
-
 namespace lantern::draw {
 namespace {
 

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "draw/body_shapes.hpp"
-#include "draw/draw_list.hpp"
 #include "draw/pen.hpp"
 #include "geometry/polygon.hpp"
 

@@ -3,9 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "draw/marks.hpp"
 #include "draw/panel.hpp"
-#include "draw/pen.hpp"
 #include "draw/world/narrow_marks.hpp"
 
 namespace lantern::draw {

@@ -3,7 +3,6 @@
 
 #include <string_view>
 
-#include "draw/draw_list.hpp"
 #include "draw/labels.hpp"
 
 namespace lantern::draw {

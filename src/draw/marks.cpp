@@ -1,6 +1,5 @@
 #include "draw/marks.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -8,9 +7,7 @@
 
 #include "draw/body_shapes.hpp"
 #include "draw/keys.hpp"
-#include "draw/pen.hpp"
 #include "draw/world/world3d_parts.hpp"
-#include "geometry/polygon.hpp"
 
 namespace lantern::draw {
 namespace {

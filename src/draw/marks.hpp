@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "draw/labels.hpp"
-#include "draw/pen.hpp"
 #include "draw/projection.hpp"
 #include "frame/pair_state.hpp"
 

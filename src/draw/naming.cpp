@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "draw/body_shapes.hpp"
-#include "draw/marks.hpp"
 #include "draw/world/world2d_parts.hpp"
-#include "geometry/flat.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -3,19 +3,14 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "base/grouped.hpp"
-#include "draw/labels.hpp"
 #include "draw/legend.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
-#include "draw/staging.hpp"
-#include "frame/frame.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -10,7 +10,6 @@
 #include "draw/labels.hpp"
 #include "draw/staging.hpp"
 #include "frame/frame.hpp"
-#include "geometry/box.hpp"
 
 namespace lantern::draw {
 

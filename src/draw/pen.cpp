@@ -6,7 +6,6 @@
 #include <numbers>
 #include <tuple>
 
-#include "draw/draw_list.hpp"
 #include "geometry/not_finite.hpp"
 #include "geometry/polygon.hpp"
 #include "geometry/ray.hpp"

@@ -1,7 +1,6 @@
 #include "draw/plot.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 
 #include <fmt/format.h>

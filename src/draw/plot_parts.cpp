@@ -1,6 +1,5 @@
 #include "draw/plot_parts.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -280,8 +279,7 @@ void draw_slope_fan(const std::vector<PlotSlope>& slopes, const Vec<2>& decade, 
   }
   if (ends.empty()) return;
   double text = 0;
-  for (const PlotSlope& slope : slopes)
-    text = std::max(text, text_width(slope.name, size, type.tick.weight));
+  for (const PlotSlope& slope : slopes) text = std::max(text, text_width(slope.name, type.tick));
   Box<2> reach{{0, 0}, {0, 0}};
   for (const Vec<2>& end : ends) reach = united(reach, Box<2>{end, end});
   reach.lo.y -= 0.6 * size;

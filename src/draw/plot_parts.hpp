@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "draw/axis.hpp"
-#include "draw/labels.hpp"
 #include "draw/plot.hpp"
 
 namespace lantern::draw {

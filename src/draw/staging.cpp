@@ -1,7 +1,6 @@
 #include "draw/staging.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace lantern::draw {
 namespace {

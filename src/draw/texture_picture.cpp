@@ -5,7 +5,6 @@
 #include <utility>
 #include <vector>
 
-#include "draw/draw_list.hpp"
 #include "draw/pen.hpp"
 
 namespace lantern::draw {

@@ -12,10 +12,8 @@
 #include <string_view>
 #include <utility>
 #include <variant>
-#include <vector>
 
 #include "base/stop.hpp"
-#include "draw/draw_list.hpp"
 #include "draw/tween_shapes.hpp"
 
 namespace lantern::draw {

@@ -4,11 +4,9 @@
 #include <fmt/format.h>
 
 #include "draw/body_shapes.hpp"
-#include "draw/keys.hpp"
 #include "draw/page.hpp"
 #include "draw/panel.hpp"
 #include "draw/texture_picture.hpp"
-#include "geometry/flat.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -9,8 +9,6 @@
 
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
-#include "draw/plot.hpp"
-#include "draw/plot_marks.hpp"
 #include "draw/plot_parts.hpp"
 #include "spatial/structure_kind.hpp"
 

@@ -15,7 +15,6 @@
 
 #include <fmt/format.h>
 
-#include "draw/labels.hpp"
 #include "draw/panel.hpp"
 
 namespace lantern::draw {

@@ -14,11 +14,8 @@
 #include <fmt/format.h>
 
 #include "draw/body_shapes.hpp"
-#include "draw/keys.hpp"
 #include "draw/panel.hpp"
-#include "draw/pen.hpp"
 #include "draw/projection.hpp"
-#include "geometry/flat.hpp"
 
 namespace lantern::draw {
 namespace {

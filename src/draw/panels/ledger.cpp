@@ -18,7 +18,6 @@
 #include "draw/marks.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
-#include "frame/pair_state.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -7,7 +7,6 @@
 
 #include "base/utf8.hpp"
 #include "draw/body_shapes.hpp"
-#include "draw/keys.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 

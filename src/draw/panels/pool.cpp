@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "draw/body_shapes.hpp"
-#include "draw/keys.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 

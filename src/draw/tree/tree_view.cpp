@@ -3,11 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "draw/body_shapes.hpp"
 #include "draw/font.hpp"
-#include "draw/keys.hpp"
-#include "draw/marks.hpp"
-#include "draw/naming.hpp"
 #include "draw/panel.hpp"
 #include "draw/texture_picture.hpp"
 #include "draw/tree/tree_layout.hpp"

@@ -5,9 +5,6 @@
 #include <fmt/format.h>
 
 #include "base/stop.hpp"
-#include "draw/body_shapes.hpp"
-#include "draw/keys.hpp"
-#include "draw/pen.hpp"
 #include "draw/world/world2d_parts.hpp"
 
 namespace lantern::draw {

@@ -1,9 +1,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "draw/body_shapes.hpp"
-#include "draw/keys.hpp"
-#include "draw/pen.hpp"
 #include "draw/world/borders.hpp"
 #include "draw/world/world2d_parts.hpp"
 #include "geometry/not_finite.hpp"

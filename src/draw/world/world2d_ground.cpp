@@ -4,13 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "draw/body_shapes.hpp"
-#include "draw/keys.hpp"
 #include "draw/number_text.hpp"
-#include "draw/pen.hpp"
 #include "draw/world/borders.hpp"
 #include "draw/world/world2d_parts.hpp"
-#include "geometry/flat.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -5,9 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "draw/keys.hpp"
-#include "draw/pen.hpp"
-#include "draw/staging.hpp"
 #include "draw/world/world2d_parts.hpp"
 #include "geometry/segment.hpp"
 

@@ -8,8 +8,6 @@
 #include <span>
 
 #include "draw/font.hpp"
-#include "draw/keys.hpp"
-#include "draw/naming.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -7,12 +7,8 @@
 #include <vector>
 
 #include "draw/body_shapes.hpp"
-#include "draw/draw_list.hpp"
-#include "draw/labels.hpp"
 #include "draw/marks.hpp"
 #include "draw/naming.hpp"
-#include "draw/projection.hpp"
-#include "frame/frame.hpp"
 
 namespace lantern::draw {
 

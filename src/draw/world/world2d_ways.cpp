@@ -4,10 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "draw/body_shapes.hpp"
-#include "draw/keys.hpp"
 #include "draw/number_text.hpp"
-#include "draw/pen.hpp"
 #include "draw/world/world2d_parts.hpp"
 
 namespace lantern::draw {

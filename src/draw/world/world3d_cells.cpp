@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "draw/keys.hpp"
-#include "draw/pen.hpp"
 #include "draw/world/world3d_parts.hpp"
 
 namespace lantern::draw {

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "draw/marks.hpp"
-#include "draw/projection.hpp"
 #include "geometry/rotation.hpp"
 
 namespace lantern::draw {

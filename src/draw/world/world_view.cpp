@@ -5,17 +5,11 @@
 
 #include <fmt/format.h>
 
-#include "draw/body_shapes.hpp"
-#include "draw/keys.hpp"
-#include "draw/naming.hpp"
 #include "draw/page.hpp"
 #include "draw/panel.hpp"
-#include "draw/pen.hpp"
-#include "draw/projection.hpp"
 #include "draw/world/narrow_marks.hpp"
 #include "draw/world/world2d_parts.hpp"
 #include "draw/world/world3d_parts.hpp"
-#include "geometry/flat.hpp"
 
 namespace lantern::draw {
 namespace {
