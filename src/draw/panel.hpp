@@ -100,8 +100,7 @@ void draw_sweep(const PanelPicture& on);
 void draw_grid(const PanelPicture& on);
 // The diagram alone, of a frame whose nodes are one tree.
 struct TreeStage;
-void draw_one_tree(const Frame& frame, const UnionTree& tree, const TreeStage& stage,
-                   DrawList& list, Labels& labels);
+void draw_one_tree(const PanelPicture& on, const UnionTree& tree, const TreeStage& stage);
 
 // Width over height of a world's picture, and the width that it takes at a height.
 double world_aspect(const Frame& frame);

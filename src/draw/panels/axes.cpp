@@ -1,4 +1,5 @@
-// The axes that two bodies were measured along, below each other and all lying the same way.
+// The axes that two bodies were measured along (FrameSeparation), below each other, all lying the
+// same way and on one scale: how far both reach. As many rows as the sequence ever needs.
 //
 //   1  ======                way out 1.2
 //          =========
@@ -105,8 +106,6 @@ class AxesView : PanelPicture {
 
 }  // namespace
 
-// The axes of frame.find<FrameSeparation>() below each other, on one scale: how far both bodies
-// reach along each of them. As many rows as the sequence ever needs.
 PanelView axes_panel() {
   return {.name = "axes", .draw = draw_as<AxesView>, .smallest = {420, -1e300}};
 }

@@ -84,7 +84,6 @@ class BytesView : PanelPicture {
 
 }  // namespace
 
-// The bytes of a node whose box is derived and of one that stores it, on one scale.
 PanelView bytes_panel() {
   return {.name = "bytes",
           .draw = draw_as<BytesView>,

@@ -1,4 +1,6 @@
-// A function of the lecture's source, beside the picture of what it does.
+// A function of the lecture's source, beside the picture of what it does; the lines that the frame
+// is about are lit. Of a function too long for the panel its head is shown and what is around
+// these. A long line loses the end of its list of arguments, or is broken.
 //
 //   quad_tree.hpp   QuadTreeNode::Insert
 //   69  void Insert(const T& object, const Vector3& objectPos, …) {
@@ -190,9 +192,6 @@ class CodeView : PanelPicture {
 
 }  // namespace
 
-// A function of the lecture's source, its lines numbered as in their file; those that the frame is
-// about are lit. Of a function too long for the panel its head is shown and what is around the lit
-// lines. A long line loses the end of its list of arguments, or is broken.
 PanelView code_panel() {
   return {
       .name = "code", .draw = draw_as<CodeView>, .weight = 1.3, .inset = 3, .smallest = {300, 160}};

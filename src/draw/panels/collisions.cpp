@@ -1,4 +1,4 @@
-// The collisions that are remembered, over time: a row a pair, a column a world step.
+// The collisions that are remembered, over time: a strip with a row a pair, a column a world step.
 //
 //   @ @  | begin        _             end
 //        | |||||  |||   |||||||   |   |      pips: frames left
@@ -173,9 +173,6 @@ double collisions_strip(const Frame& frame, const Vec<2>& area) {
 
 }  // namespace
 
-// A strip with a row for each pair whose collision is remembered: at each world step as many pips
-// as it has frames left, where it touches, and where its begin and end were told. It wants this
-// height.
 PanelView collisions_panel() {
   return {.name = "collisions",
           .draw = draw_as<CollisionsView>,

@@ -1,4 +1,5 @@
-// The table of what kinds of structures do, a row a world.
+// The table of what kinds of structures do (FrameComparison), a row a world with a small picture of
+// it; rows to come are named only.
 //
 //                              brute force   quadtree     grid
 //   [picture] tall  80 bodies   each step   3160     | 1204 |     948
@@ -174,9 +175,6 @@ class ComparisonView : PanelPicture {
 
 }  // namespace
 
-// What each kind of structure does for each world that was compared (frame.get<FrameComparison>()),
-// a row a world with a small picture of it, a column a kind; rows to come are named only. Nothing
-// on a panel that is too narrow for it.
 PanelView comparison_panel() {
   return {
       .name = "comparison", .draw = draw_as<ComparisonView>, .inset = 3, .smallest = {900, -1e300}};

@@ -1,4 +1,5 @@
-// The Minkowski difference of two bodies: where it holds the origin, they have a point in common.
+// The Minkowski difference of two bodies: where it holds the origin, they have a point in common;
+// and what a search for their distance has found of it.
 //
 //        ______
 //       /      \             as large as in the world, if there is room: arrows of the world
@@ -192,8 +193,6 @@ class DifferenceView : PanelPicture {
 
 }  // namespace
 
-// The Minkowski difference of two bodies round its origin, in the world's scale if it has room, and
-// what a search for their distance has found of it.
 PanelView difference_panel() {
   return {.name = "difference", .draw = draw_as<DifferenceView>, .smallest = {160, 160}};
 }

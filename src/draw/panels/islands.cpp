@@ -1,5 +1,6 @@
 // The graph of islands: a node where each body is, an edge for what holds two of them together, and
-// one ground under all that hang together.
+// one ground under all that hang together. What never moves is drawn as it is: a dotted line to
+// where it is touched joins nothing.
 //
 //     _______ island 1     ___
 //    ( o - o )            | o |  island 2
@@ -210,9 +211,6 @@ class IslandGraph : PanelPicture {
 
 }  // namespace
 
-// Islands as a graph beside the world: a node where each body is that can be moved, an edge for
-// what holds two of them together, and one ground, with its number, under all that hang together.
-// What never moves is drawn as it is: a dotted line to where it is touched joins nothing.
 PanelView islands_panel() {
   return {.name = "islands", .draw = draw_as<IslandGraph>, .width = world_width};
 }

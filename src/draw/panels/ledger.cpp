@@ -1,5 +1,7 @@
-// The pair ledger: a triangle of all pairs. Bodies stand on its edge, each over its column and at
-// the end of its row; where row and column meet, a mark says how far the pair came.
+// The pair ledger: a triangle of all pairs. Bodies stand on its edge in the scenario's order, each
+// over its column and at the end of its row; where row and column meet, a mark says how far the
+// pair came (frame/pair_state.hpp). Under it or in its free corner stands how many are in each
+// state; together they are all. Of many bodies a density takes the place of the cells.
 //
 //   @ red
 //   □ @ green           □ a candidate
@@ -296,10 +298,6 @@ void hatch_cell(const Box<2>& cell, const Stroke& stroke, DrawList& list) {
 
 }  // namespace
 
-// The pair ledger: a triangle with a cell for each pair of bodies, marked by how far the pair came
-// from all pairs to contacts (frame/pair_state.hpp), and under it or in its free corner how many
-// are in each state; together they are all. Bodies stand on the triangle's edge, in the scenario's
-// order. Of many bodies a density takes the place of the cells.
 PanelView ledger_panel() {
   return {
       .name = "ledger", .draw = draw_as<Ledger>, .weight = 1.1, .inset = 3, .smallest = {200, 120}};

@@ -1,4 +1,5 @@
 // The visibility matrix: a row for each sector, and in it a square for each sector that it may see.
+// The row that is asked for is lit.
 //
 //         1  2  3
 //      1  ■  ■  □      ■ seen    □ hidden    · not known yet
@@ -100,9 +101,6 @@ class Matrix : PanelPicture {
 
 }  // namespace
 
-// Who sees whom of a level's sectors: a square for each two of them, their numbers on the edges. A
-// full square is seen, an empty one is not, a dot is not known yet. The row that is asked for is
-// lit.
 PanelView matrix_panel() {
   return {.name = "matrix", .draw = draw_as<Matrix>, .inset = 3, .smallest = {160, 160}};
 }

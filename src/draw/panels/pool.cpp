@@ -1,5 +1,6 @@
 // The pool of a tree's nodes: slots that change their owner from tree to tree, and are not given
-// back in between.
+// back in between. Each names the node that owns it, a band marks one that was another's before;
+// those that are free again are dashed.
 #include <algorithm>
 #include <cstdint>
 #include <string>
@@ -286,8 +287,6 @@ double pool_strip(const Frame& frame, const Vec<2>& area) {
 
 void draw_list_pieces(const PanelPicture& on) { ListPieces(on).draw(); }
 
-// The pool of a tree's nodes: each slot names the node that owns it, a band marks one that was
-// another's before; slots that are free again are dashed. It wants this height at a width.
 PanelView pool_panel() {
   return {.name = "pool",
           .draw = draw_as<PoolView>,

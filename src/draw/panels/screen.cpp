@@ -161,9 +161,6 @@ double screen_width(const Frame& frame, double height) {
 
 }  // namespace
 
-// A screen as far as it is drawn, and below it a row for each way in which it was drawn: the draws
-// in order, with a mark before each that another image had to be bound for. It wants this width at
-// a height.
 PanelView screen_panel() {
   return {.name = "screen", .draw = draw_as<ScreenView>, .width = screen_width};
 }

@@ -1,4 +1,5 @@
-// A thin strip under what moves: one count over the time so far.
+// A thin strip under what moves: one count over the time so far. The ends of its axes are those of
+// the whole part where they are known, else powers of two.
 //
 //   12 pairs |- - - - - - - - - | 64
 //            |__|~|_o___________| 4 s
@@ -94,8 +95,6 @@ void draw_sparkline(const Frame& frame, const Staging& staging, const Box<2>& pl
 
 }  // namespace
 
-// One count over the time so far. The ends of its axes are those of the whole part where they are
-// known, else powers of two.
 PanelView sparkline_panel() {
   return {.name = "sparkline",
           .draw = draw_sparkline,

@@ -138,10 +138,13 @@ void draw_staged_tree(const Frame& frame, const UnionTree& tree, const Staging& 
                       const Box<2>& diagram, DrawList& list, Labels& labels) {
   const auto& stage = staging.once<TreeStage>(tree.of_static ? "static tree" : "tree", diagram,
                                               [&] { return stage_of(tree, staging, diagram); });
-  if (staging.trees().size() == 1) return draw_one_tree(frame, tree, stage, list, labels);
+  const auto draw = [&](const Frame& one) {
+    draw_one_tree({one, staging, stage.panel, list, labels}, tree, stage);
+  };
+  if (staging.trees().size() == 1) return draw(frame);
   Frame part = frame;
   part.nodes = nodes_of_tree(frame, tree.of_static);
-  draw_one_tree(part, tree, stage, list, labels);
+  draw(part);
 }
 
 void draw_forest(const Frame& frame, const Staging& staging, const Box<2>& area, DrawList& list,

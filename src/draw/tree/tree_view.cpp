@@ -12,16 +12,12 @@
 namespace lantern::draw {
 namespace {
 
-class TreeView {
+class TreeView : PanelPicture {
  public:
-  TreeView(const Frame& frame, const UnionTree& tree, const TreeStage& stage, DrawList& list,
-           Labels& labels)
-      : frame_(frame),
-        panel_(stage.panel),
-        list_(list),
-        labels_(labels),
-        layout_(lay_out_tree(frame, tree, stage)),
-        bodies_(by_id(frame.bodies)) {
+  TreeView(const PanelPicture& on, const UnionTree& tree, const TreeStage& stage)
+      : PanelPicture(on),
+        layout_(lay_out_tree(frame_, tree, stage)),
+        bodies_(by_id(frame_.bodies)) {
     for (const Branch& branch : branches())  // rows come in order
       if (branch.row == says_holds_.size()) says_holds_.push_back(has_room_for_holds(branch.row));
   }
@@ -156,8 +152,7 @@ class TreeView {
     if (content.icons > 0) x += 1;
     const Anchor at = centred({x, c.y}, style, 0);
     // Of a tree that has no room at all, words go before the nodes.
-    if (holds(panel_, Labels::extent(content.text, at, style)))
-      labels_.add(content.text, at, style, panel_);
+    if (holds(panel_, Labels::extent(content.text, at, style))) write(content.text, at, style);
   }
 
   TextStyle text_style(const Branch& branch) const {
@@ -203,10 +198,9 @@ class TreeView {
 
   void label_levels(const Branch& branch, const Vec<2>& c) {
     const TextStyle style{layout_.scale.text, Weight::regular, Role::quiet_ink, Role::paper};
-    labels_.try_add(
-        text_of(branch, node_of(branch), is_atlas(), layout_.scale, layout_.words).text,
-        {{{c.x + 12, c.y + 0.36 * style.size}, 0}, {{c.x - 12, c.y + 0.36 * style.size}, 1}}, style,
-        panel_);
+    try_write(text_of(branch, node_of(branch), is_atlas(), layout_.scale, layout_.words).text,
+              {{{c.x + 12, c.y + 0.36 * style.size}, 0}, {{c.x - 12, c.y + 0.36 * style.size}, 1}},
+              style);
   }
 
   void label_branch(std::size_t i) {
@@ -223,9 +217,9 @@ class TreeView {
     const Anchor under{{box.center().x, box.hi.y + 4 + 0.78 * style.size}, 0.5};
     const double room = layout_.room[i];
     for (const std::string& text : label_choices(branch))
-      if (text_width(text, style) <= room && labels_.try_add(text, {under}, style, panel_)) return;
+      if (text_width(text, style) <= room && try_write(text, {under}, style)) return;
     if (branch.copies == 1 && short_label(node.label).empty())
-      labels_.try_add(shortened(node.label, room, style), {under}, style, panel_);
+      try_write(shortened(node.label, room, style), {under}, style);
   }
 
   // Where rows stand too close for words between them: in the gap to a neighbour, if that is wide
@@ -239,8 +233,7 @@ class TreeView {
             {align > 0 ? box.lo.x - kNear : box.hi.x + kNear, box.center().y}, style, align);
         Box<2> extent = Labels::extent(text, anchor, style);
         (align > 0 ? extent.lo.x : extent.hi.x) += align > 0 ? -kFar : kFar;
-        if (!text.empty() && labels_.is_free(extent, panel_) &&
-            labels_.try_add(text, {anchor}, style, panel_))
+        if (!text.empty() && labels_.is_free(extent, panel_) && try_write(text, {anchor}, style))
           return;
       }
   }
@@ -328,14 +321,9 @@ class TreeView {
     const TextStyle style{layout_.scale.label, Weight::regular, Role::quiet_ink, Role::paper};
     const double align = b.x < a.x ? 1 : 0;
     const double beside = b.x < a.x ? -14 : 14;
-    labels_.try_add(side, {{middle + Vec<2>(beside, 2), align}, {middle + Vec<2>(0, 6), 0.5}},
-                    style, panel_);
+    try_write(side, {{middle + Vec<2>(beside, 2), align}, {middle + Vec<2>(0, 6), 0.5}}, style);
   }
 
-  const Frame& frame_;
-  Box<2> panel_;
-  DrawList& list_;
-  Labels& labels_;
   TreeLayout layout_;
   std::vector<bool> says_holds_;  // by row
   BodiesById bodies_;
@@ -343,9 +331,8 @@ class TreeView {
 
 }  // namespace
 
-void draw_one_tree(const Frame& frame, const UnionTree& tree, const TreeStage& stage,
-                   DrawList& list, Labels& labels) {
-  TreeView(frame, tree, stage, list, labels).draw();
+void draw_one_tree(const PanelPicture& on, const UnionTree& tree, const TreeStage& stage) {
+  TreeView(on, tree, stage).draw();
 }
 
 }  // namespace lantern::draw

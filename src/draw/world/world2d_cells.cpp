@@ -124,17 +124,22 @@ bool nearly_all_lit(const Frame& frame) {
   return frame.bodies.size() > 50 && is_nearly_all_lit(frame.nodes);
 }
 
+void paint_cell(const Frame& frame, const FrameNode& node, Role role, const View2D& map,
+                DrawList& list, Grounds& grounds) {
+  grounds.push_back({page_region(node, map), role});
+  if (node.region.empty())
+    list.crisp_rect(cell_of(frame, node, map), role);
+  else
+    list.polygon(grounds.back().region, role);
+}
+
 // What a ray, view or region has left out.
 void fill_skipped(const Frame& frame, const View2D& map, DrawList& list, Grounds& grounds) {
   std::size_t filled = 0;
   for (const FrameNode& node : frame.nodes) {
     if (!is_topmost_skipped(node, frame) || !is_drawn(cell_of(frame, node, map))) continue;
     if (++filled > kMostFills) return;
-    grounds.push_back({page_region(node, map), Role::free_space});
-    if (node.region.empty())
-      list.crisp_rect(cell_of(frame, node, map), Role::free_space);
-    else
-      list.polygon(grounds.back().region, Role::free_space);
+    paint_cell(frame, node, Role::free_space, map, list, grounds);
   }
 }
 
@@ -149,14 +154,9 @@ void fill_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& 
   if (painted.size() > kMostFills) return;  // some alone would say what is not so
   for (const auto& [i, tone] : painted) {
     const FrameNode& node = frame.nodes[i];
-    const Role role = ground_of(tone);
-    grounds.push_back({page_region(node, map), role});
     const DrawList::Scope scope(list, node_key("world/cell", frame.nodes, node),
                                 parent_key("world/cell", frame.nodes, node));
-    if (node.region.empty())
-      list.crisp_rect(cell_of(frame, node, map), role);
-    else
-      list.polygon(grounds.back().region, role);
+    paint_cell(frame, node, ground_of(tone), map, list, grounds);
     list.marks.add(tone == Mark::lit ? MarkKind::lit : MarkKind::passed);
   }
 }
@@ -202,26 +202,13 @@ void tone_asleep(const Frame& frame, const View2D& map, DrawList& list) {
 }
 
 // Of a grid of several levels the coarser cells have the stronger lines.
-class GridDepths {
- public:
-  explicit GridDepths(const Frame& frame) : frame_(frame) {
-    for (const FrameNode& node : frame.nodes)
-      if (is_level(node)) coarsest_ = std::max(coarsest_, node.slot);
-  }
-  std::uint32_t operator[](const FrameNode& node) const {
-    if (!has_cells(frame_.structure) || node.depth < 2) return node.depth;
-    const FrameNode* above = &node;
-    while (above->depth > 1) above = &frame_.nodes[above->parent];
-    return is_level(*above) ? 1 + coarsest_ - above->slot : 1;
-  }
-
- private:
-  static bool is_level(const FrameNode& node) {
-    return node.depth == 1 && node.label.starts_with('L');
-  }
-  const Frame& frame_;
-  std::uint32_t coarsest_ = 0;
-};
+bool is_grid_level(const FrameNode& node) { return node.depth == 1 && node.label.starts_with('L'); }
+std::uint32_t line_depth(const Frame& frame, const FrameNode& node, std::uint32_t coarsest) {
+  if (!has_cells(frame.structure) || node.depth < 2) return node.depth;
+  const FrameNode* above = &node;
+  while (above->depth > 1) above = &frame.nodes[above->parent];
+  return is_grid_level(*above) ? 1 + coarsest - above->slot : 1;
+}
 
 // Of a grid, where the cells lie that hold nothing; not of cells so small that lines would fill
 // the picture.
@@ -260,7 +247,9 @@ void fill_levels(const Frame& frame, const View2D& map, DrawList& list) {
 bool draw_borders(const Frame& frame, const View2D& map, bool of_static, DrawList& list) {
   const bool fitted = traits_of(frame.structure).hugs && !of_static;
   bool complete = true;
-  const GridDepths depths(frame);
+  std::uint32_t coarsest = 0;
+  for (const FrameNode& node : frame.nodes)
+    if (is_grid_level(node)) coarsest = std::max(coarsest, node.slot);
   Borders borders;
   for (std::uint32_t i = 0; i < frame.nodes.size(); ++i) {
     const FrameNode& node = frame.nodes[i];
@@ -270,7 +259,7 @@ bool draw_borders(const Frame& frame, const View2D& map, bool of_static, DrawLis
       continue;
     const Box<2> cell = cell_of(frame, node, map);
     if (is_drawn(cell))
-      borders.add(cell, depths[node], i);
+      borders.add(cell, line_depth(frame, node, coarsest), i);
     else if (overlap(shrunk(map.picture(), kLeastCell), map.to_page(node.box)))
       complete &= of_static;
   }
