@@ -43,8 +43,7 @@ struct Counter {
   // Room for four digits at least, so that the number may grow without moving anything.
   double number_room() const { return std::max(Labels::number_width(4, style()), number_width()); }
   double number_width() const {
-    if (!whole) return text_width(number, style());
-    return Labels::number_width(std::ssize(std::to_string(*whole)), style());
+    return whole ? Labels::width_of(*whole, style()) : text_width(number, style());
   }
 };
 

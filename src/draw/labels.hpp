@@ -3,8 +3,10 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstdint>
 #include <initializer_list>
+#include <iterator>
 #include <span>
 #include <string>
 #include <string_view>
@@ -113,6 +115,10 @@ class Labels {
                   const Box<2>& panel);
   static double number_width(std::int64_t digits, const TextStyle& style) {
     return width_to(digits, digits, style);
+  }
+  // As wide as this number.
+  static double width_of(std::integral auto number, const TextStyle& style) {
+    return number_width(std::ssize(std::to_string(number)), style);
   }
 
   // What a picture leaves out, on a plate in its lower left corner. Nothing for an empty note.

@@ -75,12 +75,6 @@ Vec<2> rim_of(const Box<2>& box, const Vec<2>& towards) {
   return c + way * std::min({x, y, 1.0});
 }
 
-double common_area(const Box<2>& a, const Box<2>& b) {
-  if (!overlap(a, b)) return 0;
-  const Vec<2> size = glm::min(a.hi, b.hi) - glm::max(a.lo, b.lo);
-  return size.x * size.y;
-}
-
 // How much of what is drawn the plate or its line would disturb. Grounds do not count.
 class Clutter {
  public:
@@ -99,7 +93,11 @@ class Clutter {
 
   double under(const Box<2>& plate) const {
     double cost = 0;
-    for (const Box<2>& thing : things_) cost += 0.02 * common_area(plate, thing);
+    for (const Box<2>& thing : things_)
+      if (overlap(plate, thing)) {
+        const Vec<2> size = glm::min(plate.hi, thing.hi) - glm::max(plate.lo, thing.lo);
+        cost += 0.02 * (size.x * size.y);
+      }
     for (const auto& [from, to] : lines_) cost += cut_line(from, to, plate) ? 20 : 0;
     return cost;
   }

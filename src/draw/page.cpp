@@ -31,7 +31,7 @@ void add_rule(DrawList& list, double y, double margin) {
 // Gives the left end.
 double draw_step(const Frame& frame, const Box<2>& band, Labels& labels) {
   if (frame.steps == 0) return band.hi.x;
-  const double number = Labels::number_width(std::ssize(std::to_string(frame.steps)), kQuiet);
+  const double number = Labels::width_of(frame.steps, kQuiet);
   const double space = text_width(" ", kQuiet);
   double x = band.hi.x;
   for (const auto& [word, count] : {std::pair{"of", std::int64_t{frame.steps}},
@@ -143,7 +143,7 @@ double number_room(const Frame& frame, const std::string& name) {
   double room = Labels::number_width(4, kNumber);
   for (const Frame& side : frame.sides) {
     const auto count = side.count(name);
-    room = std::max(room, count ? Labels::number_width(std::ssize(std::to_string(*count)), kNumber)
+    room = std::max(room, count ? Labels::width_of(*count, kNumber)
                                 : text_width(number_on(side, name), kNumber));
   }
   return room;

@@ -238,9 +238,7 @@ class AtlasView : PanelPicture {
   void draw_queue(const char* heading, const std::vector<const FrameTexture*>& queue,
                   const Box<2>& area, bool crossed) {
     const TextStyle style{kLabel, Weight::semibold, crossed ? Role::warning : Role::quiet_ink};
-    const auto digits = static_cast<std::int64_t>(
-        std::to_string(frame_.get<FrameTextures>().textures.size()).size());
-    const double number = Labels::number_width(digits, style);
+    const double number = Labels::width_of(frame_.get<FrameTextures>().textures.size(), style);
     labels_.add_number(static_cast<std::int64_t>(queue.size()),
                        {area.lo.x + number, area.lo.y + 23}, style, panel_);
     write(heading, {{area.lo.x + number + 7, area.lo.y + 23}, 0}, style);

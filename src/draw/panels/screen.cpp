@@ -113,8 +113,7 @@ class ScreenView : PanelPicture {
     const double baseline = top + 27;
     const std::string noun = way.bindings == 1 ? "binding" : "bindings";
     const double words = text_width("bindings", kPlain);
-    const auto digits = static_cast<std::int64_t>(std::to_string(screen_.elements.size()).size());
-    const double number = Labels::number_width(digits, kWayNumber);
+    const double number = Labels::width_of(screen_.elements.size(), kWayNumber);
     const double right = ways_.hi.x - words - 8;
     const double key = right - number - kBindWidth - 12;
     if (key < ways_.lo.x) return;

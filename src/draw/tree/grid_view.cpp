@@ -73,8 +73,7 @@ class GridView : PanelPicture {
     const GridExtent& extent = structure_.grid_levels[level];
     write(shortened(heading_of(extent), place.size().x, kStrong),
           {{place.lo.x, place.lo.y + 0.8 * kLabel}, 0}, kStrong);
-    const auto digits = std::to_string(extent.columns * extent.rows).size();
-    const double gutter = Labels::number_width(static_cast<std::int64_t>(digits), kQuiet) + 12;
+    const double gutter = Labels::width_of(extent.columns * extent.rows, kQuiet) + 12;
     const Vec<2> origin{place.lo.x + gutter, place.lo.y + kGridHeading};
     double width =
         std::min(kMostSlot, (place.hi.x - origin.x) / static_cast<double>(extent.columns));

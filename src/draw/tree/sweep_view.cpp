@@ -49,8 +49,7 @@ class SweepView : PanelPicture {
     row_ = std::min(kMostBand,
                     area_.size().y / static_cast<double>(std::max<std::size_t>(1, order_.size())));
     area_.hi.y = area_.lo.y + row_ * static_cast<double>(order_.size());
-    const auto digits = static_cast<std::int64_t>(fmt::format("{}", order_.size()).size());
-    numbers_ = Labels::number_width(digits, kQuiet) + 14;
+    numbers_ = Labels::width_of(order_.size(), kQuiet) + 14;
     area_.lo.x += numbers_ + row_ + 10;
     std::size_t lit = 0;
     for (std::size_t i = 0; i < order_.size(); ++i) {

@@ -50,10 +50,6 @@ std::vector<Fact> facts_of(const Frame& frame, const Staging& staging, const Box
 constexpr double kFactLine = 32;
 constexpr double kFactGap = 26;
 
-double number_width(std::int64_t number, const TextStyle& style) {
-  return Labels::number_width(static_cast<std::int64_t>(std::to_string(number).size()), style);
-}
-
 // Lays the facts out in lines and draws them when `labels` is given; gives the number of lines.
 // A count has room for two digits at least, so that the others do not move while a small tree
 // grows.
@@ -65,8 +61,9 @@ int lay_out_facts(const std::vector<Fact>& facts, const Box<2>& panel, double to
   for (const Fact& fact : facts) {
     double number = 0, room = 0;  // width of this one, and of the widest
     if (fact.number) {
-      number = number_width(*fact.number, style) + kSpace;
-      room = number_width(std::max({*fact.number, fact.most, std::int64_t{10}}), style) + kSpace;
+      number = Labels::width_of(*fact.number, style) + kSpace;
+      room =
+          Labels::width_of(std::max({*fact.number, fact.most, std::int64_t{10}}), style) + kSpace;
     }
     const std::string words = shortened(fact.words, panel.size().x, style);
     const double width = room + text_width(fact.widest.empty() ? words : fact.widest, style);

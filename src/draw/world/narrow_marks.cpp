@@ -136,10 +136,11 @@ std::string search_number(const FrameSearch& search, const Vec<2>& difference) {
 }
 
 void mark_search(const Frame& frame, const View2D& map, DrawList& list, Labels& labels) {
-  if (!frame.find<FrameSearch>() || frame.find<FrameSearch>()->steps.empty()) return;
-  mark_points(*frame.find<FrameSearch>(), map, list, labels);
-  mark_newest(*frame.find<FrameSearch>(), map, list, labels);
-  mark_answer(*frame.find<FrameSearch>(), map, list, labels);
+  const FrameSearch& search = frame.get<FrameSearch>();
+  if (search.steps.empty()) return;
+  mark_points(search, map, list, labels);
+  mark_newest(search, map, list, labels);
+  mark_answer(search, map, list, labels);
   list.referents.insert({"gjk_steps", "distance"});
 }
 

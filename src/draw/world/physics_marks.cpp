@@ -85,19 +85,11 @@ void write_size(const std::string& text, const Vec<2>& from, const Vec<2>& to, R
   const double length = std::hypot(way.x, way.y);
   if (!(length > 0)) return;
   const Vec<2> along = way / length, side{-along.y, along.x};
-  const Anchor tip = centred(to + along * 16.0, style,
-                             along.x > 0.3    ? 0
-                             : along.x < -0.3 ? 1
-                                              : 0.5);
-  const Anchor left = centred(middle - side * 22.0, style,
-                              side.x > 0.3    ? 1
-                              : side.x < -0.3 ? 0
-                                              : 0.5);
-  const Anchor right = centred(middle + side * 22.0, style,
-                               side.x > 0.3    ? 0
-                               : side.x < -0.3 ? 1
-                                               : 0.5);
-  labels.try_add(text, {tip, left, right}, style, room);
+  const auto beside = [&](const Vec<2>& at, const Vec<2>& away, double gap) {
+    return centred(at + away * gap, style, away.x > 0.3 ? 0 : away.x < -0.3 ? 1 : 0.5);
+  };
+  labels.try_add(text, {beside(to, along, 16), beside(middle, -side, 22), beside(middle, side, 22)},
+                 style, room);
 }
 
 struct ForceArrow {

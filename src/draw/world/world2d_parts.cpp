@@ -14,14 +14,6 @@ namespace {
 
 constexpr std::size_t kMostLabels = 120;
 
-// Where along its line a name may stand: near the end of the first line; the others end on a line,
-// where it would not be clear whose name it is.
-std::array<double, 7> plate_places(const FrameNode& node) {
-  return {node.depth == 0 ? 0.92 : 0.7, 0.3, 0.5, 0.8, 0.2, 0.6, 0.4};
-}
-
-const TextStyle kPlateStyle{kLabel, Weight::semibold, Role::ink};
-
 bool has_plate(const FrameNode& node) {
   return node.plane && !node.plane_name.empty() && dividing_line(node);
 }
@@ -32,11 +24,13 @@ std::array<std::pair<Vec<2>, Box<2>>, 7> plates_of(const FrameNode& node, const 
   Vec<2> a = map.in_reach(map.to_page(line.first));
   Vec<2> b = map.in_reach(map.to_page(line.second));
   if (b.y < a.y) std::swap(a, b);
-  const std::array<double, 7> places = plate_places(node);
+  // Near the end of the first line; the others end on a line, where it would not be clear whose
+  // name it is.
+  const std::array<double, 7> places{node.depth == 0 ? 0.92 : 0.7, 0.3, 0.5, 0.8, 0.2, 0.6, 0.4};
   std::array<std::pair<Vec<2>, Box<2>>, 7> plates;
   for (std::size_t k = 0; k < places.size(); ++k) {
     const Vec<2> p = a + (b - a) * places[k];
-    plates[k] = {p, plate_of(node.plane_name, p, kPlateStyle, {9, 7})};
+    plates[k] = {p, plate_of(node.plane_name, p, kStrong, {9, 7})};
   }
   return plates;
 }
@@ -105,7 +99,7 @@ void label_planes(const Frame& frame, const Staging& staging, const View2D& map,
       if (touches(bodies, plate) || !labels.is_free(plate, shrunk(map.picture(), 6))) continue;
       const Role role = node.mark == Mark::lit ? Role::lit : cell_line_role(node.depth);
       list.rect(plate, Role::panel, {role, 1.8}, 6);
-      labels.add(node.plane_name, centred(at, kPlateStyle), kPlateStyle, map.picture());
+      labels.add(node.plane_name, centred(at, kStrong), kStrong, map.picture());
       labels.block(plate);
       break;
     }
