@@ -57,7 +57,7 @@ void add_link(Frame& frame, FrameLink::Kind kind) {
   frame.add<FrameLinks>().links.push_back({kind, c - Vec<3>(20, 0, 0), c + Vec<3>(20, 0, 0), 0});
 }
 
-const Vec<3> kAlong{22, 0, 0};  // a half of what is asked for
+const Vec<3> kHalfWay{22, 0, 0};  // a half of what is asked for
 
 // What a mark means, and its sample: drawn by itself, or the smallest world that carries it.
 struct MarkRow {
@@ -181,7 +181,7 @@ constexpr MarkRow kRows[] = {
      .words = "ray",
      .make =
          [](Frame& f, const Vec<3>& c) {
-           f.add<FrameFinding>().rays.push_back({c - kAlong, c + kAlong, {}});
+           f.add<FrameFinding>().rays.push_back({c - kHalfWay, c + kHalfWay, {}});
          }},
     {.kind = MarkKind::ray_hit,
      .words = "hit",
@@ -202,7 +202,7 @@ constexpr MarkRow kRows[] = {
      .make =
          [](Frame& f, const Vec<3>& c) {
            f.add<FrameFinding>().views.push_back(
-               {c - kAlong, {c - kAlong, c + Vec<3>(22, -12, 0), c + Vec<3>(22, 12, 0)}});
+               {c - kHalfWay, {c - kHalfWay, c + Vec<3>(22, -12, 0), c + Vec<3>(22, 12, 0)}});
          }},
     {.kind = MarkKind::region,
      .words = "region",
