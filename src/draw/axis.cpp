@@ -1,8 +1,5 @@
 #include "draw/axis.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
 
 #include "draw/number_text.hpp"

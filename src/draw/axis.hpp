@@ -1,11 +1,28 @@
 // A plot's axis: its range, where its ticks stand, and what is written at them.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace lantern::draw {
+
+// What an axis must hold.
+struct PlotRange {
+  double least = 1e300, most = -1e300;
+  void add(double value, bool logarithmic) {
+    if (!std::isfinite(value) || (logarithmic && value <= 0)) return;
+    least = std::min(least, value);
+    most = std::max(most, value);
+  }
+  void add(const std::optional<std::pair<double, double>>& ends, bool logarithmic) {
+    if (ends) add(ends->first, logarithmic), add(ends->second, logarithmic);
+  }
+  bool empty() const { return least > most; }
+};
 
 class Axis {
  public:

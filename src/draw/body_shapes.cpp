@@ -5,7 +5,6 @@
 
 #include "geometry/flat.hpp"
 #include "geometry/plane.hpp"
-
 namespace lantern::draw {
 namespace {
 
@@ -80,12 +79,13 @@ Plane<2> page_surface(const FrameBody& body, const Vec<2>& through) {
   return Plane<2>::through(through, on_page / std::hypot(on_page.x, on_page.y));
 }
 
-Box<2> icon_box(const FrameBody& body, const Box<2>& place) {
-  const Vec<2> size = body.box.size();
+void draw_icon(const FrameBody* body, const Box<2>& place, DrawList& list) {
+  if (!body) return;
+  const Vec<2> size = body->box.size();
   const double longest = std::max(size.x, size.y);
-  if (!(longest > 0)) return place;
+  if (!(longest > 0)) return draw_character(*body, place, false, list);
   const Vec<2> half{std::max(size.x / longest, 0.34), std::max(size.y / longest, 0.34)};
-  return Box<2>::around(place.center(), half * place.size() * 0.5);
+  draw_character(*body, Box<2>::around(place.center(), half * place.size() * 0.5), false, list);
 }
 
 }  // namespace lantern::draw

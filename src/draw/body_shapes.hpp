@@ -29,6 +29,20 @@ inline Role ground_of(Mark mark) {
   return mark == Mark::passed ? Role::passed_fill : Role::panel;
 }
 
+// In a tree of many leaves that are nearly all lit the marks tell nothing.
+inline bool is_nearly_all_lit(const std::vector<FrameNode>& nodes) {
+  constexpr std::size_t kMany = 200;
+  std::size_t leaves = 0, lit = 0;
+  for (const FrameNode& node : nodes) {
+    leaves += node.leaf;
+    lit += node.leaf && node.mark == Mark::lit;
+  }
+  return nodes.size() > kMany && 10 * lit > 7 * leaves;
+}
+// Has a ray, view or region left it out, and not already what is above it?
+inline bool is_topmost_skipped(const FrameNode& node, const Frame& frame) {
+  return node.skipped && (node.parent == kNone || !frame.nodes[node.parent].skipped);
+}
 // The level in a leaf that is shown as a bucket, within its box; nothing where none is shown.
 inline std::optional<Box<2>> level_in(const Frame& frame, const FrameNode& node, Box<2> box) {
   if (!frame.display.fill || frame.get<FrameStructure>().capacity == 0 || !node.leaf ||
@@ -42,6 +56,11 @@ inline std::optional<Box<2>> level_in(const Frame& frame, const FrameNode& node,
 
 using BodiesById = std::unordered_map<BodyId, const FrameBody*>;
 BodiesById by_id(const std::vector<FrameBody>& bodies);
+// Null if it is none of them.
+inline const FrameBody* body_of(const BodiesById& bodies, BodyId id) {
+  const auto found = bodies.find(id);
+  return found == bodies.end() ? nullptr : found->second;
+}
 
 // The point of a half-space's surface that is nearest to a point.
 Vec<3> foot_on(const FrameBody& ground, const Vec<3>& point);
@@ -50,16 +69,6 @@ Vec<3> foot_on(const FrameBody& ground, const Vec<3>& point);
 // other one.
 Vec<3> link_end(const FrameBody& body, const FrameBody& other);
 
-// f(one, other, pair) for each pair that both bodies of are in `bodies`, until it gives false.
-template <class F>
-bool for_each_pair(const Frame& frame, const BodiesById& bodies, const F& f) {
-  for (const FramePair& pair : frame.pairs) {
-    const auto a = bodies.find(pair.pair.a), b = bodies.find(pair.pair.b);
-    if (a != bodies.end() && b != bodies.end() && !f(*a->second, *b->second, pair)) return false;
-  }
-  return true;
-}
-
 // The outline of a box or capsule that turns, when the body's box fills `place`; convex. Empty for
 // any other shape.
 std::vector<Vec<2>> turned_outline(const FrameBody& body, const Box<2>& place);
@@ -67,14 +76,12 @@ std::vector<Vec<2>> turned_outline(const FrameBody& body, const Box<2>& place);
 // The surface of a half-space through this point of the page; the solid is behind it.
 Plane<2> page_surface(const FrameBody& body, const Vec<2>& through);
 
-// The part of `place` that a body's character fills there: a bat stays long and thin, down to a
-// third.
-Box<2> icon_box(const FrameBody& body, const Box<2>& place);
-
 // Draws the body so that it fills `place` (page units). Eyes and mouth turn along its velocity.
 // Below some 14 units across, and when `plain`, a body is one simple shape.
 void draw_character(const FrameBody& body, const Box<2>& place, bool plain, DrawList& list);
 
+// The same in a part of `place`: a bat stays long and thin, down to a third. Nothing for null.
+void draw_icon(const FrameBody* body, const Box<2>& place, DrawList& list);
 // The emblem of a colour around `center`: what tells colours apart without colour.
 void draw_emblem(int color, const Vec<2>& center, double radius, DrawList& list);
 

@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "draw/body_shapes.hpp"
-#include "draw/draw_list.hpp"
 #include "draw/pen.hpp"
 #include "geometry/plane.hpp"
 
@@ -24,9 +23,6 @@ struct Figure {
 
   Vec<2> at(double x, double y) const { return center + Vec<2>(x * half.x, y * half.y); }
 };
-
-// A small character needs a thinner pen, or it would be all outline.
-double pen_width(double size) { return std::clamp(0.034 * size, 0.8, 2.6); }
 
 // Along the velocity on the page; at rest `calm`.
 Vec<2> direction(const FrameBody& body, const Vec<2>& calm) {
@@ -183,12 +179,6 @@ void hatch_static(const FrameBody& body, const Figure& f, const Box<2>& place, D
       .hatch(outline, std::clamp(0.4 * f.unit, 7.0, 13.0), 1, {Role::quiet_ink, 1.1}, 60);
 }
 
-// "z z" for a body that sleeps: in the middle, or of a character beside its head.
-void draw_sleep(const FrameBody& body, const Figure& f, DrawList& list) {
-  const Vec<2> corner = is_character(body) ? Vec<2>(0.5, -0.98) : Vec<2>(-0.34, -0.12);
-  draw_zz(f.center + corner * f.unit, f.unit, std::max(1.2, 0.9 * f.line), list);
-}
-
 void draw_round(const FrameBody& body, const Figure& f, DrawList& list) {
   list.rect(Box<2>::around(f.center, f.half - Vec<2>(0.04 * f.unit)), fill_of(body),
             rim_of(body, f), 0.96 * f.unit);
@@ -254,7 +244,7 @@ void draw_character(const FrameBody& body, const Box<2>& place, bool plain, Draw
   if (is_half_space(body)) return draw_ground(body, place, list);
   Figure f{place.center(), place.size() * 0.5};
   f.unit = std::min(f.half.x, f.half.y);
-  f.line = pen_width(2 * f.unit);
+  f.line = std::clamp(0.034 * (2 * f.unit), 0.8, 2.6);  // small ones need a thin pen
   const bool upright = body.look == Look::ghost || body.look == Look::demon;
   f.gaze = direction(body, upright ? Vec<2>(0.8, 0.6) : Vec<2>(1.0, 0.0));
   const bool small = 2 * std::max(f.half.x, f.half.y) < kPlainBelow;
@@ -262,7 +252,10 @@ void draw_character(const FrameBody& body, const Box<2>& place, bool plain, Draw
   draw_look(body, f, place, list);
   if (plain) return;
   if (body.is_static) hatch_static(body, f, place, list);
-  if (body.asleep) draw_sleep(body, f, list);
+  if (body.asleep) {  // "z z" in the middle, or of a character beside its head
+    const Vec<2> corner = is_character(body) ? Vec<2>(0.5, -0.98) : Vec<2>(-0.34, -0.12);
+    draw_zz(f.center + corner * f.unit, f.unit, std::max(1.2, 0.9 * f.line), list);
+  }
   if (!is_character(body) && !body.asleep && fill_of(body) != Role::static_body)
     draw_emblem(body.color, body.look == Look::item ? f.at(0, 0.17) : f.center, 0.3 * f.unit, list);
 }

@@ -15,6 +15,9 @@
 #include "draw/notes.hpp"
 #include "draw/panels.hpp"
 #include "frame/parts/asked.hpp"
+#include "base/grouped.hpp"
+#include "draw/number_text.hpp"
+#include "draw/panel.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -35,12 +38,6 @@ struct Counter {
   bool told = false;                       // the caption speaks of it
   std::optional<std::int64_t> whole = {};  // the number, if it counts
 
-  static Counter of_count(std::int64_t number, std::string noun, std::string widest,
-                          std::vector<std::string> depicts) {
-    return {grouped(number), std::move(noun), std::move(widest), std::move(depicts), false,
-            false,           number};
-  }
-
   TextStyle style() const {
     if (main) return {30, Weight::semibold, Role::ink};
     return {25, told ? Weight::semibold : Weight::regular, told ? Role::ink : Role::quiet_ink};
@@ -52,14 +49,23 @@ struct Counter {
   // Room for four digits at least, so that the number may grow without moving anything.
   double number_room() const { return std::max(Labels::number_width(4, style()), number_width()); }
   double number_width() const {
-    if (!whole) return text_width(number, style());
-    return Labels::number_width(std::ssize(std::to_string(*whole)), style());
+    return whole ? Labels::width_of(*whole, style()) : text_width(number, style());
   }
 };
 
-Counter counted(std::int64_t number, const char* name, const std::string& one,
-                const std::string& many) {
-  return Counter::of_count(number, number == 1 ? one : many, many, {name});
+Counter counted(std::int64_t number, std::string noun, std::string widest,
+                std::vector<std::string> depicts) {
+  return {.number = grouped(number),
+          .noun = std::move(noun),
+          .widest = std::move(widest),
+          .depicts = std::move(depicts),
+          .whole = number};
+}
+
+// With the words of its row, and `of` behind them.
+Counter counted(std::int64_t number, const std::string& name, const std::string& of = "") {
+  return counted(number, count_words(name, number == 1) + of, count_words(name, false) + of,
+                 {name});
 }
 
 // What it is about when nobody says so: two at most.
@@ -71,61 +77,58 @@ std::vector<Counter> default_counters(const Frame& frame) {
     const std::int64_t all = std::max<std::int64_t>(1, count("atlas_area"));
     auto percent = static_cast<std::int64_t>(std::llround(100.0 * double(used) / double(all)));
     if (used > 0 && used < all) percent = std::clamp<std::int64_t>(percent, 1, 99);
-    return {
-        Counter::of_count(percent, "% used", "", {}),
-        Counter::of_count(count("textures"),
-                          fmt::format("of {} textures", frame.get<FrameTextures>().textures.size()),
-                          "", {"textures"})};
+    return {counted(percent, "% used", "", {}),
+            counted(count("textures"),
+                    fmt::format("of {} textures", frame.get<FrameTextures>().textures.size()), "",
+                    {"textures"})};
   }
   // Of a ray, view or region: how few bodies it had to test.
   if (!frame.get<FrameFinding>().rays.empty() || !frame.get<FrameFinding>().views.empty() ||
       !frame.get<FrameFinding>().queries.empty())
-    return {Counter::of_count(count("objects_tested"),
-                              fmt::format("of {} bodies tested", frame.bodies.size()), "",
-                              {"objects_tested", "bodies"}),
-            counted(count("hits"), "hits", "hit", "hits")};
+    return {
+        counted(count("objects_tested"), fmt::format("of {} bodies tested", frame.bodies.size()),
+                "", {"objects_tested", "bodies"}),
+        counted(count("hits"), "hits")};
   if (frame.count("sectors"))
-    return {counted(count("sectors"), "sectors", "sector", "sectors"),
-            counted(count("walls"), "walls", "wall", "walls")};
+    return {counted(count("sectors"), "sectors"), counted(count("walls"), "walls")};
   std::vector<Counter> counters;
   const auto pairs = frame.count("pairs"), bodies = frame.count("bodies");
+  const auto add = [&](std::int64_t n, const char* one, const char* many, const char* name) {
+    counters.push_back(counted(n, n == 1 ? one : many, many, {name}));
+  };
   // With contacts only those of them are tested whose boxes overlap.
   if (pairs && frame.count("contacts"))
-    counters.push_back(counted(*pairs, "pairs", "candidate pair", "candidate pairs"));
+    add(*pairs, "candidate pair", "candidate pairs", "pairs");
   else if (pairs)
-    counters.push_back(counted(*pairs, "pairs", "pair to test", "pairs to test"));
+    add(*pairs, "pair to test", "pairs to test", "pairs");
   else if (bodies)
-    counters.push_back(counted(*bodies, "bodies", "body", "bodies"));
+    add(*bodies, "body", "bodies", "bodies");
   if (const auto all = frame.count("testable_pairs"); all && !counters.empty())
-    counters.push_back(pairs ? counted(*all, "testable_pairs", "by brute force", "by brute force")
-                             : counted(*all, "testable_pairs", "pair", "pairs"));
+    add(*all, pairs ? "by brute force" : "pair", pairs ? "by brute force" : "pairs",
+        "testable_pairs");
   return counters;
 }
 
-// Under the sides stand the numbers of each; the foot puts some of them large in the end.
-std::optional<Counter> counter_of_side(const std::string& name, const Frame& frame) {
-  const std::size_t dot = name.find('.');
-  if (!frame.ending || dot == std::string::npos || !frame.side_named(name.substr(0, dot)))
-    return std::nullopt;
-  const std::string of = ", " + chart_words(name.substr(0, dot)), what = name.substr(dot + 1);
-  if (const auto n = frame.count(name))
-    return Counter::of_count(*n, count_words(what, *n == 1) + of, count_words(what, false) + of,
-                             {name});
-  if (const auto number = frame.measure(name))
-    return Counter{fmt::format("{:.4g}", *number), count_words(what, false) + of, "", {name}};
-  return std::nullopt;
-}
-
-// Of a count or measure that the frame has; none otherwise.
+// Of a count or measure that the frame has; none otherwise. Under the sides stand the numbers of
+// each; the foot puts some of them large in the end.
 std::optional<Counter> counter_of(const std::string& name, const Frame& frame) {
-  if (!frame.sides.empty()) return counter_of_side(name, frame);
+  std::string what = name, of;
+  if (!frame.sides.empty()) {
+    const std::size_t dot = name.find('.');
+    if (!frame.ending || dot == std::string::npos || !frame.side_named(name.substr(0, dot)))
+      return std::nullopt;
+    of = ", " + chart_words(name.substr(0, dot));
+    what = name.substr(dot + 1);
+  }
   if (const auto n = frame.count(name)) {
     for (Counter& known : default_counters(frame))
       if (known.depicts == std::vector{name}) return std::move(known);
-    return Counter::of_count(*n, count_words(name, *n == 1), count_words(name, false), {name});
+    Counter counter = counted(*n, what, of);
+    counter.depicts = {name};
+    return counter;
   }
   if (const auto number = frame.measure(name))
-    return Counter{fmt::format("{:.4g}", *number), count_words(name, false), "", {name}};
+    return Counter{fmt::format("{:.4g}", *number), count_words(what, false) + of, "", {name}};
   return std::nullopt;
 }
 
@@ -272,10 +275,7 @@ std::vector<std::string> caption_lines(const std::string& caption, double width,
     if (lines.size() == 2) return lines;
   }
   style.size = kLeastCaption;
-  std::vector<std::string> lines = wrapped(text, width, style);
-  if (lines.size() <= 2) return lines;
-  const std::size_t rest = text.find(lines[1], lines[0].size());
-  return {lines[0], shortened(std::string_view(text).substr(rest), width, style)};
+  return two_lines(text, width, style);
 }
 
 }  // namespace

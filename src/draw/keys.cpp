@@ -26,9 +26,14 @@ std::string node_key(std::string_view kind, const std::vector<FrameNode>& nodes,
   return fmt::format("{}/{}", kind, way_of(nodes, node));
 }
 
+std::string node_key(std::string_view kind, const std::vector<FrameNode>& nodes,
+                     const FrameNode& node) {
+  return node_key(kind, nodes, static_cast<std::uint32_t>(&node - nodes.data()));
+}
+
 std::string parent_key(std::string_view kind, const std::vector<FrameNode>& nodes,
-                       std::uint32_t node) {
-  return nodes[node].parent == kNone ? "" : node_key(kind, nodes, nodes[node].parent);
+                       const FrameNode& node) {
+  return node.parent == kNone ? "" : node_key(kind, nodes, node.parent);
 }
 
 std::string body_key(std::string_view kind, const FrameBody& body) {

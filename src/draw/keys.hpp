@@ -18,9 +18,12 @@ std::string way_of(const std::vector<FrameNode>& nodes, std::uint32_t node);
 // "world/cell/root.0.3" of the kind "world/cell".
 std::string node_key(std::string_view kind, const std::vector<FrameNode>& nodes,
                      std::uint32_t node);
+std::string node_key(std::string_view kind, const std::vector<FrameNode>& nodes,
+                     const FrameNode& node);
+
 // The same of the node's parent; empty for a root.
 std::string parent_key(std::string_view kind, const std::vector<FrameNode>& nodes,
-                       std::uint32_t node);
+                       const FrameNode& node);
 
 // "world/body/blue" of the kind "world/body"; what has no name goes by its number.
 std::string body_key(std::string_view kind, const FrameBody& body);

@@ -158,4 +158,11 @@ std::vector<std::string> wrapped(std::string_view text, double width, const Text
   return lines;
 }
 
+std::vector<std::string> two_lines(std::string_view text, double width, const TextStyle& style) {
+  std::vector<std::string> lines = wrapped(text, width, style);
+  if (lines.size() <= 2) return lines;
+  const std::size_t rest = text.find(lines[1], lines[0].size());
+  return {lines[0], shortened(text.substr(rest), width, style)};
+}
+
 }  // namespace lantern::draw

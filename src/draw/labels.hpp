@@ -3,8 +3,10 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <cstdint>
 #include <initializer_list>
+#include <iterator>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,6 +23,9 @@ struct TextStyle {
   Role role = Role::ink;
   Role halo = Role::none;
 };
+// What most words of panels are set in.
+inline constexpr TextStyle kPlain{}, kStrong{kLabel, Weight::semibold},
+    kQuiet{kLabel, Weight::regular, Role::quiet_ink};
 
 // In page units, as text_width of its size and weight.
 double text_width(std::string_view text, const TextStyle& style);
@@ -111,6 +116,10 @@ class Labels {
   static double number_width(std::int64_t digits, const TextStyle& style) {
     return width_to(digits, digits, style);
   }
+  // As wide as this number.
+  static double width_of(std::integral auto number, const TextStyle& style) {
+    return number_width(std::ssize(std::to_string(number)), style);
+  }
 
   // What a picture leaves out, on a plate in its lower left corner. Nothing for an empty note.
   void add_note(std::string_view note, const Box<2>& picture);
@@ -132,5 +141,7 @@ std::string shortened(std::string_view text, double width, const TextStyle& styl
 // The text's lines, broken at spaces so that each is no wider than `width`. A word that is wider by
 // itself is broken anywhere.
 std::vector<std::string> wrapped(std::string_view text, double width, const TextStyle& style);
+// Two lines at most, the second one shortened.
+std::vector<std::string> two_lines(std::string_view text, double width, const TextStyle& style);
 
 }  // namespace lantern::draw

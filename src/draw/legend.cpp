@@ -8,144 +8,283 @@
 #include "draw/pen.hpp"
 #include "frame/parts/asked.hpp"
 #include "frame/parts/motion.hpp"
+#include "draw/panel.hpp"
+#include "draw/world/narrow_marks.hpp"
 
 namespace lantern::draw {
 namespace {
+
+using frame::PairState;
 
 constexpr double kSampleWide = 58, kSampleHigh = 38;  // page units
 constexpr double kCutRim = 6;                         // of a world, around what a sample shows
 constexpr double kLegendRow = 46;
 constexpr double kBeforeWords = 12, kBetweenEntries = 36;
-const TextStyle kWordStyle{24, Weight::regular, Role::quiet_ink};
 
-// A world of the sample's proportions: what it holds is seen as it is, a unit a page unit.
-Frame blank_world() {
-  Frame frame;
-  frame.bounds = {{0, 0, 0}, {kSampleWide + 2 * kCutRim - 6, kSampleHigh + 2 * kCutRim - 6, 0}};
-  frame.display.names = ShownNames::none;
-  return frame;
-}
+// A place for a sample: its middle, its ends, and points within them.
+struct Sample {
+  Pen& pen;
+  DrawList& list;
+  Vec<2> c{0.0}, left{0.0}, right{0.0};
+  Vec<2> a{left.x + 8, left.y}, b{right.x - 8, right.y};
+};
 
-Vec<3> middle_of_world(const Frame& frame) { return frame.bounds.center(); }
-
-FrameBody& add_ball(Frame& frame, const Vec<2>& at, double radius) {
+FrameBody& add_ball(Frame& frame, double radius) {
   FrameBody body;
   body.id = static_cast<BodyId>(frame.bodies.size());
   body.look = Look::disc;
   body.color = 4;
   body.shape = Sphere{radius};
-  body.position = {at.x, at.y, 0};
-  body.box = {{at.x - radius, at.y - radius, 0}, {at.x + radius, at.y + radius, 0}};
+  body.position = frame.bounds.center();
+  body.box = Box<3>::around(body.position, {radius, radius, 0});
   return frame.bodies.emplace_back(body);
 }
 
-FrameNode& add_cell(Frame& frame, const Box<3>& box, std::uint32_t parent) {
+FrameNode& add_cell(Frame& frame, std::uint32_t parent) {
   FrameNode node;
   node.id = static_cast<std::uint32_t>(frame.nodes.size());
   node.parent = parent;
   node.depth = parent == kNone ? 0 : 1;
-  node.box = box;
+  node.box = frame.bounds;
   return frame.nodes.emplace_back(node);
 }
 
-void add_link(Frame& frame, FrameLink::Kind kind) {
-  const Vec<3> c = middle_of_world(frame);
-  const double reach = kind == FrameLink::Kind::pin ? 0 : 20;
-  frame.add<FrameLinks>().links.push_back(
-      {kind, c - Vec<3>(reach, 0, 0), c + Vec<3>(reach, 0, 0), 0});
-}
-
 // One cell of a world that is marked so.
-void add_marked(Frame& frame, Mark mark, bool awake) {
-  if (awake) add_cell(frame, frame.bounds, kNone).leaf = false;
-  FrameNode& node = add_cell(frame, frame.bounds, awake ? 0 : kNone);
+void add_marked(Frame& frame, Mark mark) {
+  add_cell(frame, kNone).leaf = false;
+  FrameNode& node = add_cell(frame, 0);
   node.mark = mark;
-  node.awake = awake;
-  if (!awake) node.bodies = {0};
+  node.box = {frame.bounds.lo + Vec<3>(8, 8, 0), frame.bounds.hi - Vec<3>(8, 8, 0)};
 }
 
-// A quadtree's node whose lower right quarter fills the picture, and is not made.
-void add_unmade(Frame& frame) {
-  frame.structure = StructureKind::quadtree;
-  FrameNode& node = add_cell(frame, frame.bounds, kNone);
-  node.leaf = false;
-  node.box.lo.x -= frame.bounds.size().x;
-  node.box.hi.y += frame.bounds.size().y;
+void add_link(Frame& frame, FrameLink::Kind kind) {
+  const Vec<3> c = frame.bounds.center();
+  frame.add<FrameLinks>().links.push_back({kind, c - Vec<3>(20, 0, 0), c + Vec<3>(20, 0, 0), 0});
 }
 
-void add_bodies(Frame& frame, MarkKind kind) {
-  const Vec<3> c = middle_of_world(frame);
-  switch (kind) {
-    case MarkKind::static_body: {
-      FrameBody& body = add_ball(frame, {c.x, c.y}, 12);
-      body.look = Look::box;
-      body.shape = AxisBox<3>{{12, 12, 0}};
-      body.is_static = true;
-      break;
-    }
-    case MarkKind::sleeping_body:
-      add_ball(frame, {c.x, c.y}, 13).asleep = true;
-      break;
-    case MarkKind::ruled_out:
-      add_ball(frame, {c.x, c.y}, 13).dimmed = true;
-      break;
-    default:
-      add_ball(frame, {c.x, c.y}, 11);
-  }
-}
+const Vec<3> kHalfWay{22, 0, 0};  // a half of what is asked for
 
-void add_question(Frame& frame, MarkKind kind) {
-  const Vec<3> c = middle_of_world(frame);
-  const Vec<3> along{22, 0, 0};
-  if (kind == MarkKind::ray) frame.add<FrameFinding>().rays.push_back({c - along, c + along, {}});
-  if (kind == MarkKind::region)
-    frame.add<FrameFinding>().queries.push_back(
-        {{c - Vec<3>(20, 10, 0), c + Vec<3>(20, 10, 0)}, 0});
-  if (kind == MarkKind::view)
-    frame.add<FrameFinding>().views.push_back(
-        {c - along, {c - along, c + Vec<3>(22, -12, 0), c + Vec<3>(22, 12, 0)}});
-}
+// What a mark means, and its sample: drawn by itself, or the smallest world that carries it.
+struct MarkRow {
+  MarkKind kind;
+  std::string_view words;
+  void (*draw)(const Sample&) = nullptr;
+  void (*make)(Frame& world, const Vec<3>& middle) = nullptr;
+};
 
-// The smallest world that carries the mark.
-Frame sample_of(MarkKind kind) {
-  Frame frame = blank_world();
-  switch (kind) {
-    case MarkKind::lit:
-    case MarkKind::passed:
-      add_marked(frame, kind == MarkKind::lit ? Mark::lit : Mark::passed, true);
-      frame.nodes[1].box = {frame.bounds.lo + Vec<3>(8, 8, 0), frame.bounds.hi - Vec<3>(8, 8, 0)};
-      break;
-    case MarkKind::sleeping_cell:
-      add_marked(frame, Mark::quiet, false);
-      break;
-    case MarkKind::not_made:
-      add_unmade(frame);
-      break;
-    case MarkKind::spring:
-      add_link(frame, FrameLink::Kind::spring);
-      break;
-    case MarkKind::rod:
-      add_link(frame, FrameLink::Kind::distance);
-      break;
-    case MarkKind::ray:
-    case MarkKind::region:
-    case MarkKind::view:
-      add_question(frame, kind);
-      break;
-    default:
-      add_bodies(frame, kind);
-  }
-  frame.display.boxes = kind == MarkKind::box;
+// By MarkKind.
+constexpr MarkRow kRows[] = {
+    {.kind = MarkKind::lit,
+     .words = "in question",
+     .make = [](Frame& f, const Vec<3>&) { add_marked(f, Mark::lit); }},
+    {.kind = MarkKind::passed,
+     .words = "passed",
+     .make = [](Frame& f, const Vec<3>&) { add_marked(f, Mark::passed); }},
+    {.kind = MarkKind::not_made,
+     .words = "not made",
+     .make =
+         [](Frame& f, const Vec<3>&) {
+           f.structure = StructureKind::quadtree;
+           // its lower right quarter fills the picture, and is not made
+           FrameNode& node = add_cell(f, kNone);
+           node.leaf = false;
+           node.box.lo.x -= f.bounds.size().x;
+           node.box.hi.y += f.bounds.size().y;
+         }},
+    {.kind = MarkKind::sleeping_cell,
+     .words = "asleep: not searched",
+     .make =
+         [](Frame& f, const Vec<3>&) {
+           FrameNode& node = add_cell(f, kNone);
+           node.awake = false;
+           node.bodies = {0};
+         }},
+    {.kind = MarkKind::static_body,
+     .words = "never moves",
+     .make =
+         [](Frame& f, const Vec<3>&) {
+           FrameBody& body = add_ball(f, 12);
+           body.look = Look::box;
+           body.shape = AxisBox<3>{{12, 12, 0}};
+           body.is_static = true;
+         }},
+    {.kind = MarkKind::sleeping_body,
+     .words = "asleep",
+     .make = [](Frame& f, const Vec<3>&) { add_ball(f, 13).asleep = true; }},
+    {.kind = MarkKind::ruled_out,
+     .words = "not found",
+     .make = [](Frame& f, const Vec<3>&) { add_ball(f, 13).dimmed = true; }},
+    {.kind = MarkKind::candidate,
+     .words = "to test",
+     .draw = [](const Sample& s) { draw_link(s.left, s.right, {}, s.pen); }},
+    {.kind = MarkKind::faint_pair,
+     .words = "to test, among many",
+     .draw =
+         [](const Sample& s) {
+           draw_link(s.left, s.right, {PairState::candidate, false, false}, s.pen);
+         }},
+    {.kind = MarkKind::boxes_apart,
+     .words = "apart by box",
+     .draw =
+         [](const Sample& s) {
+           draw_link(s.left, s.right, {PairState::boxes_apart, true, false}, s.pen);
+         }},
+    {.kind = MarkKind::shapes_apart,
+     .words = "apart by shape",
+     .draw =
+         [](const Sample& s) {
+           draw_link(s.left, s.right, {PairState::shapes_apart, true, false}, s.pen);
+         }},
+    {.kind = MarkKind::box_overlap,
+     .words = "box overlap",
+     .draw =
+         [](const Sample& s) {
+           draw_overlap(Box<2>::around(s.c, {14, 9}), s.list);
+         }},
+    {.kind = MarkKind::contact,
+     .words = "contact",
+     .draw =
+         [](const Sample& s) {
+           draw_contact(s.c, {0, -1}, 1, s.pen);
+         }},
+    {.kind = MarkKind::contact_begins,
+     .words = "contact begins",
+     .draw =
+         [](const Sample& s) {
+           draw_contact(s.c, {0, -1}, 1, s.pen);
+           draw_beginning(s.c, 1, s.pen);
+         }},
+    {.kind = MarkKind::impulse,
+     .words = "impulse",
+     .draw =
+         [](const Sample& s) {
+           draw_impulse(s.left + Vec<2>(8, 0), s.right - Vec<2>(8, 0), 1, s.pen);
+         }},
+    {.kind = MarkKind::velocity,
+     .words = "velocity",
+     .draw =
+         [](const Sample& s) {
+           s.pen.arrow(s.left, s.right, kVelocityStroke, kVelocityHead, 1.2);
+         }},
+    {.kind = MarkKind::force,
+     .words = "force",
+     .draw = [](const Sample& s) { s.pen.arrow(s.left, s.right, kForceStroke, kForceHead, 1.6); }},
+    {.kind = MarkKind::ruler,
+     .words = "length",
+     .draw =
+         [](const Sample& s) {
+           draw_ruler(s.left, s.right, {Role::ink, 2.2}, s.pen);
+         }},
+    {.kind = MarkKind::box,
+     .words = "box",
+     .make =
+         [](Frame& f, const Vec<3>&) {
+           add_ball(f, 11);
+           f.display.boxes = true;
+         }},
+    {.kind = MarkKind::ray,
+     .words = "ray",
+     .make =
+         [](Frame& f, const Vec<3>& c) {
+           f.add<FrameFinding>().rays.push_back({c - kHalfWay, c + kHalfWay, {}});
+         }},
+    {.kind = MarkKind::ray_hit,
+     .words = "hit",
+     .draw =
+         [](const Sample& s) {
+           s.pen.line(s.left, s.right, {Role::ray, 3.6});
+           s.pen.dot(s.c, 7, Role::panel, {Role::ray, 2.8});
+         }},
+    {.kind = MarkKind::met,
+     .words = "order of cells",
+     .draw =
+         [](const Sample& s) {
+           s.list.rect(Box<2>::around(s.c, {11, 11}), Role::panel, {Role::ray, 2}, 3);
+           s.pen.line(s.c + Vec<2>(0, -5), s.c + Vec<2>(0, 5), {Role::ray, 2});
+         }},
+    {.kind = MarkKind::view,
+     .words = "view",
+     .make =
+         [](Frame& f, const Vec<3>& c) {
+           f.add<FrameFinding>().views.push_back(
+               {c - kHalfWay, {c - kHalfWay, c + Vec<3>(22, -12, 0), c + Vec<3>(22, 12, 0)}});
+         }},
+    {.kind = MarkKind::region,
+     .words = "region",
+     .make =
+         [](Frame& f, const Vec<3>& c) {
+           f.add<FrameFinding>().queries.push_back(
+               {{c - Vec<3>(20, 10, 0), c + Vec<3>(20, 10, 0)}, 0});
+         }},
+    {.kind = MarkKind::found,
+     .words = "found",
+     .draw = [](const Sample& s) { draw_tick(s.c, s.list); }},
+    {.kind = MarkKind::skipped,
+     .words = "skipped, with all below",
+     .draw = [](const Sample& s) { draw_skipped(s.c, s.list); }},
+    {.kind = MarkKind::centre,
+     .words = "centre",
+     .draw = [](const Sample& s) { draw_centre(s.c, s.pen); }},
+    {.kind = MarkKind::spring,
+     .words = "spring",
+     .make = [](Frame& f, const Vec<3>&) { add_link(f, FrameLink::Kind::spring); }},
+    {.kind = MarkKind::rod,
+     .words = "rod",
+     .make = [](Frame& f, const Vec<3>&) { add_link(f, FrameLink::Kind::distance); }},
+    {.kind = MarkKind::pin, .words = "pin", .draw = [](const Sample& s) { draw_pin(s.c, s.pen); }},
+    {.kind = MarkKind::shadow,
+     .words = "reach along the axis",
+     .draw = [](const Sample& s) { draw_shadow(s.left, s.right, body_role(4), s.pen); }},
+    {.kind = MarkKind::shadow_gap,
+     .words = "gap",
+     .draw = [](const Sample& s) { draw_gap(s.a, s.b, s.pen); }},
+    {.kind = MarkKind::shadow_overlap,
+     .words = "way out along the axis",
+     .draw = [](const Sample& s) { draw_shared_shadow(s.a, s.b, s.pen); }},
+    {.kind = MarkKind::support,
+     .words = "farthest point",
+     .draw = [](const Sample& s) { draw_support(s.c, s.pen); }},
+    {.kind = MarkKind::simplex,
+     .words = "points kept",
+     .draw =
+         [](const Sample& s) {
+           draw_simplex({s.a, s.b}, s.pen);
+         }},
+    {.kind = MarkKind::origin,
+     .words = "origin",
+     .draw = [](const Sample& s) { draw_origin(s.c, s.pen); }},
+    {.kind = MarkKind::portal,
+     .words = "portal",
+     .draw = [](const Sample& s) { draw_portal(s.left, s.right, s.pen); }},
+    {.kind = MarkKind::sight,
+     .words = "line of sight",
+     .draw = [](const Sample& s) { draw_sight(s.left, s.right, s.pen); }},
+    {.kind = MarkKind::trail,
+     .words = "step before step",
+     .draw =
+         [](const Sample& s) {
+           draw_way({s.left + Vec<2>(6, 0), s.right}, s.pen);
+           s.pen.dot(s.left + Vec<2>(6, 0), 9, Role::none, kTrailStroke);
+         }},
+    {.kind = MarkKind::ahead,
+     .words = "next, if it meets nothing",
+     .draw = [](const Sample& s) { s.pen.path(ring_of(s.c, 10, 24), true, kAheadStroke); }},
+    {.kind = MarkKind::look,
+     .words = "a look within the step",
+     .draw = [](const Sample& s) { s.pen.dot(s.c, 10, Role::none, kLookStroke); }},
+};
+static_assert(std::size(kRows) == kMarkKinds);
+
+const MarkRow& row_of(MarkKind kind) { return kRows[static_cast<std::size_t>(kind)]; }
+
+// A world of the sample's proportions: what it holds is seen as it is, a unit a page unit.
+Frame sample_of(const MarkRow& row) {
+  Frame frame;
+  frame.bounds = {{0, 0, 0}, {kSampleWide + 2 * kCutRim - 6, kSampleHigh + 2 * kCutRim - 6, 0}};
+  frame.display.names = ShownNames::none;
+  frame.display.boxes = false;
+  row.make(frame, frame.bounds.center());
   return frame;
-}
-
-DrawList drawn_sample(MarkKind kind, const Box<2>& box) {
-  DrawList list;
-  Labels labels(list);
-  const Frame sample = sample_of(kind);
-  draw_world(sample, Staging(sample), shrunk(box, -kCutRim), list, labels);
-  keep_within(list, 0, box);  // without the world's border
-  return list;
 }
 
 struct Entry {
@@ -161,7 +300,7 @@ std::vector<Entry> entries_of(const MarkSet& marks, double width) {
   for (unsigned i = 0; i < kMarkKinds; ++i) {
     const auto kind = static_cast<MarkKind>(i);
     if (!marks.has(kind)) continue;
-    const double needed = kSampleWide + kBeforeWords + text_width(words_of(kind), kWordStyle);
+    const double needed = kSampleWide + kBeforeWords + text_width(words_of(kind), kQuiet);
     if (x > 0 && x + needed > width) {
       x = 0;
       ++row;
@@ -174,67 +313,26 @@ std::vector<Entry> entries_of(const MarkSet& marks, double width) {
 
 }  // namespace
 
-std::string_view words_of(MarkKind kind) {
-  // By MarkKind.
-  static constexpr std::string_view kWords[] = {"in question",
-                                                "passed",
-                                                "not made",
-                                                "asleep: not searched",
-                                                "never moves",
-                                                "asleep",
-                                                "not found",
-                                                "to test",
-                                                "to test, among many",
-                                                "apart by box",
-                                                "apart by shape",
-                                                "box overlap",
-                                                "contact",
-                                                "contact begins",
-                                                "impulse",
-                                                "velocity",
-                                                "force",
-                                                "length",
-                                                "box",
-                                                "ray",
-                                                "hit",
-                                                "order of cells",
-                                                "view",
-                                                "region",
-                                                "found",
-                                                "skipped, with all below",
-                                                "centre",
-                                                "spring",
-                                                "rod",
-                                                "pin",
-                                                "reach along the axis",
-                                                "gap",
-                                                "way out along the axis",
-                                                "farthest point",
-                                                "points kept",
-                                                "origin",
-                                                "portal",
-                                                "line of sight",
-                                                "step before step",
-                                                "next, if it meets nothing",
-                                                "a look within the step"};
-  static_assert(std::size(kWords) == kMarkKinds);
-  return kWords[static_cast<std::size_t>(kind)];
-}
+std::string_view words_of(MarkKind kind) { return row_of(kind).words; }
 
-MarkSet marks_of_sample(MarkKind kind) {
-  DrawList plain;
-  if (draw_mark(kind, {{0, 0}, {kSampleWide, kSampleHigh}}, plain)) {
-    plain.marks.add(kind);
-    return plain.marks;
+MarkSet draw_sample(MarkKind kind, const Box<2>& box, DrawList& list) {
+  const MarkRow& row = row_of(kind);
+  if (row.draw) {
+    Pen pen(list, box);
+    const Vec<2> c = box.center();
+    row.draw({pen, list, c, {box.lo.x + 4, c.y}, {box.hi.x - 4, c.y}});
+    MarkSet told;
+    told.add(kind);
+    return told;
   }
-  return drawn_sample(kind, {{0, 0}, {kSampleWide, kSampleHigh}}).marks;
-}
-
-void draw_sample(MarkKind kind, const Box<2>& box, DrawList& list) {
-  if (draw_mark(kind, box, list)) return;
-  DrawList own = drawn_sample(kind, box);
+  DrawList own;
+  Labels labels(own);
+  const Frame world = sample_of(row);
+  draw_world(world, Staging(world), shrunk(box, -kCutRim), own, labels);
+  keep_within(own, 0, box);  // without the world's border
   for (DrawShape& shape : own.shapes)
     if (!std::holds_alternative<TextShape>(shape)) list.shapes.push_back(std::move(shape));
+  return own.marks;
 }
 
 double legend_height(const MarkSet& marks, double width) {
@@ -249,8 +347,7 @@ void draw_legend(const MarkSet& marks, const Box<2>& strip, DrawList& list, Labe
     const Box<2> sample{corner, corner + Vec<2>(kSampleWide, kSampleHigh)};
     draw_sample(entry.kind, sample, list);
     labels.add(words_of(entry.kind),
-               centred({sample.hi.x + kBeforeWords, sample.center().y}, kWordStyle, 0), kWordStyle,
-               strip);
+               centred({sample.hi.x + kBeforeWords, sample.center().y}, kQuiet, 0), kQuiet, strip);
   }
 }
 

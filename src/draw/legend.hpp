@@ -3,20 +3,15 @@
 
 #include <string_view>
 
-#include "draw/draw_list.hpp"
 #include "draw/labels.hpp"
-#include "draw/mark_kind.hpp"
 
 namespace lantern::draw {
 
 // What a mark means, in a few words.
 std::string_view words_of(MarkKind kind);
 
-// The mark alone in this box, drawn by what draws it in a world.
-void draw_sample(MarkKind kind, const Box<2>& box, DrawList& list);
-
-// What is told of it when it is drawn.
-MarkSet marks_of_sample(MarkKind kind);
+// The mark alone in this box, drawn by what draws it in a world; gives what is told of it then.
+MarkSet draw_sample(MarkKind kind, const Box<2>& box, DrawList& list);
 
 // How high a strip of this width must be for these marks; 0 if there are none.
 double legend_height(const MarkSet& marks, double width);

@@ -1,12 +1,12 @@
 #include "draw/marks.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 
+#include <fmt/format.h>
+
 #include "draw/body_shapes.hpp"
 #include "draw/keys.hpp"
-#include "draw/pen.hpp"
 #include "draw/world/world3d_parts.hpp"
 #include "geometry/plane.hpp"
 
@@ -14,6 +14,7 @@ namespace lantern::draw {
 namespace {
 
 constexpr std::size_t kMostPairs = 900;
+constexpr double kCasing = 2;  // of the panel's tone, on both sides of a link
 
 // Those that are drawn; half-spaces, which are ground, always are.
 BodiesById drawn_of(const Frame& frame, const std::vector<Body3D>& bodies) {
@@ -67,7 +68,6 @@ void Marks::box(const Box<3>& box, const Stroke& stroke) {
 
 // With a cross at its centre.
 void Marks::ball(const Vec<3>& center, double radius, const Stroke& stroke) {
-  constexpr double kArm = 6;
   const Vec<2> page = to_page(center);
   const double reach = radius * projection_.scale_at(center);
   Pen pen = over();
@@ -75,8 +75,7 @@ void Marks::ball(const Vec<3>& center, double radius, const Stroke& stroke) {
     list_.disc(page, reach, Role::none, stroke);
   else if (std::isfinite(reach))
     pen.path(ring_of(page, reach, 60), true, {stroke.role, stroke.width});
-  for (const Vec<2>& arm : {Vec<2>(kArm, 0), Vec<2>(0, kArm)})
-    pen.line(page - arm, page + arm, {stroke.role, 2.2});
+  draw_centre(page, pen);
   tell(MarkKind::centre);
 }
 
@@ -233,6 +232,112 @@ void draw_joints(const Frame& frame, const Marks3D& marks) {
     const Vec<3> middle = !grounded ? common.center() : is_half_space(*a->second) ? from : to;
     marks.overlap_mark(middle);
   }
+}
+
+MarkKind kind_of(const LinkLook& look) {
+  using State = frame::PairState;
+  if (!look.full) return MarkKind::faint_pair;
+  if (look.state == State::boxes_apart) return MarkKind::boxes_apart;
+  return look.state == State::shapes_apart ? MarkKind::shapes_apart : MarkKind::candidate;
+}
+
+Stroke stroke_of(const LinkLook& look) {
+  if (!look.full) return {Role::faint_pair, 1.8};
+  if (look.state != frame::PairState::candidate) return {Role::rejected_pair, 2.6, 5};
+  return {Role::pair, look.lit ? 4.4 : 3.0};
+}
+
+void draw_cross(const Vec<2>& at, Role role, Pen& pen) {
+  constexpr double kArm = 7.5;
+  for (const double casing : {kCasing, 0.0})
+    for (const Vec<2>& arm : {Vec<2>(kArm, kArm), Vec<2>(kArm, -kArm)})
+      pen.line(at - arm, at + arm,
+               {casing > 0 ? Role::panel : role, casing > 0 ? 3 + 2 * casing : 3.0});
+}
+
+void draw_link(const Vec<2>& from, const Vec<2>& to, const LinkLook& look, Pen& pen) {
+  if (look.state == frame::PairState::contact) return;
+  pen.line(from, to, stroke_of(look), look.full ? kCasing : 0);
+  if (look.full && look.state == frame::PairState::shapes_apart)
+    draw_cross((from + to) / 2.0, Role::rejected_pair, pen);
+}
+
+void draw_portal(const Vec<2>& from, const Vec<2>& to, Pen& pen) {
+  pen.line(from, to, {Role::panel, 7});
+  pen.line(from, to, {Role::frustum, 4.4, 9});
+}
+
+void draw_sight(const Vec<2>& from, const Vec<2>& to, Pen& pen) {
+  pen.line(from, to, {Role::ray, 2.4}, 1.2);
+  for (const Vec<2>& end : {from, to}) pen.dot(end, 5, Role::ray, {Role::panel, 1.6});
+}
+
+void draw_overlap(const Box<2>& common, DrawList& list) {
+  constexpr double kLeast = 7;  // half its side
+  const Box<2> box = Box<2>::around(common.center(), glm::max(common.size() / 2.0, Vec<2>(kLeast)));
+  list.rect(box, Role::none, {Role::panel, 5});
+  list.rect(box, Role::none, {Role::pair, 2.4});
+  list.marks.add(MarkKind::box_overlap);
+}
+
+void draw_skipped(const Vec<2>& at, DrawList& list) {
+  constexpr double kArm = 4.2;
+  list.disc(at, kSkipRadius, Role::panel, {Role::quiet_ink, 2});
+  for (const Vec<2>& arm : {Vec<2>(kArm, kArm), Vec<2>(kArm, -kArm)})
+    list.line(at - arm, at + arm, {Role::quiet_ink, 2.2});
+  list.marks.add(MarkKind::skipped);
+}
+
+bool draw_met(std::uint32_t place, const Vec<2>& at, const Box<2>& room, DrawList& list,
+              Labels& labels) {
+  const TextStyle style{kLabel, Weight::semibold, Role::ray};
+  const std::string number = fmt::format("{}", place + 1);
+  const Box<2> plate = plate_of(number, at, style, {6, 5});
+  if (!labels.is_free(plate, room)) return false;
+  list.rect(plate, Role::panel, {Role::ray, 2}, 3);
+  labels.add(number, centred(at, style), style, room);
+  labels.block(plate);
+  list.marks.add(MarkKind::met);
+  return true;
+}
+
+void draw_tick(const Vec<2>& at, DrawList& list) {
+  list.disc(at, 9.5, Role::panel, {Role::frustum, 2});
+  const Vec<2> foot = at + Vec<2>(-1.2, 4);
+  list.line(at + Vec<2>(-4.6, 0.4), foot, {Role::frustum, 2.6});
+  list.line(foot, at + Vec<2>(5, -3.8), {Role::frustum, 2.6});
+  list.marks.add(MarkKind::found);
+}
+
+std::vector<bool> full_links(const Frame& frame) {
+  const std::size_t n = frame.pairs.size();
+  if (n <= kMostFullLinks) return std::vector<bool>(n, true);
+  std::vector<bool> full(n);
+  const BodiesById bodies = by_id(frame.bodies);
+  const auto is_lit = [&](BodyId id) {
+    const auto found = bodies.find(id);
+    return found != bodies.end() && found->second->lit;
+  };
+  std::size_t left = kMostFullLinks;
+  for (const bool about : {true, false})
+    for (std::size_t i = 0; i < n && left > 0; ++i) {
+      const FramePair& p = frame.pairs[i];
+      const bool wanted = about ? is_lit(p.pair.a) || is_lit(p.pair.b) : p.lit;
+      if (full[i] || !wanted) continue;
+      full[i] = true;
+      --left;
+    }
+  return full;
+}
+
+void draw_centre(const Vec<2>& at, Pen& pen) {
+  for (const Vec<2>& arm : {Vec<2>(6, 0), Vec<2>(0, 6)})
+    pen.line(at - arm, at + arm, {Role::frustum, 2.2});
+}
+
+void draw_pin(const Vec<2>& at, Pen& pen) {
+  pen.dot(at, 7.5, Role::panel, {Role::ink, 2.6});
+  pen.dot(at, 2, Role::ink);
 }
 
 }  // namespace lantern::draw

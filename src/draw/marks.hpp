@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "draw/labels.hpp"
-#include "draw/pen.hpp"
 #include "draw/projection.hpp"
 #include "frame/pair_state.hpp"
 
@@ -69,10 +68,6 @@ class Marks {
   DrawList* over_;
 };
 
-// A sample of a mark that fills a place about 60 wide and 24 high, for a legend. False, and nothing
-// is drawn, for what is no mark by itself but a look of cells, bodies, views and springs.
-bool draw_mark(MarkKind kind, const Box<2>& place, DrawList& list);
-
 // The link of a pair, from outline to outline, by how far the pair has come; nothing for a contact,
 // which has a mark of its own. `full`: else thin and pale, one among many.
 struct LinkLook {
@@ -90,6 +85,9 @@ void draw_cross(const Vec<2>& at, Role role, Pen& pen);
 void draw_portal(const Vec<2>& from, const Vec<2>& to, Pen& pen);
 void draw_sight(const Vec<2>& from, const Vec<2>& to, Pen& pen);
 
+// What says in a cell of the ledger how far a pair came. States differ in shape, so that they can
+// be told apart in grey and in any size; one that is new is lit.
+void draw_pair_mark(frame::PairState state, bool is_new, const Box<2>& cell, DrawList& list);
 // Where two boxes share some area of the page.
 void draw_overlap(const Box<2>& common, DrawList& list);
 // A node left out, with all below it; and a plate with the place of a cell on a ray's way, from 1.
@@ -99,6 +97,9 @@ void draw_skipped(const Vec<2>& at, DrawList& list);
 bool draw_met(std::uint32_t place, const Vec<2>& at, const Box<2>& room, DrawList& list,
               Labels& labels);
 void draw_tick(const Vec<2>& at, DrawList& list);
+// The middle of a ball that is asked for, and two points held together.
+void draw_centre(const Vec<2>& at, Pen& pen);
+void draw_pin(const Vec<2>& at, Pen& pen);
 
 // A contact: a bar along the normal, which points along `normal` of the page; `k` makes it smaller
 // among many.

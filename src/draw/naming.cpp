@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "draw/body_shapes.hpp"
-#include "draw/marks.hpp"
 #include "draw/world/world2d_parts.hpp"
-#include "geometry/flat.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -73,12 +70,8 @@ bool shows_id(const Staging& staging, const FrameNode& node) {
 const NameSides& name_sides(const Staging& staging, const Box<2>& panel) {
   return staging.once<NameSides>("sides of names", panel, [&] {
     Free free;
-    const std::size_t all = staging.frames().size();
-    const std::size_t looked_at = std::min(all, kMostLookedAt);
-    for (std::size_t i = 0; i < looked_at; ++i) {
-      const Frame& frame = *staging.frames()[i * all / looked_at];
-      if (frame.bodies.size() <= kCrowd) count_free(frame, panel, free);
-    }
+    for (const Frame* frame : staging.some_frames(kMostLookedAt))
+      if (frame->bodies.size() <= kCrowd) count_free(*frame, panel, free);
     NameSides sides;
     for (const auto& [name, counts] : free)
       sides[name] = static_cast<std::size_t>(std::ranges::max_element(counts) - counts.begin());

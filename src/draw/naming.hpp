@@ -8,7 +8,6 @@
 #include "draw/labels.hpp"
 #include "draw/projection.hpp"
 #include "draw/staging.hpp"
-#include "frame/frame.hpp"
 
 namespace lantern::draw {
 

@@ -1,5 +1,3 @@
-#include "draw/notes.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -7,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "draw/font.hpp"
+#include "draw/panel.hpp"
 #include "draw/pen.hpp"
 
 namespace lantern::draw {
@@ -77,12 +75,6 @@ Vec<2> rim_of(const Box<2>& box, const Vec<2>& towards) {
   return c + way * std::min({x, y, 1.0});
 }
 
-double common_area(const Box<2>& a, const Box<2>& b) {
-  if (!overlap(a, b)) return 0;
-  const Vec<2> size = glm::min(a.hi, b.hi) - glm::max(a.lo, b.lo);
-  return size.x * size.y;
-}
-
 // How much of what is drawn the plate or its line would disturb. Grounds do not count.
 class Clutter {
  public:
@@ -92,11 +84,7 @@ class Clutter {
         add(rect->box);
         if (rect->stroke.role != Role::none) add_outline(rect->box);
       }
-      if (const auto* polygon = std::get_if<PolygonShape>(&shape)) {
-        Box<2> box{Vec<2>(1e300), Vec<2>(-1e300)};
-        for (const Vec<2>& p : polygon->points) box = {glm::min(box.lo, p), glm::max(box.hi, p)};
-        add(box);
-      }
+      if (const auto* polygon = std::get_if<PolygonShape>(&shape)) add(box_of(polygon->points));
       if (const auto* line = std::get_if<LineShape>(&shape))
         lines_.push_back({line->from, line->to});
     }
@@ -105,7 +93,11 @@ class Clutter {
 
   double under(const Box<2>& plate) const {
     double cost = 0;
-    for (const Box<2>& thing : things_) cost += 0.02 * common_area(plate, thing);
+    for (const Box<2>& thing : things_)
+      if (overlap(plate, thing)) {
+        const Vec<2> size = glm::min(plate.hi, thing.hi) - glm::max(plate.lo, thing.lo);
+        cost += 0.02 * (size.x * size.y);
+      }
     for (const auto& [from, to] : lines_) cost += cut_line(from, to, plate) ? 20 : 0;
     return cost;
   }

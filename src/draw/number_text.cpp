@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include "base/number.hpp"
+#include "base/grouped.hpp"
+#include "language/counts.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -48,12 +50,27 @@ std::string number_text(double number, int decimals) {
   return number < 0 && text != "0" ? "−" + text : text;
 }
 
+std::string number_of(double number, std::string_view one) {
+  return fmt::format("{} {}{}", number_text(number), one, number == 1 ? "" : "s");
+}
+
 std::string short_number(double number) {
   const double size = std::abs(number);
   if (size > 0 && size < 1e-3) return as_power(number);
   int decimals = 0;
   for (double limit = 100; decimals < 5 && size < limit; limit /= 10) ++decimals;
   return number_text(number, number == std::floor(number) ? 0 : decimals);
+}
+
+std::string chart_words(std::string name) {
+  std::ranges::replace(name, '_', ' ');
+  if (const std::size_t dot = name.find('.'); dot != std::string::npos) name.replace(dot, 1, ": ");
+  return name;
+}
+
+std::string count_words(std::string_view name, bool one) {
+  const language::CountDoc* count = language::find_count(name);
+  return count ? count->words(one) : chart_words(std::string(name));
 }
 
 }  // namespace lantern::draw

@@ -1,7 +1,8 @@
-// Numbers as a book prints them.
+// Numbers as a book prints them, and what they count.
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace lantern::draw {
 
@@ -10,10 +11,21 @@ namespace lantern::draw {
 // finite becomes a dash.
 std::string number_text(double number, int decimals = 0);
 
+// "12 pairs", "1 pair".
+std::string number_of(double number, std::string_view one);
+
 // With as many decimals as three figures need.
 std::string short_number(double number);
 
 // "10⁻⁵"; 1 and 10 as they are.
 std::string power_of_ten(int power);
+
+// A count's or measure's name as words: "pair tests" of "pair_tests", "energy: bob" of
+// "energy.bob".
+std::string chart_words(std::string name);
+
+// What it is called beside its number: "leaf" or "leaves", "node visited" or "nodes visited",
+// "energy: bob"; `one` asks for the singular, which a measure does not have.
+std::string count_words(std::string_view name, bool one);
 
 }  // namespace lantern::draw

@@ -1,16 +1,16 @@
 #include "draw/page.hpp"
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
+#include <optional>
+#include <string_view>
 
-#include "draw/arrangement.hpp"
-#include "draw/font.hpp"
-#include "draw/labels.hpp"
+#include <fmt/format.h>
+
+#include "base/grouped.hpp"
 #include "draw/legend.hpp"
-#include "draw/notes.hpp"
+#include "draw/number_text.hpp"
 #include "draw/panel.hpp"
-#include "draw/panels.hpp"
-#include "draw/sides_view.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -31,82 +31,245 @@ void add_rule(DrawList& list, double y, double margin) {
 // Gives the left end.
 double draw_step(const Frame& frame, const Box<2>& band, Labels& labels) {
   if (frame.steps == 0) return band.hi.x;
-  const TextStyle style{kLabel, Weight::regular, Role::quiet_ink};
-  const auto digits = static_cast<std::int64_t>(std::to_string(frame.steps).size());
-  const double number = Labels::number_width(digits, style);
-  const double space = text_width(" ", style);
+  const double number = Labels::width_of(frame.steps, kQuiet);
+  const double space = text_width(" ", kQuiet);
   double x = band.hi.x;
   for (const auto& [word, count] : {std::pair{"of", std::int64_t{frame.steps}},
                                     std::pair{"step", frame.step + std::int64_t{1}}}) {
-    labels.add_number(count, {x, kTitleLine}, style, band);
+    labels.add_number(count, {x, kTitleLine}, kQuiet, band);
     x -= number + space;
-    labels.add(word, {{x, kTitleLine}, 1}, style, band);
-    x -= text_width(word, style) + space;
+    labels.add(word, {{x, kTitleLine}, 1}, kQuiet, band);
+    x -= text_width(word, kQuiet) + space;
   }
   return x + space;
 }
 
-void draw_title(const Frame& frame, double margin, DrawList& list, Labels& labels) {
-  const Box<2> band{{margin, 16}, {list.page.x - margin, kTitleRule - 2}};
-  const double right = draw_step(frame, band, labels) - 36;
-  const TextStyle bold{26, Weight::semibold, Role::ink};
-  const TextStyle quiet{24, Weight::regular, Role::quiet_ink};
-  const std::string title = shortened(frame.title, right - margin, bold);
-  labels.add(title, {{margin, kTitleLine}, 0}, bold, band);
-  const double end = margin + text_width(title, bold) + 11;
-  if (!frame.part.empty())
-    labels.add(shortened("·  " + frame.part, right - end, quiet), {{end, kTitleLine}, 0}, quiet,
-               band);
-  add_rule(list, kTitleRule, margin);
+// A title in bold, and behind it what more there is to say, quietly; both shortened to end at
+// `right`.
+void write_title(const std::string& title, const std::string& more, double size, const Vec<2>& at,
+                 double right, const Box<2>& band, Labels& labels) {
+  const TextStyle bold{size, Weight::semibold};
+  const std::string shown = shortened(title, right - at.x, bold);
+  labels.add(shown, {at, 0}, bold, band);
+  const double end = at.x + text_width(shown, bold) + 11;
+  if (!more.empty())
+    labels.add(shortened("·  " + more, right - end, kQuiet), {{end, at.y}, 0}, kQuiet, band);
+}
+
+constexpr double kBetweenSides = 56;
+constexpr double kTitleHeight = 46, kTitleBaseline = 26;
+constexpr double kNumbersHeight = 44, kNumbersBaseline = 36;
+constexpr double kBetweenNumbers = 34;
+constexpr double kWordsBaseline = 42, kWordsLine = 34;  // of what one side does alone
+constexpr double kTallArea = 0.9;     // aspect below which sides stand one above the other
+constexpr double kChartShare = 0.34;  // of the height, under all sides
+constexpr double kChartUnderFour = 0.44;
+constexpr std::size_t kMostNumbers = 3;
+const TextStyle kNumber{28, Weight::semibold, Role::ink};
+
+// Where each side is, in reading order. Four over a chart stand in one row, or none had height.
+std::vector<Box<2>> places_of(std::size_t sides, bool over_chart, const Box<2>& area) {
+  const bool tall = area.size().x < kTallArea * area.size().y;
+  const std::size_t columns = tall ? 1 : sides == 4 && !over_chart ? 2 : sides;
+  std::vector<Box<2>> places;
+  const std::size_t rows = (sides + columns - 1) / columns;
+  for (const Box<2>& row : split(area, 1, std::vector(rows, 1.0), 20))
+    for (const Box<2>& place : split(row, 0, std::vector(columns, 1.0), kBetweenSides))
+      places.push_back(place);
+  return places;
+}
+
+// Between neighbours of a row.
+void draw_rules(const std::vector<Box<2>>& places, DrawList& list) {
+  for (std::size_t i = 1; i < places.size(); ++i)
+    if (places[i].lo.x > places[i - 1].hi.x) {
+      const double x = places[i].lo.x - kBetweenSides / 2;
+      list.crisp_line({x, places[i].lo.y}, {x, places[i].hi.y}, {Role::rule, 1.6});
+    }
+}
+
+// What each does that the others do not, at the page's foot: under its own column, or, where sides
+// stand in rows, one below the other.
+void draw_words(const Frame& frame, const std::vector<Box<2>>& places, const Box<2>& foot,
+                Labels& labels) {
+  const TextStyle& style = kPlain;
+  const bool columns = places.back().lo.y == places[0].lo.y;
+  double y = foot.lo.y + kWordsBaseline;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Frame& side = frame.sides[i];
+    if (side.get<FrameSide>().held || side.caption.empty()) continue;
+    if (!columns) {
+      if (y > foot.hi.y - 8) return;
+      const std::string words = side.get<FrameSide>().title + ": " + side.caption;
+      labels.add(shortened(words, foot.size().x, style), {{foot.lo.x, y}, 0}, style, foot);
+      y += kWordsLine;
+      continue;
+    }
+    const double left = places[i].lo.x, width = places[i].size().x;
+    const std::vector<std::string> lines = two_lines(side.caption, width, style);
+    for (std::size_t k = 0; k < lines.size(); ++k)
+      labels.add(lines[k], {{left, y + kWordsLine * static_cast<double>(k)}, 0}, style, foot);
+  }
+}
+
+// Of the counts and measures: what structures, atlases and levels are about, of those that any side
+// counts.
+std::vector<std::string> numbers_of(const Frame& frame) {
+  std::vector<std::string> numbers;
+  for (const std::string& written : frame.headline) {
+    const std::size_t dot = written.find('.');
+    const bool of_side = dot != std::string::npos && frame.side_named(written.substr(0, dot));
+    const std::string name = of_side ? written.substr(dot + 1) : written;
+    if (std::ranges::find(numbers, name) == numbers.end()) numbers.push_back(name);
+  }
+  if (!numbers.empty()) return numbers;
+  for (const char* known : {"nodes", "textures", "pairs", "free_leaves", "contacts", "sectors"})
+    if (numbers.size() < kMostNumbers && std::ranges::any_of(frame.sides, [&](const Frame& side) {
+          return side.number(known).has_value();
+        }))
+      numbers.emplace_back(known);
+  return numbers;
+}
+
+std::string number_on(const Frame& side, const std::string& name) {
+  if (const auto count = side.count(name)) return grouped(*count);
+  const auto measured = side.measure(name);
+  return measured ? fmt::format("{:.3g}", *measured) : "";
+}
+
+// Wide enough for the longest of all sides and for four digits, so that what can be compared stands
+// at the same place of each.
+double number_room(const Frame& frame, const std::string& name) {
+  double room = Labels::number_width(4, kNumber);
+  for (const Frame& side : frame.sides) {
+    const auto count = side.count(name);
+    room = std::max(room, count ? Labels::width_of(*count, kNumber)
+                                : text_width(number_on(side, name), kNumber));
+  }
+  return room;
+}
+
+void draw_numbers(const Frame& frame, const Frame& side, const std::vector<std::string>& numbers,
+                  const Box<2>& place, Labels& labels) {
+  const Box<2> line{{place.lo.x, place.hi.y - kNumbersHeight}, place.hi};
+  const double y = line.lo.y + kNumbersBaseline;
+  double x = line.lo.x;
+  for (const std::string& name : numbers) {
+    const std::string one = count_words(name, true), many = count_words(name, false);
+    const double noun = x + number_room(frame, name) + 9;
+    x = noun + std::max(text_width(one, kQuiet), text_width(many, kQuiet));
+    if (x > line.hi.x) return;
+    const auto count = side.count(name);
+    if (count)
+      labels.add_number(*count, {noun - 9, y}, kNumber, line);
+    else
+      labels.add(number_on(side, name), {{noun - 9, y}, 1}, kNumber, line);
+    if (side.number(name)) labels.add(count == 1 ? one : many, {{noun, y}, 0}, kQuiet, line);
+    x += kBetweenNumbers;
+  }
+}
+
+void draw_panels(const Frame& frame, const Staging& staging, const Staging& arranged_for,
+                 const Box<2>& area, DrawList& list, Labels& labels, Work& work);
+
+// The sides beside each other, four of them in two rows, on a tall area one above the other: all as
+// large as each other, so that one scale holds for all. Each has its title over it and its
+// headline's counts under it, the same ones at the same places; a chart spans all of them. At the
+// page's foot, where otherwise the caption is, stands what a side does that the others do not. Keys
+// of what a side shows begin with its name.
+void draw_sides(const Frame& frame, const Staging& staging, const Box<2>& area, DrawList& list,
+                Labels& labels, Work& work) {
+  Box<2> above = area;
+  const auto below =
+      std::ranges::find_if(frame.panels, [](Panel panel) { return kind_of(panel).of_all_sides; });
+  const bool over_chart = below != frame.panels.end();
+  if (over_chart) {
+    const bool alone = frame.panels.size() == 1;
+    const double share = frame.sides.size() == 4 ? kChartUnderFour : kChartShare;
+    const double top = alone ? area.lo.y : area.hi.y - share * area.size().y;
+    draw_panel(*below, frame, staging, {{area.lo.x, top}, area.hi}, list, labels);
+    if (alone) return;
+    above.hi.y = top - 18;
+  }
+  const std::vector<Box<2>> places = places_of(frame.sides.size(), over_chart, above);
+  const std::vector<std::string> numbers = numbers_of(frame);
+  list.referents.insert(numbers.begin(), numbers.end());
+  const bool own_times = std::ranges::any_of(
+      frame.sides, [&](const Frame& side) { return side.time != frame.sides[0].time; });
+  draw_rules(places, list);
+  draw_words(frame, places, {{area.lo.x, area.hi.y + kOverFooter}, {area.hi.x, list.page.y - 12}},
+             labels);
+  for (std::size_t i = 0; i < frame.sides.size(); ++i) {
+    const Frame& side = frame.sides[i];
+    list.prefix = side.get<FrameSide>().name + "/";
+    Box<2> inner = places[i];
+    inner.lo.y += kTitleHeight;
+    // Its time too, if that is not the others'.
+    write_title(side.get<FrameSide>().title, own_times ? fmt::format("{:.2f} s", side.time) : "",
+                28, {inner.lo.x, places[i].lo.y + kTitleBaseline}, inner.hi.x,
+                {places[i].lo, {inner.hi.x, inner.lo.y}}, labels);
+    if (!numbers.empty()) inner.hi.y -= kNumbersHeight + 6;
+    draw_panels(side, staging.of_side(side.get<FrameSide>().name), staging.largest_side(), inner,
+                list, labels, work);
+    draw_notes(side, inner, list, labels);
+    labels.forget_places();  // the next side has bodies of the same names
+    draw_numbers(frame, side, numbers, places[i], labels);
+  }
+  list.prefix.clear();
 }
 
 // `arranged_for`: with what the panels' places are chosen; of a side it is that of all sides.
 void draw_panels(const Frame& frame, const Staging& staging, const Staging& arranged_for,
                  const Box<2>& area, DrawList& list, Labels& labels, Work& work) {
   if (frame.panels.empty()) return;
-  if (!frame.sides.empty())
-    return draw_sides(frame, staging, area,
-                      {{area.lo.x, area.hi.y + kOverFooter}, {area.hi.x, list.page.y - 12}}, list,
-                      labels, [&](const Frame& side, const Box<2>& place) {
-                        draw_panels(side, staging.of_side(side.get<FrameSide>().name),
-                                    staging.largest_side(), place, list, labels, work);
-                        draw_notes(side, place, list, labels);
-                        labels.forget_places();  // the next side has bodies of the same names
-                      });
+  if (!frame.sides.empty()) return draw_sides(frame, staging, area, list, labels, work);
   const Vec<2> whole = frame.get<FrameSide>().name.empty() ? list.page : area.size();
   const bool tall = whole.x / whole.y < kStackBelow;
   const std::vector<Box<2>> boxes = arranged(frame, arranged_for, area, tall);
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     work.world_layouts += is(frame.panels[i], "world");
     work.tree_layouts += is(frame.panels[i], "tree");
-    view_of(frame.panels[i]).draw(frame, staging, boxes[i], list, labels);
+    draw_panel(frame.panels[i], frame, staging, boxes[i], list, labels);
   }
 }
 
-bool has_foot(const Frame& frame) { return frame.display.caption || frame.display.counters; }
-
-// A strip at the area's lower end for the marks that the panels are going to draw: they are drawn
-// once to see which. Cuts it from the area.
-Box<2> cut_legend(const Frame& frame, const Staging& staging, const DrawList& page, Box<2>& area) {
+// The page, with a strip so high at the lower end of the panels' area for the legend. Nothing if
+// the marks that are on it need a higher one: `strip` then says which.
+std::optional<DrawList> laid_out(const Frame& frame, const Staging& staging, const Vec<2>& page,
+                                 double& strip, bool last, Work& work) {
   constexpr double kAboveLegend = 14;
-  Box<2> strip = area;
-  strip.lo.y = area.hi.y;
-  if (!frame.display.legend) return strip;
-  double height = 0;
-  for (int i = 0; i < 2; ++i) {  // the second time with the strip cut off
-    DrawList trial;
-    trial.page = page.page;
-    Labels labels(trial);
-    Work work;
-    Box<2> rest = area;
-    if (height > 0) rest.hi.y -= height + kAboveLegend;
-    draw_panels(frame, staging, staging, rest, trial, labels, work);
-    height = std::max(height, legend_height(trial.marks, area.size().x));
+  DrawList list;
+  list.page = page;
+  Labels labels(list);
+  const double margin = page.x < 1000 ? 40 : 60;
+  const auto has_notes = [](const Frame& f) { return !f.notes.empty(); };
+  if (has_notes(frame) || std::ranges::any_of(frame.sides, has_notes)) labels.expect_notes();
+  const bool has_foot = frame.display.caption || frame.display.counters;
+  double bottom = 0;
+  {
+    const DrawList::Scope words(list, "page/words");
+    if (frame.display.title) {
+      const Box<2> band{{margin, 16}, {page.x - margin, kTitleRule - 2}};
+      const double right = draw_step(frame, band, labels) - 36;
+      write_title(frame.title, frame.part, 26, {margin, kTitleLine}, right, band, labels);
+      add_rule(list, kTitleRule, margin);
+    }
+    bottom = draw_footer(frame, margin, list, labels);
+    if (has_foot) add_rule(list, bottom, margin);
   }
-  if (height == 0) return strip;
-  strip.lo.y = area.hi.y - height;
-  area.hi.y = strip.lo.y - kAboveLegend;
-  return strip;
+  Box<2> area{{margin, frame.display.title ? kTop : kTopWithoutTitle},
+              {page.x - margin, bottom - (has_foot ? kOverFooter : 14)}};
+  Box<2> legend{{area.lo.x, area.hi.y - strip}, area.hi};
+  if (strip > 0) area.hi.y = legend.lo.y - kAboveLegend;
+  draw_panels(frame, staging, staging, area, list, labels, work);
+  if (frame.display.legend) {
+    const double needed = legend_height(list.marks, area.size().x);
+    if (needed > strip && !last) return strip = needed, std::nullopt;
+    draw_legend(list.marks, legend, list, labels);
+  }
+  if (frame.sides.empty())
+    draw_notes(frame, {area.lo - Vec<2>(margin - 20, 12), {page.x - 20, bottom - 6}}, list, labels);
+  return list;
 }
 
 }  // namespace
@@ -118,32 +281,16 @@ Vec<2> page_for(int width, int height) {
 
 // The layout is made for a page about 900 units high and then scaled, so that type keeps its part
 // of the page's height on squarer pages. On tall ones that would leave too little width for the
-// panels, so it stops at kMostEnlarged.
+// panels, so it stops at kMostEnlarged. Which marks the legend tells of is known when they are
+// drawn: where they need a strip, all is drawn again above it.
 DrawList draw_frame(const Frame& frame, const Staging& staging, const Vec<2>& page, Work& work) {
+  constexpr int kMostTries = 3;  // with less room there may be other marks
   const double k = std::clamp(page.y / 900, 1.0, kMostEnlarged);
-  DrawList list;
-  list.page = page / k;
-  Labels labels(list);
-  const double margin = list.page.x < 1000 ? 40 : 60;
-  const bool notes = !frame.notes.empty() || std::ranges::any_of(frame.sides, [](const Frame& f) {
-    return !f.notes.empty();
-  });
-  if (notes) labels.expect_notes();
-  double bottom = 0;
-  {
-    const DrawList::Scope words(list, "page/words");
-    if (frame.display.title) draw_title(frame, margin, list, labels);
-    bottom = draw_footer(frame, margin, list, labels);
-    if (has_foot(frame)) add_rule(list, bottom, margin);
-  }
-  Box<2> area{{margin, frame.display.title ? kTop : kTopWithoutTitle},
-              {list.page.x - margin, bottom - (has_foot(frame) ? kOverFooter : 14)}};
-  const Box<2> strip = cut_legend(frame, staging, list, area);
-  draw_panels(frame, staging, staging, area, list, labels, work);
-  if (frame.display.legend) draw_legend(list.marks, strip, list, labels);
-  if (frame.sides.empty())
-    draw_notes(frame, {area.lo - Vec<2>(margin - 20, 12), {list.page.x - 20, bottom - 6}}, list,
-               labels);
+  double strip = 0;
+  std::optional<DrawList> drawn;
+  for (int tries = 1; !drawn; ++tries)
+    drawn = laid_out(frame, staging, page / k, strip, tries == kMostTries, work);
+  DrawList list = std::move(*drawn);
   list.page = page;
   if (k == 1) return list;
   const auto enlarge = [&](double& measure) { measure *= k; };

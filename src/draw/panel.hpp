@@ -3,7 +3,9 @@
 // in panel.cpp.
 #pragma once
 
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "draw/labels.hpp"
 #include "draw/staging.hpp"
@@ -28,11 +30,17 @@ struct PanelView {
   double weight = 1;   // of its height, where panels stand one above the other
   double least = 260;  // that height, where another one wants more of it
   double enough = 0;   // such a one: as much, if the others keep `least`; flatter it shows little
+  double inset = 0;    // from its box to what it is drawn in
+  Vec<2> smallest{-1e300};  // in less nothing is drawn
 };
 
 const PanelView& view_of(Panel panel);
+// One more, of a program's own.
+void add_panel(PanelView view);
+void draw_panel(Panel panel, const Frame& frame, const Staging& staging, const Box<2>& box,
+                DrawList& list, Labels& labels);
 
-// What the views of panels are: a frame, and where it is drawn.
+// What the classes that draw panels are: a frame, and where it is drawn.
 class PanelPicture {
  public:
   PanelPicture(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
@@ -40,14 +48,97 @@ class PanelPicture {
       : frame_(frame), staging_(staging), panel_(panel), list_(list), labels_(labels) {}
 
  protected:
+  // What the panel shows, at its upper edge.
+  void heading(const std::string& text, double down = 0.8 * kLabel) {
+    write(shortened(text, panel_.size().x, kStrong), {{panel_.lo.x, panel_.lo.y + down}, 0},
+          kStrong);
+  }
+
+  void write(std::string_view text, const Anchor& at, const TextStyle& style = kPlain) {
+    labels_.add(text, at, style, panel_);
+  }
+  bool try_write(std::string_view text, std::initializer_list<Anchor> anchors,
+                 const TextStyle& style = kPlain) {
+    return labels_.try_add(text, anchors, style, panel_);
+  }
+
   const Frame& frame_;
   const Staging& staging_;
   Box<2> panel_;
   DrawList& list_;
   Labels& labels_;
 };
+// The `draw` of a panel that such a class draws.
+template <class Picture>
+void draw_as(const Frame& frame, const Staging& staging, const Box<2>& box, DrawList& list,
+             Labels& labels) {
+  Picture({frame, staging, box, list, labels}).draw();
+}
 
-// One more, of a program's own.
-void add_panel(PanelView view);
+// What panels share, and the page's foot. Each fills its box and nothing outside of it.
+
+// Node cells, bodies as characters, candidate pairs and marks. A 2D world as large as
+// frame.bounds fit into the panel, y upwards; a 3D one as frame.camera sees it, with its floor.
+void draw_world(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
+                Labels& labels);
+
+// The structure or atlas as a node-link diagram, and under it what it was told and what it counts.
+// All nodes that the group's frames have stand in one layout; where that is too large for the panel
+// a frame's tree is condensed (tree_fold.hpp); a node is never narrower than kLeastNode. Two trees,
+// of what never moves and of what does, stand side by side or one above the other; sort and sweep
+// has no tree and shows its intervals.
+void draw_tree(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
+               Labels& labels);
+inline constexpr double kLeastNode = 34;
+// The intervals of sort and sweep along the axis that it sorted by, one row a body in the order of
+// the sweep. A pair that it compares is linked where the later interval begins; where one body is
+// lit, the sweep stands at its beginning, and the intervals that are open there are marked.
+void draw_sweep(const PanelPicture& on);
+// The array of a grid's cells, of each level one, or the buckets that a spatial hash puts its cells
+// into: in rows as the grid is wide, each with the bodies that reach it. Where several cells share
+// a bucket, they are parted by lines.
+void draw_grid(const PanelPicture& on);
+// The diagram alone, of a frame whose nodes are one tree.
+struct TreeStage;
+void draw_one_tree(const PanelPicture& on, const UnionTree& tree, const TreeStage& stage);
+
+// Width over height of a world's picture, and the width that it takes at a height.
+double world_aspect(const Frame& frame);
+double world_width(const Frame& frame, double height);
+
+// The array of leaves' entries of a tree that asks for each piece of memory by itself: a block for
+// each entry of a leaf's list and one for each four children.
+void draw_list_pieces(const PanelPicture& on);
+inline bool is_in_pieces(const Frame& frame) {
+  return frame.structure != StructureKind::none && traits_of(frame.structure).is_plain;
+}
+
+// The last step of the way down to a node, "…3", for a label whose whole way has no room; empty if
+// the way has one step only.
+std::string short_label(const std::string& label);
+
+// The caption, and the counters at its right; gives the y of the hairline above them.
+double draw_footer(const Frame& frame, double margin, DrawList& list, Labels& labels);
+
+// --- notes: a few words beside what they are about, each with a thin line to it ---
+
+// Under which name a panel tells where it has drawn what a note may be about.
+std::string target_of(const FrameBody& body);
+std::string target_of_node(const std::string& label);
+std::string target_of_cell(const std::string& label);  // where no tree shows the node
+std::string target_of_count(const std::string& name);
+std::string target_of_note(std::size_t index);  // of a note on a point
+
+// All notes of the frame, whose panels must be drawn, into the free room of `area`: as near as may
+// be, over no label and, as far as there is room, over no body. One whose target no panel has drawn
+// has no line, and stands at the upper edge.
+void draw_notes(const Frame& frame, const Box<2>& area, DrawList& list, Labels& labels);
+
+// One box for each of the frame's panels, in their order, inside `area`; the same for all frames of
+// the group. A world and a tree stand side by side or one above the other, and in the parts, in
+// which both are drawn largest; a world alone fills the area. On a `tall` page all stand one above
+// the other.
+std::vector<Box<2>> arranged(const Frame& frame, const Staging& staging, const Box<2>& area,
+                             bool tall);
 
 }  // namespace lantern::draw

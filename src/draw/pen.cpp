@@ -6,7 +6,6 @@
 #include <numbers>
 #include <tuple>
 
-#include "draw/draw_list.hpp"
 #include "geometry/not_finite.hpp"
 #include "geometry/plane.hpp"
 #include "geometry/ray.hpp"
@@ -182,6 +181,12 @@ std::vector<Vec<2>> ring_of(const Vec<2>& center, double radius, int corners, do
     points.push_back(center + Vec<2>(std::cos(angle), std::sin(angle)) * radius);
   }
   return points;
+}
+
+Box<2> box_of(const std::vector<Vec<2>>& points) {
+  Box<2> box{Vec<2>(1e300), Vec<2>(-1e300)};
+  for (const Vec<2>& p : points) box = {glm::min(box.lo, p), glm::max(box.hi, p)};
+  return box;
 }
 
 Vec<2> middle_of(const std::vector<Vec<2>>& points) {

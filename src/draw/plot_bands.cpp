@@ -1,7 +1,5 @@
 #include <algorithm>
-#include <cmath>
 
-#include "draw/plot.hpp"
 #include "draw/plot_parts.hpp"
 #include "geometry/not_finite.hpp"
 

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "draw/draw_list.hpp"
 #include "draw/labels.hpp"
 
 namespace lantern::draw {

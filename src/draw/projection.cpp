@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "draw/pen.hpp"
 #include "geometry/not_finite.hpp"
 
 namespace lantern::draw {
@@ -91,12 +90,6 @@ bool cover_each_other(const Outline& a, const Outline& b) {
   return !parted_by_edge(a, b) && !parted_by_edge(b, a);
 }
 
-Box<2> box_of(const Outline& points) {
-  Box<2> box{Vec<2>(1e300), Vec<2>(-1e300)};
-  for (const Vec<2>& p : points) box = {glm::min(box.lo, p), glm::max(box.hi, p)};
-  return box;
-}
-
 std::vector<Vec<3>> clipped(const std::vector<Vec<3>>& polygon, const Vec<3>& normal,
                             double offset) {
   std::vector<Vec<3>> kept;
@@ -128,6 +121,7 @@ View2D::View2D(const Box<2>& bounds, const Box<2>& panel, const std::optional<Bo
   origin_ = panel.center() - Vec<2>(shown.center().x, -shown.center().y) * scale_;
   picture_ = to_page(shown);
   size_ = std::max(bounds.size().x, bounds.size().y);
+  longest_arrow_ = 120 / scale_;
 }
 
 View3D::View3D(const Box<3>& bounds, const std::optional<Camera>& camera, const Box<2>& panel)
@@ -135,6 +129,7 @@ View3D::View3D(const Box<3>& bounds, const std::optional<Camera>& camera, const 
   size_ = glm::length(bounds.size());
   if (!(size_ > 0)) size_ = 1;
   near_ = 1e-3 * size_;
+  longest_arrow_ = 0.18 * size_;
   origin_ = panel.center();
   const bool usable = camera && is_finite(camera->eye) && is_finite(camera->target) &&
                       glm::length(camera->target - camera->eye) > 1e-9 * size_;

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "draw/draw_list.hpp"
+#include "draw/pen.hpp"
 #include "frame/frame.hpp"
 #include "geometry/flat.hpp"
 
@@ -22,8 +22,6 @@ Outline hull_of(Outline points);
 
 // Two convex outlines share some area; lines of two points may be among them.
 bool cover_each_other(const Outline& a, const Outline& b);
-
-Box<2> box_of(const Outline& points);
 
 // The part of a convex polygon in space where normal . x >= offset.
 std::vector<Vec<3>> clipped(const std::vector<Vec<3>>& polygon, const Vec<3>& normal,
@@ -49,8 +47,8 @@ class Projection {
   // A direction as it is seen, along the page's axes and in world units.
   virtual Vec<2> turned(const Vec<3>& direction) const = 0;
   // The world's measure, and the length of the longest velocity arrows, in world units.
-  virtual double size() const = 0;
-  virtual double longest_arrow() const = 0;
+  double size() const { return size_; }
+  double longest_arrow() const { return longest_arrow_; }
 
   const Box<2>& panel() const { return panel_; }
   // The part of the panel that the world takes.
@@ -59,6 +57,7 @@ class Projection {
  protected:
   explicit Projection(const Box<2>& panel) : panel_(panel), picture_(panel) {}
   Box<2> panel_, picture_;
+  double size_ = 1, longest_arrow_ = 1;
 };
 
 // One scale for both axes, y turned over, the bounds, or a part of them in their proportions,
@@ -82,12 +81,10 @@ class View2D : public Projection {
   std::optional<Vec<2>> seen(const Vec<3>& p) const override { return to_page(p); }
   double scale_at(const Vec<3>&) const override { return scale_; }
   Vec<2> turned(const Vec<3>& direction) const override { return {direction.x, -direction.y}; }
-  double size() const override { return size_; }
-  double longest_arrow() const override { return 120 / scale_; }
 
  private:
   Vec<2> origin_{0.0};
-  double scale_ = 1, size_ = 1;
+  double scale_ = 1;
 };
 
 // A perspective camera, y up. Nothing nearer to the eye than a small part of the world is shown, so
@@ -106,8 +103,6 @@ class View3D : public Projection {
   const Vec<3>& right() const { return right_; }  // unit, level, of the page
   const Vec<3>& light() const { return light_; }  // unit, towards it: over the viewer's shoulder
   const Box<3>& bounds() const { return bounds_; }
-  double size() const override { return size_; }  // of the world's diagonal
-  double longest_arrow() const override { return 0.18 * size_; }
 
   // Of a point in the bounds: 0 at their nearest corner, 1 at their farthest.
   double farness(const Vec<3>& p) const;
@@ -145,7 +140,6 @@ class View3D : public Projection {
 
   Box<3> bounds_;
   Vec<3> eye_{0.0}, right_{1, 0, 0}, up_{0, 1, 0}, forward_{0, 0, -1}, light_{0, 1, 0};
-  double size_ = 1;
   double near_ = 1e-3;
   double scale_ = 1;  // page units of a world unit at depth 1
   Vec<2> origin_{0.0};

@@ -1,7 +1,6 @@
 #include "draw/staging.hpp"
 
 #include <algorithm>
-#include <utility>
 
 namespace lantern::draw {
 namespace {
@@ -113,6 +112,13 @@ Staging::Staging(std::vector<const Frame*> frames, const AxisRanges& axes)
   for (const auto& [structure, own] : sides) sides_.emplace(structure, Staging(own, axes));
 }
 
+std::vector<const Frame*> Staging::some_frames(std::size_t most) const {
+  const std::size_t all = frames_.size(), some = std::min(all, most);
+  std::vector<const Frame*> found;
+  for (std::size_t i = 0; i < some; ++i) found.push_back(frames_[i * all / some]);
+  return found;
+}
+
 bool Staging::is_one_group(const Frame& before, const Frame& next) {
   const bool same_world = before.dimension == next.dimension &&
                           before.bounds.lo == next.bounds.lo && before.bounds.hi == next.bounds.hi;
@@ -176,6 +182,28 @@ void Staging::add_nodes(const Frame& frame) {
     places.emplace_back(t, tree.index.find(ways[i])->second);
     add_form(tree.nodes[places.back().second], node);
   }
+}
+
+void AxisRanges::see(const frame::Frame& frame) {
+  const frame::FrameChart& chart = frame.get<FrameChart>();
+  for (const frame::FrameBar& bar : chart.bars) chart_.add(bar.value, chart.logarithmic);
+  for (const frame::FrameSeries& series : chart.series)
+    for (const Vec<2>& p : series.points) {
+      chart_.add(p.y, chart.logarithmic);
+      chart_x_.add(p.x, chart.logarithmic && !chart.over_time);
+    }
+  for (const Vec<2>& p : frame.get<FrameTrace>().points) {
+    trace_ = std::max(trace_, p.y);
+    double& seconds = seconds_[frame.part];
+    seconds = std::max(seconds, p.x);
+  }
+  for (const frame::Frame& side : frame.sides) see(side);
+}
+
+std::optional<double> AxisRanges::seconds_of(const std::string& part) const {
+  const auto found = seconds_.find(part);
+  return found == seconds_.end() || found->second <= 0 ? std::nullopt
+                                                       : std::optional(found->second);
 }
 
 }  // namespace lantern::draw

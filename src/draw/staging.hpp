@@ -11,9 +11,10 @@
 #include <span>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
-#include "draw/axis_ranges.hpp"
+#include "draw/axis.hpp"
 #include "draw/keys.hpp"
 #include "frame/frame.hpp"
 #include "geometry/box.hpp"
@@ -43,6 +44,29 @@ struct UnionTree {
   const UnionNode* find(std::string_view way) const;
 };
 
+// What the axes of a sequence must hold, so that none of them changes from frame to frame: of all
+// frames that it was shown. Nothing is known of what none of them has.
+class AxisRanges {
+ public:
+  using Ends = std::optional<std::pair<double, double>>;
+
+  void see(const frame::Frame& frame);
+  Ends chart() const { return ends_of(chart_); }      // of charts' values
+  Ends chart_x() const { return ends_of(chart_x_); }  // of what they are drawn against
+  double trace() const { return trace_; }             // the most of a sparkline
+  // That a part's sparkline goes on for.
+  std::optional<double> seconds_of(const std::string& part) const;
+
+ private:
+  static Ends ends_of(const PlotRange& range) {
+    return range.empty() ? Ends() : std::pair(range.least, range.most);
+  }
+
+  PlotRange chart_, chart_x_;
+  double trace_ = 0;
+  std::map<std::string, double> seconds_;  // by part
+};
+
 class Staging {
  public:
   // A group of frames, in order. They must outlive this. `axes` are of all frames that share them.
@@ -55,6 +79,8 @@ class Staging {
   static bool is_one_group(const Frame& before, const Frame& next);
 
   const std::vector<const Frame*>& frames() const { return frames_; }
+  // At most so many of them, here and there.
+  std::vector<const Frame*> some_frames(std::size_t most) const;
 
   // What the frames of one side share, by its name: with all sides of the same structure, so that
   // their trees can be compared node by node. Of a side that no frame has, this.

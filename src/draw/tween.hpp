@@ -46,10 +46,12 @@ double progress(Beat beat, double t, Motion motion);
 // What is painted of one shape, or of two that are the same thing, in a change from picture `a` to
 // picture `b`: all that a renderer of its own must know to show it.
 struct Passage {
-  std::optional<std::size_t> a, b;  // its shape in either picture; of both, it goes from a's to b's
-  Beat move = Beat::always;         // how far on its way it is
-  Beat fade = Beat::always;         // how much of it is seen,
-  bool leaves = false;              // or no longer
+  std::optional<std::size_t>
+      a = {},
+      b = {};                // its shape in either picture; of both, it goes from a's to b's
+  Beat move = Beat::always;  // how far on its way it is
+  Beat fade = Beat::always;  // how much of it is seen,
+  bool leaves = false;       // or no longer
   // A shape of one picture alone: put from its thing's box `own` upon one between these.
   Box<2> own = {}, start = {}, end = {};
 };

@@ -1,11 +1,11 @@
 #include "draw/tween_shapes.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
 #include "draw/labels.hpp"
+#include "draw/pen.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -87,9 +87,7 @@ Box<2> extent_of(const DrawShape& shape) {
     return Labels::extent(text->text, {text->at, text->align}, style_of(*text));
   const auto& points = std::get<PolygonShape>(shape).points;
   if (points.empty()) return {};
-  Box<2> box{points[0], points[0]};
-  for (const Vec<2>& p : points) box = united(box, {p, p});
-  return box;
+  return box_of(points);
 }
 
 std::string style_of(const DrawShape& shape) {

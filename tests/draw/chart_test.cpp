@@ -288,8 +288,8 @@ DrawList chart_in(const FrameChart& chart, const Vec<2>& size) {
   list.page = {1600, 900};
   Labels labels(list);
   const Frame frame = charted(chart);
-  view_of(frame.panels[0])
-      .draw(frame, Staging(frame), {{40, 40}, Vec<2>{40, 40} + size}, list, labels);
+  draw_panel(frame.panels[0], frame, Staging(frame), {{40, 40}, Vec<2>{40, 40} + size}, list,
+             labels);
   return list;
 }
 

@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "draw/layout_check.hpp"
+#include "draw/marks.hpp"
 #include "draw/page.hpp"
 #include "draw/sample_frames.hpp"
-#include "draw/world/ledger_marks.hpp"
 
 namespace lantern::draw {
 namespace {

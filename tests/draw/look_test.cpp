@@ -8,7 +8,7 @@
 #include "draw/layout_check.hpp"
 #include "draw/legend.hpp"
 #include "draw/page.hpp"
-#include "draw/panels.hpp"
+#include "draw/panel.hpp"
 #include "draw/pen.hpp"
 #include "draw/projection.hpp"
 #include "draw/sample_frames.hpp"
@@ -223,7 +223,8 @@ TEST(Legend, EveryMarkHasAPictureAndWordsOfItsOwnAlsoInGrey) {
 TEST(Legend, SamplesAreMadeByWhatDrawsTheMark) {
   for (unsigned i = 0; i < kMarkKinds; ++i) {
     const auto kind = static_cast<MarkKind>(i);
-    EXPECT_TRUE(marks_of_sample(kind).has(kind)) << words_of(kind);
+    DrawList list;
+    EXPECT_TRUE(draw_sample(kind, {{0, 0}, {58, 38}}, list).has(kind)) << words_of(kind);
   }
 }
 

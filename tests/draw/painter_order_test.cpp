@@ -1,10 +1,9 @@
-#include "draw/world/painter_order.hpp"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
+#include "draw/world/world3d_parts.hpp"
 
 namespace lantern::draw {
 namespace {

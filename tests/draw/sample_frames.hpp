@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "draw/axis_ranges.hpp"
 #include "draw/draw_list.hpp"
+#include "draw/staging.hpp"
 #include "frame/frame.hpp"
 
 namespace lantern::draw::samples {

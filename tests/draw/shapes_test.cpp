@@ -5,9 +5,9 @@
 #include "draw/body_shapes.hpp"
 #include "draw/draw_list.hpp"
 #include "draw/page.hpp"
-#include "draw/pattern.hpp"
 #include "draw/pen.hpp"
 #include "draw/sample_frames.hpp"
+#include "draw/texture_picture.hpp"
 
 namespace lantern::draw {
 namespace {

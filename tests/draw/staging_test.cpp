@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "draw/axis_ranges.hpp"
 #include "draw/naming.hpp"
 #include "draw/page.hpp"
 #include "draw/sample_frames.hpp"

@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "draw/page.hpp"
-#include "draw/referents.hpp"
 #include "run/director.hpp"
 
 namespace lantern::draw {
@@ -17,6 +16,14 @@ namespace fs = std::filesystem;
 
 // What captions tell and pages do not show yet. An entry that is no longer needed fails, too.
 const std::map<std::string, std::set<std::string>> kUnshown = {};
+
+// The counts and measures that the frame's caption quotes and nothing on its page depicts.
+std::vector<std::string> unshown_numbers(const Frame& frame, const DrawList& list) {
+  std::vector<std::string> unshown;
+  for (const std::string& name : frame.told)
+    if (!list.referents.contains(name)) unshown.push_back(name);
+  return unshown;
+}
 
 std::vector<std::string> shipped_scenarios() {
   std::vector<std::string> names;

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "draw/page.hpp"
-#include "draw/panels.hpp"
+#include "draw/panel.hpp"
 #include "draw/sample_frames.hpp"
 #include "draw/tree/tree_layout.hpp"
 
@@ -28,6 +28,15 @@ std::uint64_t stands_for(const std::vector<Branch>& branches) {
 bool has(const std::vector<Branch>& branches, Kind kind) {
   return std::any_of(branches.begin(), branches.end(),
                      [&](const Branch& b) { return b.kind == kind; });
+}
+
+// Of a frame that stands alone.
+TreeLayout lay_out_alone(const Frame& frame, const Box<2>& panel) {
+  const Staging staging(frame);
+  const UnionTree& tree = staging.trees()[0];
+  const bool atlas = !frame.get<FrameTextures>().textures.empty();
+  return lay_out_tree(
+      frame, tree, stage_tree(tree, {{frame.nodes, frame.get<FrameFinding>().hits}}, atlas, panel));
 }
 
 std::vector<Frame> trees() {
@@ -87,7 +96,7 @@ TEST(TreeLayout, NodesNeverOverlapNorShrinkBelowLegibility) {
   const Box<2> panels[] = {{{0, 0}, {740, 580}}, {{0, 0}, {420, 500}}, {{0, 0}, {1000, 250}}};
   for (const Frame& frame : trees())
     for (const Box<2>& panel : panels) {
-      const TreeLayout layout = lay_out_tree(frame, panel);
+      const TreeLayout layout = lay_out_alone(frame, panel);
       ASSERT_FALSE(layout.boxes.empty());
       EXPECT_LE(layout.boxes.size(), 300u) << "the cost of a diagram must not grow with the tree";
       for (std::size_t i = 0; i < layout.boxes.size(); ++i) {
@@ -161,7 +170,7 @@ TEST(TreeView, CountsStandWhereTheyDidAndInFrontOfNothing) {
 }
 
 TEST(TreeLayout, SmallTreesAreNotFolded) {
-  const TreeLayout layout = lay_out_tree(samples::ghosts(4), {{0, 0}, {740, 580}});
+  const TreeLayout layout = lay_out_alone(samples::ghosts(4), {{0, 0}, {740, 580}});
   EXPECT_EQ(layout.branches.size(), 9u);
 }
 

@@ -6,9 +6,9 @@
 #include "base/random.hpp"
 #include "draw/colour_vision.hpp"
 #include "draw/page.hpp"
-#include "draw/panels.hpp"
+#include "draw/panel.hpp"
 #include "draw/theme.hpp"
-#include "draw/world/painter_order.hpp"
+#include "draw/world/world3d_parts.hpp"
 #include "draw/world3d_samples.hpp"
 #include "geometry/random_vec.hpp"
 

@@ -8,7 +8,7 @@
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/stop.hpp"
-#include "draw/axis_ranges.hpp"
+#include "draw/staging.hpp"
 
 namespace lantern::app {
 

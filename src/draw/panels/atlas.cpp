@@ -4,12 +4,9 @@
 #include <fmt/format.h>
 
 #include "draw/body_shapes.hpp"
-#include "draw/font.hpp"
-#include "draw/keys.hpp"
 #include "draw/page.hpp"
 #include "draw/panel.hpp"
 #include "draw/texture_picture.hpp"
-#include "geometry/flat.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -58,6 +55,7 @@ class AtlasView : PanelPicture {
   }
 
   void draw() {
+    list_.referents.insert({"textures", "refused", "atlas_area"});
     if (shows_single(frame_)) return draw_single();
     list_.crisp_rect(image_, Role::free_space);
     for (const FrameNode* node : free_leaves()) draw_free(*node);
@@ -89,8 +87,7 @@ class AtlasView : PanelPicture {
 
   // A cell, which comes out of the one that it was cut from.
   DrawList::Scope shown(std::string_view kind, const FrameNode& node) {
-    const auto at = static_cast<std::uint32_t>(&node - frame_.nodes.data());
-    return {list_, node_key(kind, frame_.nodes, at), parent_key(kind, frame_.nodes, at)};
+    return {list_, node_key(kind, frame_.nodes, node), parent_key(kind, frame_.nodes, node)};
   }
 
   std::vector<const FrameTexture*> packed_textures() const {
@@ -138,7 +135,7 @@ class AtlasView : PanelPicture {
     if (!labels_.is_free(Labels::extent(name, anchor, style), panel_)) return false;
     const DrawList::Scope scope(list_, "atlas/plate/" + name);
     list_.rect(plate, Role::panel, {}, 5);
-    labels_.add(name, anchor, style, panel_);
+    write(name, anchor, style);
     return true;
   }
 
@@ -154,7 +151,7 @@ class AtlasView : PanelPicture {
          {node.label.empty() ? "free " + numbers : node.label + "  " + numbers,
           node.label.empty() ? numbers : node.label}) {
       if (!holds(shrunk(box, 6), Labels::extent(text, anchor, style))) continue;
-      if (labels_.try_add(text, {anchor}, style, panel_)) return;
+      if (try_write(text, {anchor}, style)) return;
     }
   }
 
@@ -181,7 +178,7 @@ class AtlasView : PanelPicture {
         draw_textured(t, {at, at + size});
         const TextStyle style =
             is_bound(t) ? TextStyle{kLabel, Weight::semibold, Role::lit_ink} : name;
-        labels_.try_add(t.name, {{{at.x, at.y + size.y + 25}, 0}}, style, panel_);
+        try_write(t.name, {{{at.x, at.y + size.y + 25}, 0}}, style);
       }
       at.x += width + kSingleGap;
       if (at.x - kSingleGap > panel_.hi.x - 6) return 2 * panel_.size().y;  // too wide by itself
@@ -197,8 +194,8 @@ class AtlasView : PanelPicture {
     while (scale > 0.02 && single_rows(scale, false, 0) > room) scale *= 0.96;
     const double height = kAtlasHeading + single_rows(scale, false, 0);
     const double top = std::max(panel_.lo.y, panel_.center().y - height / 2);
-    labels_.try_add(fmt::format("{} texture{}, each an image of its own", n, n == 1 ? "" : "s"),
-                    {{{panel_.lo.x + 6, top + 23}, 0}}, quiet, panel_);
+    try_write(fmt::format("{} texture{}, each an image of its own", n, n == 1 ? "" : "s"),
+              {{{panel_.lo.x + 6, top + 23}, 0}}, quiet);
     parts_ = n > 100 ? 0 : kMostPatternParts;
     single_rows(scale, true, top + kAtlasHeading);
   }
@@ -241,18 +238,16 @@ class AtlasView : PanelPicture {
   void draw_queue(const char* heading, const std::vector<const FrameTexture*>& queue,
                   const Box<2>& area, bool crossed) {
     const TextStyle style{kLabel, Weight::semibold, crossed ? Role::warning : Role::quiet_ink};
-    const auto digits = static_cast<std::int64_t>(
-        std::to_string(frame_.get<FrameTextures>().textures.size()).size());
-    const double number = Labels::number_width(digits, style);
+    const double number = Labels::width_of(frame_.get<FrameTextures>().textures.size(), style);
     labels_.add_number(static_cast<std::int64_t>(queue.size()),
                        {area.lo.x + number, area.lo.y + 23}, style, panel_);
-    labels_.add(heading, {{area.lo.x + number + 7, area.lo.y + 23}, 0}, style, panel_);
+    write(heading, {{area.lo.x + number + 7, area.lo.y + 23}, 0}, style);
     const double end = area.lo.x + number + 7 + text_width(heading, style);
     const TextStyle note{kLabel, Weight::regular, Role::quiet_ink};
     const double name_line = crossed ? 30 : 0;
     if (strip_scale_ < scale_ && !queue.empty())
-      labels_.try_add(strip_scale_ < scale_ / 2 ? "(drawn smaller)" : "(half size)",
-                      {{{end + 10, area.lo.y + 23}, 0}}, note, panel_);
+      try_write(strip_scale_ < scale_ / 2 ? "(drawn smaller)" : "(half size)",
+                {{{end + 10, area.lo.y + 23}, 0}}, note);
     Vec<2> at{area.lo.x, area.lo.y + kAtlasHeading};
     double row = 0;
     for (std::size_t i = 0; i < queue.size(); ++i) {
@@ -262,9 +257,8 @@ class AtlasView : PanelPicture {
         at = {area.lo.x, at.y + row}, row = 0;
       const double last = area.hi.y - (i + 1 < queue.size() ? 32 : 4);
       if (at.y + size.y + name_line > last) {
-        labels_.try_add(fmt::format("and {} more", queue.size() - i),
-                        {{{area.lo.x, at.y + row + 23}, 0}, {{area.lo.x, area.hi.y - 6}, 0}}, note,
-                        panel_);
+        try_write(fmt::format("and {} more", queue.size() - i),
+                  {{{area.lo.x, at.y + row + 23}, 0}, {{area.lo.x, area.hi.y - 6}, 0}}, note);
         return;
       }
       const Box<2> box{at, at + size};
@@ -286,7 +280,7 @@ class AtlasView : PanelPicture {
     }
     const TextStyle style{kLabel, Weight::regular, Role::warning};
     const std::string name = shortened(texture.name, panel_.hi.x - box.lo.x, style);
-    labels_.try_add(name, {{{box.lo.x, box.hi.y + 23}, 0}}, style, panel_);
+    try_write(name, {{{box.lo.x, box.hi.y + 23}, 0}}, style);
   }
 
   Box<2> image_, strip_;
@@ -294,12 +288,6 @@ class AtlasView : PanelPicture {
   double strip_scale_ = 1;         // the same, in the strip
   int parts_ = kMostPatternParts;  // of a pattern; fewer when there are many textures
 };
-
-void draw_atlas(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
-                Labels& labels) {
-  AtlasView({frame, staging, panel, list, labels}).draw();
-  list.referents.insert({"textures", "refused", "atlas_area"});
-}
 
 double atlas_width(const Frame& frame, double height) {
   const Vec<2> size = atlas_size(frame);
@@ -320,6 +308,8 @@ DrawList draw_atlas_image(const Frame& frame) {
 
 // The packed image, and beside it the textures that wait or were refused; of an atlas with a screen
 // those are shown one by one until the first is packed. It wants this width at a height.
-PanelView atlas_panel() { return {.name = "atlas", .draw = draw_atlas, .width = atlas_width}; }
+PanelView atlas_panel() {
+  return {.name = "atlas", .draw = draw_as<AtlasView>, .width = atlas_width};
+}
 
 }  // namespace lantern::draw

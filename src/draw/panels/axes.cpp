@@ -1,4 +1,5 @@
-// The axes that two bodies were measured along, below each other and all lying the same way.
+// The axes that two bodies were measured along (FrameSeparation), below each other, all lying the
+// same way and on one scale: how far both reach. As many rows as the sequence ever needs.
 //
 //   1  ======                way out 1.2
 //          =========
@@ -9,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "draw/body_shapes.hpp"
-#include "draw/font.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 #include "draw/world/narrow_marks.hpp"
@@ -21,8 +21,6 @@ constexpr double kAxesHeading = 48, kMostAxisRow = 132, kLeastAxisRow = 56;
 constexpr double kAxisNumber = 44;  // width before the shadows
 constexpr double kAxisWords = 170;  // width behind them
 constexpr double kAxisTrack = 11;   // from the middle of a row to that of a shadow
-
-const TextStyle kAxisBold{kLabel, Weight::semibold, Role::ink};
 
 struct Shadows {
   double a_lo = 0, a_hi = 0, b_lo = 0, b_hi = 0;
@@ -38,9 +36,9 @@ class AxesView : PanelPicture {
   explicit AxesView(const PanelPicture& on) : PanelPicture(on), pen_(list_, panel_) {
     double longest = 0;
     for (const Frame* one : staging_.frames()) {
-      if (!one->find<FrameSeparation>()) continue;
-      rows_ = std::max(rows_, one->find<FrameSeparation>()->axes.size());
-      for (const auto& axis : one->find<FrameSeparation>()->axes) {
+      const auto& axes = one->get<FrameSeparation>().axes;
+      rows_ = std::max(rows_, axes.size());
+      for (const auto& axis : axes) {
         const Shadows s = shadows_of(axis);
         longest = std::max(longest, std::max(s.a_hi, s.b_hi) - std::min(s.a_lo, s.b_lo));
       }
@@ -54,16 +52,15 @@ class AxesView : PanelPicture {
 
   void draw() {
     if (rows_ == 0 || row_ < kLeastAxisRow || !(scale_ > 0)) return;
-    labels_.add(shortened("how far each reaches, axis by axis", panel_.size().x, kAxisBold),
-                {{panel_.lo.x, panel_.lo.y + 24}, 0}, kAxisBold, panel_);
-    const std::size_t known =
-        frame_.find<FrameSeparation>() ? frame_.find<FrameSeparation>()->axes.size() : 0;
+    heading("how far each reaches, axis by axis", 24);
+    const std::size_t known = frame_.get<FrameSeparation>().axes.size();
     for (std::size_t i = 0; i < rows_; ++i) {
       const DrawList::Scope scope(list_, fmt::format("axes/{}", i));
       if (i < known)
         draw_row(i);
       else
-        draw_empty_row(i);
+        list_.crisp_line({panel_.lo.x + kAxisNumber, y_of(i)}, {panel_.hi.x - kAxisWords, y_of(i)},
+                         {Role::rule, 1.8, 7});
     }
   }
 
@@ -72,14 +69,8 @@ class AxesView : PanelPicture {
     return panel_.lo.y + kAxesHeading + (static_cast<double>(i) + 0.5) * row_;
   }
 
-  void draw_empty_row(std::size_t i) {
-    const double y = y_of(i);
-    list_.crisp_line({panel_.lo.x + kAxisNumber, y}, {panel_.hi.x - kAxisWords, y},
-                     {Role::rule, 1.8, 7});
-  }
-
   void draw_row(std::size_t i) {
-    const auto& separation = *frame_.find<FrameSeparation>();
+    const auto& separation = frame_.get<FrameSeparation>();
     const auto& axis = separation.axes[i];
     const FrameBody *a = frame_.body_of(separation.a), *b = frame_.body_of(separation.b);
     if (!a || !b) return;
@@ -88,8 +79,7 @@ class AxesView : PanelPicture {
     if (front)
       list_.rect({{panel_.lo.x, y - row_ / 2 + 4}, {panel_.hi.x, y + row_ / 2 - 4}}, Role::lit_fill,
                  separation.answer ? Stroke{Role::lit, 2.6} : Stroke{}, 5);
-    labels_.add(fmt::format("{}", i + 1), centred({panel_.lo.x + 20, y}, kAxisBold), kAxisBold,
-                panel_);
+    write(fmt::format("{}", i + 1), centred({panel_.lo.x + 20, y}, kStrong), kStrong);
     const Shadows s = shadows_of(axis);
     const double from = std::min(s.a_lo, s.b_lo), left = panel_.lo.x + kAxisNumber;
     const auto x = [&](double at) { return left + (at - from) * scale_; };
@@ -103,10 +93,9 @@ class AxesView : PanelPicture {
       draw_gap({x(s.a_hi), y}, {x(s.b_lo), y}, pen_);
     else
       draw_shared_shadow({x(s.b_lo), y}, {x(s.a_hi), y}, pen_);
-    const TextStyle style{kLabel, front ? Weight::semibold : Weight::regular, Role::ink};
-    labels_.add(
-        fmt::format("{} {}", apart ? "gap" : "way out", short_number(std::abs(axis.separation))),
-        centred({panel_.hi.x - 8, y}, style, 1), style, panel_);
+    const TextStyle& style = front ? kStrong : kPlain;
+    write(fmt::format("{} {}", apart ? "gap" : "way out", short_number(std::abs(axis.separation))),
+          centred({panel_.hi.x - 8, y}, style, 1), style);
   }
 
   Pen pen_;
@@ -115,16 +104,10 @@ class AxesView : PanelPicture {
   double row_ = 0;
 };
 
-void draw_axes(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
-               Labels& labels) {
-  if (panel.size().x < 420) return;
-  AxesView({frame, staging, panel, list, labels}).draw();
-}
-
 }  // namespace
 
-// The axes of frame.find<FrameSeparation>() below each other, on one scale: how far both bodies
-// reach along each of them. As many rows as the sequence ever needs.
-PanelView axes_panel() { return {.name = "axes", .draw = draw_axes}; }
+PanelView axes_panel() {
+  return {.name = "axes", .draw = draw_as<AxesView>, .smallest = {420, -1e300}};
+}
 
 }  // namespace lantern::draw

@@ -8,17 +8,12 @@
 
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
-#include "draw/pen.hpp"
 
 namespace lantern::draw {
 namespace {
 
-constexpr double kBytesText = 24;
 constexpr double kBytesBar = 34;
 constexpr double kBytesRow = 50;
-
-const TextStyle kBytesStyle{kBytesText, Weight::regular, Role::ink};
-const TextStyle kBytesStrong{kBytesText, Weight::semibold, Role::ink};
 
 struct BytesBar {
   const char* name = "";
@@ -26,19 +21,23 @@ struct BytesBar {
   double boxes = 0;  // of these, for stored boxes
 };
 
-class BytesView {
+class BytesView : PanelPicture {
  public:
-  BytesView(double nodes, const Box<2>& panel, DrawList& list, Labels& labels)
-      : nodes_(nodes), panel_(panel), list_(list), labels_(labels) {}
+  explicit BytesView(const PanelPicture& on) : PanelPicture(on) {}
 
-  void draw(double derived, double stored) {
+  void draw() {
+    const auto nodes = frame_.count("nodes"), bytes = frame_.count("node_bytes");
+    const auto with_boxes = frame_.count("node_bytes_with_bounds");
+    if (!nodes || !bytes || !with_boxes || *nodes <= 0) return;
+    nodes_ = static_cast<double>(*nodes);
+    const auto derived = static_cast<double>(*bytes), stored = static_cast<double>(*with_boxes);
     const BytesBar bars[] = {{"box derived", derived, 0}, {"box stored", stored, stored - derived}};
     // A node has at most so many bytes: the scale stays while the tree grows.
     constexpr double kScale = 32;
     const double scale = kScale * std::max(2.0, std::ceil(stored / nodes_ / kScale));
     for (const BytesBar& bar : bars) {
-      names_ = std::max(names_, text_width(bar.name, kBytesStyle) + 14);
-      numbers_ = std::max(numbers_, text_width(numbers(bar), kBytesStrong) + 30);
+      names_ = std::max(names_, text_width(bar.name, kPlain) + 14);
+      numbers_ = std::max(numbers_, text_width(numbers(bar), kStrong) + 30);
     }
     byte_ = (panel_.size().x - names_ - numbers_) / scale;
     if (byte_ < 1) return;
@@ -66,45 +65,32 @@ class BytesView {
     if (bar.boxes > 0) {
       const Box<2> box = part(own, all);
       list_.rect(box, Role::lit_fill, {Role::lit, 2.2});
-      const TextStyle style{kBytesText, Weight::regular, Role::lit_ink};
+      const TextStyle style{kLabel, Weight::regular, Role::lit_ink};
       if (text_width("its box", style) < box.size().x - 8)
-        labels_.try_add("its box", {centred(box.center(), style)}, style, panel_);
+        try_write("its box", {centred(box.center(), style)}, style);
     }
     // Every fourth byte: one number of single length.
     for (double at = 4; at < own - 0.5; at += 4)
       list_.crisp_line({x + at * byte_, middle - kBytesBar / 2},
                        {x + at * byte_, middle - kBytesBar / 2 + 8}, {Role::cell_line_0, 1.2});
-    labels_.add(bar.name, centred({x - 14, middle}, kBytesStyle, 1), kBytesStyle, panel_);
-    labels_.add(numbers(bar), centred({x + all * byte_ + 14, middle}, kBytesStrong, 0),
-                kBytesStrong, panel_);
+    write(bar.name, centred({x - 14, middle}, kPlain, 1));
+    write(numbers(bar), centred({x + all * byte_ + 14, middle}, kStrong, 0), kStrong);
   }
 
-  double nodes_;
-  Box<2> panel_;
-  DrawList& list_;
-  Labels& labels_;
+  double nodes_ = 0;
   double names_ = 0, numbers_ = 0;  // widths
   double byte_ = 0;                 // of a byte
 };
 
-void draw_bytes(const Frame& frame, const Staging&, const Box<2>& panel, DrawList& list,
-                Labels& labels) {
-  const auto nodes = frame.count("nodes"), bytes = frame.count("node_bytes");
-  const auto stored = frame.count("node_bytes_with_bounds");
-  const Box<2> place = shrunk(panel, 3);
-  if (!nodes || !bytes || !stored || *nodes <= 0 || place.size().y < 2 * kBytesRow - 1) return;
-  BytesView(static_cast<double>(*nodes), place, list, labels)
-      .draw(static_cast<double>(*bytes), static_cast<double>(*stored));
-}
-
 }  // namespace
 
-// The bytes of a node whose box is derived and of one that stores it, on one scale.
 PanelView bytes_panel() {
   return {.name = "bytes",
-          .draw = draw_bytes,
+          .draw = draw_as<BytesView>,
           .strip = [](const Frame&, const Vec<2>&) { return 2 * kBytesRow + 8; },
-          .weight = 0.28};
+          .weight = 0.28,
+          .inset = 3,
+          .smallest = {-1e300, 2 * kBytesRow - 1}};
 }
 
 }  // namespace lantern::draw

@@ -7,12 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "draw/font.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
-#include "draw/panels.hpp"
-#include "draw/plot.hpp"
-#include "draw/plot_marks.hpp"
 #include "draw/plot_parts.hpp"
 #include "frame/parts/panels.hpp"
 #include "spatial/structure_kind.hpp"
@@ -45,23 +41,21 @@ std::string title_of(const FrameChart& chart) {
   return name + (name.empty() || chart.y_unit.empty() ? "" : ", ") + chart.y_unit;
 }
 
-class Bars {
+class Bars : PanelPicture {
  public:
-  Bars(const FrameChart& chart, const AxisRanges::Ends& range, const Box<2>& panel, double size,
-       DrawList& list, Labels& labels)
-      : chart_(chart),
-        range_(range),
-        paper_(panel, size, list, labels),
-        list_(list),
-        labels_(labels),
-        bars_(chart.bars) {
+  explicit Bars(const PanelPicture& on)
+      : PanelPicture(on),
+        chart_(frame_.get<FrameChart>()),
+        range_(staging_.axes().chart()),
+        paper_(panel_, kChartType, list_, labels_),
+        bars_(chart_.bars) {
     std::erase_if(bars_, [](const FrameBar& bar) { return !std::isfinite(bar.value); });
     for (FrameBar& bar : bars_) bar.label = chart_words(bar.label);
     std::ranges::stable_sort(bars_, {}, &FrameBar::group);
   }
 
   void draw() {
-    paper_.heading(heading(), type_.title);
+    paper_.heading(title(), type_.title);
     if (area_.lo.y > panel_.lo.y) area_.lo.y += 0.28 * type_.name.size;
     find_room();
     if (bars_.empty()) return;
@@ -76,12 +70,11 @@ class Bars {
     const double x = x_of(zero());
     list_.crisp_line({x, area_.lo.y}, {x, area_.hi.y}, {Role::ink, 2.2});
     if (!note_.empty())
-      labels_.add(note_, {{area_.lo.x, panel_.hi.y - 0.3 * type_.tick.size}, 0}, type_.tick,
-                  panel_);
+      write(note_, {{area_.lo.x, panel_.hi.y - 0.3 * type_.tick.size}, 0}, type_.tick);
   }
 
  private:
-  std::string heading() const {
+  std::string title() const {
     const std::string name = title_of(chart_);
     if (!chart_.logarithmic) return name;
     return name + (name.empty() ? "" : ", ") + "logarithmic scale";
@@ -179,11 +172,11 @@ class Bars {
       if (box.size().x > 0.5) list_.rect(box, color_of(bar), {Role::body_line, 1.2}, 2);
     }
     const double room = area_.lo.x - panel_.lo.x - kAfter;
-    labels_.add(shortened(bar.label, room, type_.name),
-                centred({area_.lo.x - kAfter, middle}, type_.name, 1), type_.name, panel_);
+    write(shortened(bar.label, room, type_.name),
+          centred({area_.lo.x - kAfter, middle}, type_.name, 1), type_.name);
     const double left = std::max(from, to) + kAfter + (chart_.logarithmic ? 13 : 0);
-    labels_.add(shortened(value_text(bar.value), panel_.hi.x - left, type_.title),
-                centred({left, middle}, type_.title, 0), type_.title, panel_);
+    write(shortened(value_text(bar.value), panel_.hi.x - left, type_.title),
+          centred({left, middle}, type_.title, 0), type_.title);
   }
 
   // A logarithmic axis has no beginning, so nothing is as long as its value: only places say it.
@@ -196,10 +189,7 @@ class Bars {
   AxisRanges::Ends range_;  // of all charts of the sequence
   PlotPaper paper_;
   const PlotType& type_ = paper_.type;
-  const Box<2>& panel_ = paper_.place.panel;
   Box<2>& area_ = paper_.place.area;
-  DrawList& list_;
-  Labels& labels_;
   std::vector<FrameBar> bars_;
   std::string note_;
   double row_ = kLeastRow, gap_ = kGroupGap;
@@ -240,18 +230,16 @@ Plot plot_of(const FrameChart& chart, const AxisRanges& axes) {
   return plot;
 }
 
-void draw_chart(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
+void draw_chart(const Frame& frame, const Staging& staging, const Box<2>& place, DrawList& list,
                 Labels& labels) {
   const FrameChart& chart = frame.get<FrameChart>();
   for (const std::string& name : {chart.x_name, chart.y_name}) list.referents.insert(name);
   for (const FrameSeries& series : chart.series)
     list.referents.insert({series.name, chart.y_name + "." + series.name});
-  const Box<2> place = shrunk(panel, 4);
-  if (place.size().x < 40 || place.size().y < 40) return;
   // A chart of bars has no axes before its first bar.
   const bool of_bars = !chart.bars.empty() ||
                        (chart.x_name.empty() && !chart.y_name.empty() && chart.series.empty());
-  if (of_bars) return Bars(chart, staging.axes().chart(), place, kChartType, list, labels).draw();
+  if (of_bars) return Bars({frame, staging, place, list, labels}).draw();
   Plot plot = plot_of(chart, staging.axes());
   plot.size = kChartType;
   draw_plot(plot, place, list, labels);
@@ -259,16 +247,12 @@ void draw_chart(const Frame& frame, const Staging& staging, const Box<2>& panel,
 
 }  // namespace
 
-std::string chart_words(std::string name) {
-  std::ranges::replace(name, '_', ' ');
-  if (const std::size_t dot = name.find('.'); dot != std::string::npos) name.replace(dot, 1, ": ");
-  return name;
-}
-
 // One count against another as lines, or counts as bars. Lines carry marks of different shapes and
 // their names at their ends; the newest point of each is larger and says its number. Bars lie
 // level in groups, their names before and their numbers behind them. Points that
 // are not finite are left out; what there is no room for is said.
-PanelView chart_panel() { return {.name = "chart", .draw = draw_chart, .enough = 300}; }
+PanelView chart_panel() {
+  return {.name = "chart", .draw = draw_chart, .enough = 300, .inset = 4, .smallest = {40, 40}};
+}
 
 }  // namespace lantern::draw

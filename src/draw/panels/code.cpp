@@ -1,4 +1,6 @@
-// A function of the lecture's source, beside the picture of what it does.
+// A function of the lecture's source, beside the picture of what it does; the lines that the frame
+// is about are lit. Of a function too long for the panel its head is shown and what is around
+// these. A long line loses the end of its list of arguments, or is broken.
 //
 //   quad_tree.hpp   QuadTreeNode::Insert
 //   69  void Insert(const T& object, const Vector3& objectPos, …) {
@@ -15,7 +17,6 @@
 
 #include <fmt/format.h>
 
-#include "draw/labels.hpp"
 #include "draw/panel.hpp"
 #include "frame/parts/panels.hpp"
 
@@ -79,10 +80,9 @@ std::vector<CodeRow> rows_of(const FrameCode::Line& line, bool is_head, double w
   return rows;
 }
 
-class CodeView {
+class CodeView : PanelPicture {
  public:
-  CodeView(const FrameCode& code, const Box<2>& panel, DrawList& list, Labels& labels)
-      : code_(code), panel_(panel), list_(list), labels_(labels) {
+  explicit CodeView(const PanelPicture& on) : PanelPicture(on), code_(frame_.get<FrameCode>()) {
     for (const double size : kCodeSizes) {
       lay_out(size);
       if (rooms_ >= kFewRows) break;
@@ -90,6 +90,7 @@ class CodeView {
   }
 
   void draw() {
+    if (code_.lines.empty()) return;
     draw_heading();
     const auto [first, end] = window();
     double y = draw_line(0, panel_.lo.y + kCodeHeading);
@@ -154,12 +155,11 @@ class CodeView {
       number.role = Role::lit_ink;
     }
     const double x = panel_.lo.x + 10 + number_;
-    labels_.add(fmt::format("{}", line.number), centred({x, y + pitch_ / 2}, number, 1), number,
-                panel_);
+    write(fmt::format("{}", line.number), centred({x, y + pitch_ / 2}, number, 1), number);
     for (const CodeRow& row : lines_[i]) {
       const double room = panel_.hi.x - x - kCodeGap - row.indent;
-      labels_.add(shortened(row.text, room, text),
-                  centred({x + kCodeGap + row.indent, y + pitch_ / 2}, text, 0), text, panel_);
+      write(shortened(row.text, room, text),
+            centred({x + kCodeGap + row.indent, y + pitch_ / 2}, text, 0), text);
       y += pitch_;
     }
     return bottom;
@@ -173,44 +173,29 @@ class CodeView {
   }
 
   void draw_heading() {
-    const TextStyle strong{kLabel, Weight::semibold, Role::ink};
-    const TextStyle quiet{kLabel, Weight::regular, Role::quiet_ink};
     const double y = panel_.lo.y + 0.8 * kLabel;
-    const std::string name = shortened(code_.function, panel_.size().x, strong);
-    labels_.add(name, {{panel_.lo.x, y}, 0}, strong, panel_);
-    const double x = panel_.lo.x + text_width(name, strong) + 20;
-    if (x + text_width(code_.file, quiet) <= panel_.hi.x)
-      labels_.add(code_.file, {{panel_.hi.x, y}, 1}, quiet, panel_);
+    const std::string name = shortened(code_.function, panel_.size().x, kStrong);
+    write(name, {{panel_.lo.x, y}, 0}, kStrong);
+    const double x = panel_.lo.x + text_width(name, kStrong) + 20;
+    if (x + text_width(code_.file, kQuiet) <= panel_.hi.x)
+      write(code_.file, {{panel_.hi.x, y}, 1}, kQuiet);
     list_.crisp_line({panel_.lo.x, panel_.lo.y + kCodeHeading - 8},
                      {panel_.hi.x, panel_.lo.y + kCodeHeading - 8}, {Role::rule, 1.4});
   }
 
   const FrameCode& code_;
-  Box<2> panel_;
-  DrawList& list_;
-  Labels& labels_;
-  TextStyle style_{24, Weight::regular, Role::ink};
-  TextStyle lit_{24, Weight::semibold, Role::ink};  // the wider one
+  TextStyle style_ = kPlain, lit_ = kStrong;  // the latter is the wider one
   double pitch_ = 0;
   double number_ = 0;                        // width of the column of numbers
   std::vector<std::vector<CodeRow>> lines_;  // of the code
   std::size_t rooms_ = 0;                    // rows that have room
 };
 
-void draw_code(const Frame& frame, const Staging&, const Box<2>& panel, DrawList& list,
-               Labels& labels) {
-  const Box<2> place = shrunk(panel, 3);
-  if (!frame.find<FrameCode>() || frame.find<FrameCode>()->lines.empty() || place.size().x < 300 ||
-      place.size().y < 160)
-    return;
-  CodeView(*frame.find<FrameCode>(), place, list, labels).draw();
-}
-
 }  // namespace
 
-// A function of the lecture's source, its lines numbered as in their file; those that the frame is
-// about are lit. Of a function too long for the panel its head is shown and what is around the lit
-// lines. A long line loses the end of its list of arguments, or is broken.
-PanelView code_panel() { return {.name = "code", .draw = draw_code, .weight = 1.3}; }
+PanelView code_panel() {
+  return {
+      .name = "code", .draw = draw_as<CodeView>, .weight = 1.3, .inset = 3, .smallest = {300, 160}};
+}
 
 }  // namespace lantern::draw

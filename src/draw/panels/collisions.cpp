@@ -1,19 +1,16 @@
-// The collisions that are remembered, over time: a row a pair, a column a world step.
+// The collisions that are remembered, over time: a strip with a row a pair, a column a world step.
 //
 //   @ @  | begin        _             end
 //        | |||||  |||   |||||||   |   |      pips: frames left
 //        |  o           o                    touching
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "draw/body_shapes.hpp"
-#include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 #include "draw/pen.hpp"
 #include "frame/parts/panels.hpp"
@@ -24,7 +21,6 @@ namespace {
 using frame::FrameCollision;
 using frame::FrameCollisions;
 
-constexpr double kCollisionText = 24;
 constexpr double kCollisionHeading = 40;
 constexpr double kPip = 12;                 // from pip to pip
 constexpr double kCallRow = 30;             // height of the line of begins and ends
@@ -34,15 +30,12 @@ constexpr double kMostColumn = 44;          // width
 constexpr double kLeastColumn = 5;          // of more steps the last ones are drawn
 constexpr std::size_t kMostCollisions = 3;  // rows
 
-const TextStyle kCollisionStyle{kCollisionText, Weight::regular, Role::ink};
-const TextStyle kCollisionStrong{kCollisionText, Weight::semibold, Role::ink};
-
 double row_height(int remembered) { return kCallRow + remembered * kPip + kTouchRow + 8; }
 
 class CollisionsView : PanelPicture {
  public:
   explicit CollisionsView(const PanelPicture& on)
-      : PanelPicture(on), told_(*frame_.find<FrameCollisions>()), bodies_(by_id(frame_.bodies)) {
+      : PanelPicture(on), told_(frame_.get<FrameCollisions>()), bodies_(by_id(frame_.bodies)) {
     const std::uint64_t passed = told_.now - told_.first;
     const std::uint64_t all = std::max<std::uint64_t>({told_.steps.value_or(passed), passed, 12});
     const double room = panel_.size().x - kCollisionPair;
@@ -53,6 +46,9 @@ class CollisionsView : PanelPicture {
   }
 
   void draw() {
+    if (!frame_.find<FrameCollisions>()) return;
+    list_.referents.insert(
+        {"collisions_alive", "begins", "ends", "contacts", "begins_in_all", "touches_in_all"});
     draw_heading();
     double y = panel_.lo.y + kCollisionHeading;
     std::size_t drawn = 0;
@@ -88,10 +84,7 @@ class CollisionsView : PanelPicture {
   void draw_pair(const FrameCollision& row, const Vec<2>& at) {
     double x = at.x;
     for (const BodyId id : {row.pair.a, row.pair.b}) {
-      const auto body = bodies_.find(id);
-      const Box<2> place = Box<2>::around({x + 24, at.y}, Vec<2>(22));
-      if (body != bodies_.end())
-        draw_character(*body->second, icon_box(*body->second, place), false, list_);
+      draw_icon(body_of(bodies_, id), Box<2>::around({x + 24, at.y}, Vec<2>(22)), list_);
       x += 52;
     }
   }
@@ -122,22 +115,20 @@ class CollisionsView : PanelPicture {
     list_.crisp_line({x, from_to[0] + 4}, {x, from_to[1]}, {Role::ink, 2.6});
     const char* const word = begins ? "begin" : "end";
     const double gap = 7;
-    labels_.try_add(word, {{{x + gap, from_to[0] + 22}, 0}, {{x - gap, from_to[0] + 22}, 1}},
-                    kCollisionStrong, panel_);
+    try_write(word, {{{x + gap, from_to[0] + 22}, 0}, {{x - gap, from_to[0] + 22}, 1}}, kStrong);
   }
 
   void draw_heading() {
-    const TextStyle strong{kCollisionText, Weight::semibold, Role::ink};
-    const double y = panel_.lo.y + 0.8 * kCollisionText;
+    const double y = panel_.lo.y + 0.8 * kLabel;
     double x = panel_.lo.x;
-    const auto write = [&](const std::string& text, const TextStyle& style) {
-      labels_.add(text, {{x, y}, 0}, style, panel_);
+    const auto say = [&](const std::string& text, const TextStyle& style) {
+      write(text, {{x, y}, 0}, style);
       x += text_width(text, style) + 14;
     };
-    write("allCollisions", strong);
+    say("allCollisions", kStrong);
     const auto left = frames_left();
-    if (left) write(fmt::format("framesLeft {}", *left), kCollisionStyle);
-    if (!left) write("empty", {kCollisionText, Weight::regular, Role::quiet_ink});
+    if (left) say(fmt::format("framesLeft {}", *left), kPlain);
+    if (!left) say("empty", kQuiet);
     draw_key(y);
   }
 
@@ -152,15 +143,15 @@ class CollisionsView : PanelPicture {
   }
 
   void draw_key(double y) {
-    const TextStyle quiet{kCollisionText, Weight::regular, Role::quiet_ink};
-    const double words = text_width("one frame left", quiet), touch = text_width("touching", quiet);
+    const double words = text_width("one frame left", kQuiet),
+                 touch = text_width("touching", kQuiet);
     double x = panel_.hi.x - words - touch - 100;
     if (x < panel_.lo.x + 420) return;
     list_.disc({x, y - 8}, 7, Role::contact);
-    labels_.add("touching", {{x + 16, y}, 0}, quiet, panel_);
+    write("touching", {{x + 16, y}, 0}, kQuiet);
     x += touch + 44;
     list_.rect({{x, y - 13}, {x + 26, y - 4}}, Role::cell_line_2, {}, 1.5);
-    labels_.add("one frame left", {{x + 36, y}, 0}, quiet, panel_);
+    write("one frame left", {{x + 36, y}, 0}, kQuiet);
   }
 
   const FrameCollisions& told_;
@@ -170,38 +161,26 @@ class CollisionsView : PanelPicture {
   std::uint64_t first_ = 0;  // world steps before the first column
 };
 
-void draw_collisions(const Frame& frame, const Staging& staging, const Box<2>& panel,
-                     DrawList& list, Labels& labels) {
-  const Box<2> place = shrunk(panel, 3);
-  if (!frame.find<FrameCollisions>() || place.size().x < 300 || place.size().y < kCollisionHeading)
-    return;
-  CollisionsView({frame, staging, place, list, labels}).draw();
-  list.referents.insert(
-      {"collisions_alive", "begins", "ends", "contacts", "begins_in_all", "touches_in_all"});
-}
-
-double collisions_height(const Frame& frame) {
-  if (!frame.find<FrameCollisions>()) return kCollisionHeading;
-  const std::size_t rows =
-      std::clamp<std::size_t>(frame.find<FrameCollisions>()->rows.size(), 1, kMostCollisions);
-  constexpr int kUsual = 5;  // frames, before anything has touched
-  const int remembered = frame.find<FrameCollisions>()->remembered > 0
-                             ? frame.find<FrameCollisions>()->remembered
-                             : kUsual;
-  return kCollisionHeading + static_cast<double>(rows) * row_height(remembered) + 6;
-}
-
 double collisions_strip(const Frame& frame, const Vec<2>& area) {
-  return std::min(collisions_height(frame), 0.46 * area.y);
+  constexpr int kUsual = 5;  // frames, before anything has touched
+  const auto* told = frame.find<FrameCollisions>();
+  double height = kCollisionHeading;
+  if (told) {
+    const auto rows =
+        static_cast<double>(std::clamp<std::size_t>(told->rows.size(), 1, kMostCollisions));
+    height += rows * row_height(told->remembered > 0 ? told->remembered : kUsual) + 6;
+  }
+  return std::min(height, 0.46 * area.y);
 }
 
 }  // namespace
 
-// A strip with a row for each pair whose collision is remembered: at each world step as many pips
-// as it has frames left, where it touches, and where its begin and end were told. It wants this
-// height.
 PanelView collisions_panel() {
-  return {.name = "collisions", .draw = draw_collisions, .strip = collisions_strip};
+  return {.name = "collisions",
+          .draw = draw_as<CollisionsView>,
+          .strip = collisions_strip,
+          .inset = 3,
+          .smallest = {300, kCollisionHeading}};
 }
 
 }  // namespace lantern::draw

@@ -1,4 +1,5 @@
-// The table of what kinds of structures do, a row a world.
+// The table of what kinds of structures do (FrameComparison), a row a world with a small picture of
+// it; rows to come are named only.
 //
 //                              brute force   quadtree     grid
 //   [picture] tall  80 bodies   each step   3160     | 1204 |     948
@@ -14,6 +15,8 @@
 
 #include "base/number.hpp"
 #include "draw/count_words.hpp"
+#include "base/grouped.hpp"
+#include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 #include "frame/parts/panels.hpp"
 #include "spatial/structure_kind.hpp"
@@ -33,9 +36,6 @@ constexpr double kDepthX = 0.4, kDepthY = 0.3;  // how far on the page a unit of
 
 const TextStyle kTableName{26, Weight::semibold, Role::ink};
 const TextStyle kTableNumber{26, Weight::regular, Role::ink};
-const TextStyle kTableBest{26, Weight::semibold, Role::ink};
-const TextStyle kTableText{24, Weight::regular, Role::ink};
-const TextStyle kTableQuiet{24, Weight::regular, Role::quiet_ink};
 
 class ComparisonView : PanelPicture {
  public:
@@ -49,6 +49,10 @@ class ComparisonView : PanelPicture {
   }
 
   void draw() {
+    if (table_.kinds.empty() || table_.all_names.empty()) return;
+    list_.referents.insert({"least_work", "compared_bodies"});
+    if (std::ranges::count(table_.kinds, StructureKind::brute_force) > 0)
+      list_.referents.emplace("compared_pairs");
     draw_header();
     for (std::size_t i = 0; i < table_.all_names.size(); ++i) {
       const double top = panel_.lo.y + kTableHeader + row_ * static_cast<double>(i);
@@ -58,7 +62,7 @@ class ComparisonView : PanelPicture {
       if (i < table_.rows.size())
         draw_row(table_.rows[i], i + 1 == table_.rows.size() && !frame_.ending, place);
       else
-        add(table_.all_names[i], {{words_x(), baseline(place, 0)}, 0}, kTableQuiet);
+        write(table_.all_names[i], {{words_x(), baseline(place, 0)}, 0}, kQuiet);
     }
   }
 
@@ -68,18 +72,14 @@ class ComparisonView : PanelPicture {
   double baseline(const Box<2>& row, int line) const {
     return row.center().y - kTableLine + 9 + kTableLine * line;
   }
-  void add(const std::string& text, const Anchor& anchor, const TextStyle& style) {
-    labels_.add(text, anchor, style, panel_);
-  }
-
   void draw_header() {
     for (std::size_t i = 0; i < table_.kinds.size(); ++i) {
       const std::string words(traits_of(table_.kinds[i]).words);
-      const std::vector<std::string> lines = wrapped(words, column_ - 8, kTableQuiet);
+      const std::vector<std::string> lines = wrapped(words, column_ - 8, kQuiet);
       const double x = columns_ + column_ * (static_cast<double>(i) + 0.5);
       double y = panel_.lo.y + kTableHeader - 14 - 28 * (static_cast<double>(lines.size()) - 1);
       for (const std::string& line : lines) {
-        add(shortened(line, column_ - 6, kTableQuiet), {{x, y}, 0.5}, kTableQuiet);
+        write(shortened(line, column_ - 6, kQuiet), {{x, y}, 0.5}, kQuiet);
         y += 28;
       }
     }
@@ -92,7 +92,7 @@ class ComparisonView : PanelPicture {
     draw_words(row, place);
     const char* const kLines[] = {"each step", "to build", "pairs left"};
     for (int line = 0; line < 3; ++line)
-      add(kLines[line], {{columns_ - 10, baseline(place, line)}, 1}, kTableQuiet);
+      write(kLines[line], {{columns_ - 10, baseline(place, line)}, 1}, kQuiet);
     std::uint64_t most = 1;
     for (const FrameComparison::Cell& cell : row.cells) most = std::max(most, cell.work.step());
     for (std::size_t i = 0; i < table_.kinds.size(); ++i)
@@ -103,17 +103,17 @@ class ComparisonView : PanelPicture {
 
   // Its name, how many bodies it has, and what the row says.
   void draw_words(const FrameComparison::Row& row, const Box<2>& place) {
-    add(shortened(row.name, kWorldWidth, kTableName), {{words_x(), baseline(place, 0)}, 0},
-        kTableName);
+    write(shortened(row.name, kWorldWidth, kTableName), {{words_x(), baseline(place, 0)}, 0},
+          kTableName);
     const double after = words_x() + text_width(row.name, kTableName) + 12;
     const std::string bodies = grouped(static_cast<std::int64_t>(row.bodies)) + " " +
                                count_words("bodies", row.bodies == 1);
-    if (after + text_width(bodies, kTableQuiet) < words_x() + kWorldWidth)
-      add(bodies, {{after, baseline(place, 0)}, 0}, kTableQuiet);
-    std::vector<std::string> lines = wrapped(row.answer, kWorldWidth, kTableText);
-    if (lines.size() > 2) lines = {lines[0], shortened(lines[1] + " …", kWorldWidth, kTableText)};
+    if (after + text_width(bodies, kQuiet) < words_x() + kWorldWidth)
+      write(bodies, {{after, baseline(place, 0)}, 0}, kQuiet);
+    std::vector<std::string> lines = wrapped(row.answer, kWorldWidth, kPlain);
+    if (lines.size() > 2) lines = {lines[0], shortened(lines[1] + " …", kWorldWidth, kPlain)};
     for (std::size_t i = 0; i < lines.size(); ++i)
-      add(lines[i], {{words_x(), baseline(place, static_cast<int>(i) + 1)}, 0}, kTableText);
+      write(lines[i], {{words_x(), baseline(place, static_cast<int>(i) + 1)}, 0});
   }
 
   void draw_cell(const FrameComparison::Cell& cell, bool best, std::uint64_t most, double x,
@@ -125,11 +125,11 @@ class ComparisonView : PanelPicture {
     if (best) list_.rect(box, Role::none, {Role::lit, 3.4}, 5);
     const double right = x + column_ - 14;
     labels_.add_number(static_cast<std::int64_t>(cell.work.step()), {right, y},
-                       best ? kTableBest : kTableNumber, panel_);
+                       best ? kTableName : kTableNumber, panel_);
     labels_.add_number(static_cast<std::int64_t>(cell.work.build), {right, baseline(row, 1)},
-                       kTableQuiet, panel_);
+                       kQuiet, panel_);
     labels_.add_number(static_cast<std::int64_t>(cell.work.pairs), {right, baseline(row, 2)},
-                       kTableQuiet, panel_);
+                       kQuiet, panel_);
   }
 
   // The world from the front, its depth leading up to the right; what is far lies behind.
@@ -176,22 +176,11 @@ class ComparisonView : PanelPicture {
   double row_ = 0;      // height
 };
 
-void draw_comparison(const Frame& frame, const Staging& staging, const Box<2>& panel,
-                     DrawList& list, Labels& labels) {
-  const Box<2> place = shrunk(panel, 3);
-  const FrameComparison& table = frame.get<FrameComparison>();
-  if (table.kinds.empty() || table.all_names.empty() || place.size().x < 900) return;
-  ComparisonView({frame, staging, place, list, labels}).draw();
-  list.referents.insert({"least_work", "compared_bodies"});
-  if (std::ranges::count(table.kinds, StructureKind::brute_force) > 0)
-    list.referents.insert("compared_pairs");
-}
-
 }  // namespace
 
-// What each kind of structure does for each world that was compared (frame.get<FrameComparison>()),
-// a row a world with a small picture of it, a column a kind; rows to come are named only. Nothing
-// on a panel that is too narrow for it.
-PanelView comparison_panel() { return {.name = "comparison", .draw = draw_comparison}; }
+PanelView comparison_panel() {
+  return {
+      .name = "comparison", .draw = draw_as<ComparisonView>, .inset = 3, .smallest = {900, -1e300}};
+}
 
 }  // namespace lantern::draw

@@ -1,4 +1,5 @@
-// The Minkowski difference of two bodies: where it holds the origin, they have a point in common.
+// The Minkowski difference of two bodies: where it holds the origin, they have a point in common;
+// and what a search for their distance has found of it.
 //
 //        ______
 //       /      \             as large as in the world, if there is room: arrows of the world
@@ -10,7 +11,6 @@
 #include <fmt/format.h>
 
 #include "draw/body_shapes.hpp"
-#include "draw/font.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 #include "draw/world/narrow_marks.hpp"
@@ -22,17 +22,15 @@ constexpr double kHeading = 44;
 constexpr double kRimNumbers = 40;  // height of the numbers below, width of those at the left
 constexpr double kAround = 26;      // the difference
 
-const TextStyle kTick{kLabel, Weight::regular, Role::quiet_ink};
 const TextStyle kOwn{kLabel, Weight::semibold, Role::ink, Role::panel};
 
 // What all frames of the sequence need, the origin with it.
 Box<2> reach_of(const Staging& staging) {
   Box<2> reach{Vec<2>(0.0), Vec<2>(0.0)};
   for (const Frame* frame : staging.frames()) {
-    if (!frame->find<FrameDifference>()) continue;
-    const Vec<2> round(frame->find<FrameDifference>()->radius);
-    for (const Vec<2>& p : frame->find<FrameDifference>()->corners)
-      reach = united(reach, Box<2>{p - round, p + round});
+    const auto& difference = frame->get<FrameDifference>();
+    const Vec<2> round(difference.radius);
+    for (const Vec<2>& p : difference.corners) reach = united(reach, Box<2>{p - round, p + round});
   }
   return reach;
 }
@@ -41,7 +39,7 @@ class DifferenceView : PanelPicture {
  public:
   explicit DifferenceView(const PanelPicture& on)
       : PanelPicture(on),
-        difference_(*frame_.find<FrameDifference>()),
+        difference_(frame_.get<FrameDifference>()),
         area_({panel_.lo + Vec<2>(kRimNumbers, kHeading), panel_.hi - Vec<2>(4, kRimNumbers)}),
         pen_(list_, area_) {
     const Box<2> reach = reach_of(staging_);
@@ -53,19 +51,21 @@ class DifferenceView : PanelPicture {
   }
 
   void draw() {
-    draw_heading();
+    if (difference_.corners.empty()) return;
+    heading(fmt::format("every point of {} less every point of {}", name_of(difference_.a),
+                        name_of(difference_.b)),
+            22);
     draw_axes();
     draw_shape();
-    if (frame_.find<FrameSearch>() && !frame_.find<FrameSearch>()->steps.empty())
-      draw_search(*frame_.find<FrameSearch>());
+    if (const auto& search = frame_.get<FrameSearch>(); !search.steps.empty()) draw_search(search);
     draw_origin(origin_, pen_);
     list_.marks.add(MarkKind::origin);
     labels_.block(Box<2>::around(origin_, Vec<2>(11)));
-    labels_.try_add(
+    try_write(
         "origin",
         {centred(origin_ + Vec<2>(20, 26), kOwn, 0), centred(origin_ - Vec<2>(20, 26), kOwn, 1),
          centred(origin_ + Vec<2>(20, -26), kOwn, 0), centred(origin_ + Vec<2>(-20, 26), kOwn, 1)},
-        kOwn, panel_);
+        kOwn);
     list_.referents.insert({"gjk_steps", "distance"});
   }
 
@@ -75,14 +75,6 @@ class DifferenceView : PanelPicture {
   std::string name_of(BodyId id) const {
     const FrameBody* body = frame_.body_of(id);
     return body ? body->name : "";
-  }
-
-  void draw_heading() {
-    const TextStyle style{kLabel, Weight::semibold, Role::ink};
-    const std::string text = fmt::format("every point of {} less every point of {}",
-                                         name_of(difference_.a), name_of(difference_.b));
-    labels_.add(shortened(text, panel_.size().x, style), {{panel_.lo.x, panel_.lo.y + 22}, 0},
-                style, panel_);
   }
 
   // Lines through the origin, and numbers at the rim.
@@ -100,22 +92,19 @@ class DifferenceView : PanelPicture {
          [&](double x) {
            const double page = origin_.x + x * scale_;
            list_.crisp_line({page, area_.hi.y}, {page, area_.hi.y - 7}, {Role::cell_line_1, 1.8});
-           labels_.try_add(number_text(x, 2), {centred({page, area_.hi.y + 20}, kTick)}, kTick,
-                           panel_);
+           try_write(number_text(x, 2), {centred({page, area_.hi.y + 20}, kQuiet)}, kQuiet);
          });
     each((origin_.y - area_.hi.y + 14) / scale_, (origin_.y - area_.lo.y - 14) / scale_,
          [&](double y) {
            const double page = origin_.y - y * scale_;
            list_.crisp_line({area_.lo.x, page}, {area_.lo.x + 7, page}, {Role::cell_line_1, 1.8});
-           labels_.try_add(number_text(y, 2), {centred({area_.lo.x - 8, page}, kTick, 1)}, kTick,
-                           panel_);
+           try_write(number_text(y, 2), {centred({area_.lo.x - 8, page}, kQuiet, 1)}, kQuiet);
          });
   }
 
   void draw_shape() {
     const DrawList::Scope scope(list_, "difference/shape");
-    Outline core;
-    for (const Vec<2>& p : difference_.corners) core.push_back(to_page(p));
+    const Outline core = shape();
     if (difference_.radius > 0) {
       Outline all;
       for (const Vec<2>& p : core) {
@@ -171,10 +160,10 @@ class DifferenceView : PanelPicture {
     list_.marks.add(MarkKind::ruler);
     const Vec<2> side = Vec<2>(-way.y, way.x) / glm::length(way), middle = (at + origin_) / 2.0;
     const std::string text = short_number(glm::length(nearest));
-    labels_.try_add(text,
-                    {centred(middle + side * 36.0, kOwn), centred(middle - side * 36.0, kOwn),
-                     centred(middle + side * 62.0, kOwn), centred(middle - side * 62.0, kOwn)},
-                    kOwn, panel_);
+    try_write(text,
+              {centred(middle + side * 36.0, kOwn), centred(middle - side * 36.0, kOwn),
+               centred(middle + side * 62.0, kOwn), centred(middle - side * 62.0, kOwn)},
+              kOwn);
   }
 
   Outline shape() const {
@@ -188,11 +177,11 @@ class DifferenceView : PanelPicture {
     const Vec<2> out = at - middle_of(shape());
     const double length = glm::length(out);
     const Vec<2> away = length > 0 ? out / length : Vec<2>(0, -1), side{-away.y, away.x};
-    labels_.try_add(text,
-                    {centred(at + away * 25.0, kOwn), centred(at + (away + side) * 20.0, kOwn),
-                     centred(at + (away - side) * 20.0, kOwn), centred(at + side * 26.0, kOwn),
-                     centred(at - side * 26.0, kOwn), centred(at - away * 26.0, kOwn)},
-                    kOwn, panel_);
+    try_write(text,
+              {centred(at + away * 25.0, kOwn), centred(at + (away + side) * 20.0, kOwn),
+               centred(at + (away - side) * 20.0, kOwn), centred(at + side * 26.0, kOwn),
+               centred(at - side * 26.0, kOwn), centred(at - away * 26.0, kOwn)},
+              kOwn);
   }
 
   const frame::FrameDifference& difference_;
@@ -202,19 +191,10 @@ class DifferenceView : PanelPicture {
   Vec<2> origin_{0.0};
 };
 
-void draw_difference(const Frame& frame, const Staging& staging, const Box<2>& panel,
-                     DrawList& list, Labels& labels) {
-  const Vec<2> size = panel.size();
-  if (!frame.find<FrameDifference>() || frame.find<FrameDifference>()->corners.empty() ||
-      size.x < 160 || size.y < 160)
-    return;
-  DifferenceView({frame, staging, panel, list, labels}).draw();
-}
-
 }  // namespace
 
-// The Minkowski difference of two bodies round its origin, in the world's scale if it has room, and
-// what a search for their distance has found of it.
-PanelView difference_panel() { return {.name = "difference", .draw = draw_difference}; }
+PanelView difference_panel() {
+  return {.name = "difference", .draw = draw_as<DifferenceView>, .smallest = {160, 160}};
+}
 
 }  // namespace lantern::draw

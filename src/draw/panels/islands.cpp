@@ -1,5 +1,6 @@
 // The graph of islands: a node where each body is, an edge for what holds two of them together, and
-// one ground under all that hang together.
+// one ground under all that hang together. What never moves is drawn as it is: a dotted line to
+// where it is touched joins nothing.
 //
 //     _______ island 1     ___
 //    ( o - o )            | o |  island 2
@@ -9,16 +10,12 @@
 #include <map>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "draw/body_shapes.hpp"
-#include "draw/keys.hpp"
 #include "draw/panel.hpp"
-#include "draw/panels.hpp"
-#include "draw/pen.hpp"
 #include "draw/projection.hpp"
 #include "frame/parts/motion.hpp"
 #include "geometry/flat.hpp"
@@ -71,7 +68,10 @@ class IslandGraph : PanelPicture {
   void draw() {
     list_.crisp_rect(place_, Role::panel);
     const std::size_t first = list_.shapes.size();
-    draw_grounds();
+    // Thick strokes along the graph: first the coasts, then the grounds over all but their rims.
+    for (const bool coast : {true, false})
+      for (const FrameIsland& island : frame_.get<FrameIslands>().islands)
+        draw_ground(island, coast);
     draw_statics();
     for (const FrameEdge& edge : frame_.get<FrameIslands>().edges) draw_edge(edge);
     std::size_t nodes = 0;
@@ -101,13 +101,7 @@ class IslandGraph : PanelPicture {
     return std::clamp(0.6 * sorted[sorted.size() / 2] * scale, kLeastNodeRadius, kMostNodeRadius);
   }
 
-  // Thick strokes along the graph: first the coasts, then the grounds over all but their rims. Each
-  // piece is its body's or its edge's, so that it comes and goes with it.
-  void draw_grounds() {
-    for (const bool coast : {true, false})
-      for (const FrameIsland& island : frame_.get<FrameIslands>().islands)
-        draw_ground(island, coast);
-  }
+  // Each piece is its body's or its edge's, so that it comes and goes with it.
   void draw_ground(const FrameIsland& island, bool coast) {
     const char* const kind = coast ? "islands/coast" : "islands/ground";
     const double reach = radius_ + kShore + (coast ? kCoast : 0);
@@ -217,18 +211,10 @@ class IslandGraph : PanelPicture {
   std::map<BodyId, Vec<2>> places_;  // of nodes, on the page
 };
 
-void draw_islands(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
-                  Labels& labels) {
-  IslandGraph({frame, staging, panel, list, labels}).draw();
-}
-
 }  // namespace
 
-// Islands as a graph beside the world: a node where each body is that can be moved, an edge for
-// what holds two of them together, and one ground, with its number, under all that hang together.
-// What never moves is drawn as it is: a dotted line to where it is touched joins nothing.
 PanelView islands_panel() {
-  return {.name = "islands", .draw = draw_islands, .width = world_width};
+  return {.name = "islands", .draw = draw_as<IslandGraph>, .width = world_width};
 }
 
 }  // namespace lantern::draw

@@ -1,21 +1,25 @@
-// The pair ledger: a triangle of all pairs. Bodies stand on its edge, each over its column and at
-// the end of its row; where row and column meet, a mark says how far the pair came.
+// The pair ledger: a triangle of all pairs. Bodies stand on its edge in the scenario's order, each
+// over its column and at the end of its row; where row and column meet, a mark says how far the
+// pair came (frame/pair_state.hpp). Under it or in its free corner stands how many are in each
+// state; together they are all. Of many bodies a density takes the place of the cells.
 //
 //   @ red
 //   □ @ green           □ a candidate
 //   · ▨ @ blue          ▨ its boxes are apart
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "draw/body_shapes.hpp"
+#include "draw/marks.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
-#include "draw/world/ledger_marks.hpp"
-#include "frame/pair_state.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -23,7 +27,6 @@ namespace {
 using frame::PairState;
 using frame::PairStates;
 
-constexpr double kLedgerText = 24;
 constexpr double kLedgerLine = 34;     // from a line of the key to the next
 constexpr double kLedgerHeading = 40;  // height
 constexpr double kKeyMark = 24;        // side of a mark in the key
@@ -33,7 +36,8 @@ constexpr double kLeastNamed = 27;     // a row of this height has room for a na
 constexpr double kMostLedgerCell = 84;
 constexpr double kLeastLedgerCell = 5;
 
-const TextStyle kLedgerStyle{kLedgerText, Weight::regular, Role::ink};
+// With more bodies than this pairs have no cells of their own.
+constexpr std::size_t kMostLedgerBodies = 40;
 
 // Without a structure nobody has looked at a pair; once boxes are compared, a candidate's overlap.
 std::string key_text(PairState state, std::uint64_t n, const Frame& frame) {
@@ -71,6 +75,56 @@ struct LedgerPlan {
   bool corner = false;  // the key stands in the free corner, else below
 };
 
+// A square of bins, its lower left half.
+class Density {
+ public:
+  static constexpr std::size_t kBins = 32;
+
+  explicit Density(const Frame& frame) {
+    std::size_t n = 0;
+    for (const FrameBody& body : frame.bodies) {
+      const std::size_t bin = n++ * kBins / frame.bodies.size();
+      bin_of_[body.id] = bin;
+      ++bodies_[bin];
+      statics_[bin] += body.is_static;
+    }
+    for (const FramePair& p : frame.pairs) add(p.pair);
+  }
+
+  // Of the pairs that a broad phase could hand on, how many it did; none: there are no such pairs.
+  double share(std::size_t row, std::size_t column) const {
+    const double all = pairs_in(bodies_, row, column) - pairs_in(statics_, row, column);
+    return all > 0 ? handed_on_[row * kBins + column] / all : 0;
+  }
+
+ private:
+  using Numbers = std::array<double, kBins>;
+
+  static double pairs_in(const Numbers& of, std::size_t row, std::size_t column) {
+    return row == column ? of[row] * (of[row] - 1) / 2 : of[row] * of[column];
+  }
+  void add(const Pair& pair) {
+    const auto a = bin_of_.find(pair.a), b = bin_of_.find(pair.b);
+    if (a == bin_of_.end() || b == bin_of_.end()) return;
+    const auto [column, row] = std::minmax(a->second, b->second);
+    ++handed_on_[row * kBins + column];
+  }
+
+  std::unordered_map<BodyId, std::size_t> bin_of_;
+  Numbers bodies_{}, statics_{};
+  std::array<double, kBins * kBins> handed_on_{};
+};
+
+// The side of the square goes with the logarithm: trees hand on a few pairs in a hundred or in ten
+// thousand.
+void draw_share(const Vec<2>& center, double share, double cell, DrawList& list) {
+  constexpr double kDecades = 3.5;
+  if (!(share > 0)) return;
+  const double size = 1 + std::log10(std::min(1.0, share)) / kDecades;
+  const double half = 0.46 * cell * std::max(0.12, size);
+  list.rect(Box<2>::around(center, Vec<2>(half)), Role::pair);
+}
+
 class Ledger : PanelPicture {
  public:
   explicit Ledger(const PanelPicture& on) : PanelPicture(on), pairs_(frame_) {
@@ -82,13 +136,16 @@ class Ledger : PanelPicture {
     for (const PairState state : states_)
       key_width_ = std::max(
           key_width_,
-          kKeyMark + 10 + text_width(key_text(state, pairs_.all() + 1, frame_), kLedgerStyle) + 2);
+          kKeyMark + 10 + text_width(key_text(state, pairs_.all() + 1, frame_), kPlain) + 2);
   }
 
   void draw() {
-    draw_heading();
+    heading(number_of(static_cast<double>(pairs_.all()), "pair"));
     if (rows_ < 2) return;
-    if (rows_ > kMostLedgerBodies) return draw_density();
+    if (rows_ > kMostLedgerBodies) {
+      draw_density({area().lo, panel_.hi - Vec<2>(0, key_height(false) + 14)});
+      return draw_key(false);
+    }
     const LedgerPlan plan = best_plan();
     if (plan.cell == 0) return;
     draw_cells(plan);
@@ -120,7 +177,7 @@ class Ledger : PanelPicture {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const auto row = static_cast<double>(row_of(i));
       double right = (row + 1) * plan.cell;
-      if (plan.named) right += kLedgerNameGap + text_width(bodies_[i]->name, kLedgerStyle);
+      if (plan.named) right += kLedgerNameGap + text_width(bodies_[i]->name, kPlain);
       const bool beside_key = plan.corner && row * plan.cell < key_bottom;
       if (right + 2 > room.x - (beside_key ? key_width_ + kKeyGap : 0)) return false;
     }
@@ -170,10 +227,9 @@ class Ledger : PanelPicture {
       const FrameBody& body = *bodies_[i];
       const DrawList::Scope scope(list_, fmt::format("ledger/body/{}", body.id));
       const Box<2> box = cell_at(row_of(i), row_of(i), plan.cell);
-      draw_character(body, icon_box(body, shrunk(box, 0.04 * plan.cell)), false, list_);
+      draw_icon(&body, shrunk(box, 0.04 * plan.cell), list_);
       if (!plan.named) continue;
-      labels_.add(body.name, centred({box.hi.x + kLedgerNameGap, box.center().y}, kLedgerStyle, 0),
-                  kLedgerStyle, panel_);
+      write(body.name, centred({box.hi.x + kLedgerNameGap, box.center().y}, kPlain, 0));
     }
   }
 
@@ -190,29 +246,37 @@ class Ledger : PanelPicture {
       const DrawList::Scope scope(list_, fmt::format("ledger/key/{}", k));
       const Box<2> mark{at + Vec<2>(0, 4), at + Vec<2>(kKeyMark, 4 + kKeyMark)};
       draw_pair_mark(states_[k], false, shrunk(mark, 1), list_);
-      labels_.add(key_text(states_[k], n, frame_),
-                  centred({mark.hi.x + 10, mark.center().y}, kLedgerStyle, 0), kLedgerStyle,
-                  panel_);
+      write(key_text(states_[k], n, frame_), centred({mark.hi.x + 10, mark.center().y}, kPlain, 0));
     }
   }
 
-  void draw_heading() {
-    const TextStyle style{kLedgerText, Weight::semibold, Role::ink};
-    const std::uint64_t n = pairs_.all();
-    const std::string text =
-        fmt::format("{} pair{}", number_text(static_cast<double>(n)), n == 1 ? "" : "s");
-    labels_.add(shortened(text, panel_.size().x, style),
-                {{panel_.lo.x, panel_.lo.y + 0.8 * kLedgerText}, 0}, style, panel_);
-  }
-
-  void draw_density() {
-    draw_pair_density(frame_, density_place(), list_, labels_);
-    draw_key(false);
-  }
-  Box<2> density_place() const {
-    Box<2> place = area();
-    place.hi.y -= key_height(false) + 14;
-    return place;
+  // All pairs in bins of bodies that follow each other: a square on each, the larger the greater
+  // the share of its pairs that the broad phase handed on, and a scale beside it.
+  void draw_density(const Box<2>& place) {
+    const double cell = std::floor(std::min(place.size().x, place.size().y) / Density::kBins);
+    if (cell < 3 || frame_.bodies.empty()) return;
+    const Density density(frame_);
+    const auto center = [&](std::size_t row, std::size_t column) {
+      return place.lo +
+             (Vec<2>(static_cast<double>(column), static_cast<double>(row)) + 0.5) * cell;
+    };
+    const double side = cell * Density::kBins;
+    list_.polygon({place.lo, place.lo + Vec<2>(side, side), place.lo + Vec<2>(0, side)},
+                  Role::panel, {Role::rule, 1.4});
+    for (std::size_t row = 0; row < Density::kBins; ++row)
+      for (std::size_t column = 0; column <= row; ++column)
+        draw_share(center(row, column), density.share(row, column), cell, list_);
+    // In the free corner, right of the edge that goes down beside it.
+    constexpr double kScales[] = {1.0, 0.1, 0.01, 0.001}, kLine = 34, kWidth = 130;
+    const double x = place.lo.x + kLine * 5 + 24;
+    if (x + kWidth > place.hi.x) return;
+    double y = place.lo.y + 24;
+    labels_.try_add("tested", {{{x, y}, 0}}, kPlain, place);
+    for (const double share : kScales) {
+      y += kLine;
+      draw_share({x + 12, y - 8}, share, 24, list_);
+      labels_.try_add(fmt::format("{:g} %", 100 * share), {{{x + 36, y}, 0}}, kPlain, place);
+    }
   }
 
   PairStates pairs_;
@@ -222,19 +286,52 @@ class Ledger : PanelPicture {
   double key_width_ = 0;
 };
 
-void draw_ledger(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
-                 Labels& labels) {
-  const Box<2> place = shrunk(panel, 3);
-  if (place.size().x < 200 || place.size().y < 120) return;
-  Ledger({frame, staging, place, list, labels}).draw();
+// Three lines that lean right, on a grid of the cell's own.
+void hatch_cell(const Box<2>& cell, const Stroke& stroke, DrawList& list) {
+  const Vec<2> size = cell.size();
+  for (const double share : {0.55, 1.0, 1.45}) {
+    const double sum = share * size.x;  // where x and the height above the lower edge add up to it
+    const double a = std::max(0.0, sum - size.x), b = std::min(size.x, sum);
+    list.line({cell.lo.x + a, cell.lo.y + sum - a}, {cell.lo.x + b, cell.lo.y + sum - b}, stroke);
+  }
 }
 
 }  // namespace
 
-// The pair ledger: a triangle with a cell for each pair of bodies, marked by how far the pair came
-// from all pairs to contacts (frame/pair_state.hpp), and under it or in its free corner how many
-// are in each state; together they are all. Bodies stand on the triangle's edge, in the scenario's
-// order. Of many bodies a density takes the place of the cells.
-PanelView ledger_panel() { return {.name = "ledger", .draw = draw_ledger, .weight = 1.1}; }
+PanelView ledger_panel() {
+  return {
+      .name = "ledger", .draw = draw_as<Ledger>, .weight = 1.1, .inset = 3, .smallest = {200, 120}};
+}
+
+void draw_pair_mark(PairState state, bool is_new, const Box<2>& cell, DrawList& list) {
+  const double size = cell.size().x, width = std::clamp(0.07 * size, 0.9, 3.2);
+  const Stroke strong{Role::pair, width}, weak{Role::rejected_pair, 0.8 * width};
+  const Role ground = is_new ? Role::lit_fill : Role::panel;
+  switch (state) {
+    case PairState::untestable:
+      return list.disc(cell.center(), std::max(0.8, 0.05 * size), Role::cell_line_3);
+    case PairState::ruled_out:
+      return list.rect(cell, Role::free_space, {Role::rule, std::min(width, 1.4)}, 0.06 * size);
+    case PairState::candidate:
+      list.rect(cell, ground, strong, 0.06 * size);
+      break;
+    case PairState::boxes_apart:
+      list.rect(cell, ground, weak, 0.06 * size);
+      hatch_cell(shrunk(cell, width / 2), weak, list);
+      break;
+    case PairState::shapes_apart: {
+      list.rect(cell, ground, strong, 0.06 * size);
+      const Box<2> inner = shrunk(cell, 0.2 * size);
+      list.line(inner.lo, inner.hi, strong);
+      list.line({inner.lo.x, inner.hi.y}, {inner.hi.x, inner.lo.y}, strong);
+      break;
+    }
+    case PairState::contact:
+      list.rect(cell, Role::contact, {Role::contact, width}, 0.06 * size);
+      break;
+  }
+  if (is_new)
+    list.rect(shrunk(cell, -0.6 * width), Role::none, {Role::lit, 1.2 * width}, 0.1 * size);
+}
 
 }  // namespace lantern::draw

@@ -1,4 +1,5 @@
 // The visibility matrix: a row for each sector, and in it a square for each sector that it may see.
+// The row that is asked for is lit.
 //
 //         1  2  3
 //      1  ■  ■  □      ■ seen    □ hidden    · not known yet
@@ -9,19 +10,16 @@
 
 #include <fmt/format.h>
 
-#include "draw/font.hpp"
 #include "draw/panel.hpp"
 #include "frame/parts/level.hpp"
 
 namespace lantern::draw {
 namespace {
 
-constexpr double kMatrixText = 24;
 constexpr double kMatrixHeading = 40, kMatrixEdge = 38;  // heights of the heading and of numbers
 constexpr double kMatrixKey = 40;
 constexpr double kMostMatrixCell = 44, kLeastMatrixCell = 2;
 constexpr double kLeastNumbered = 27;  // a square of this size has room for a number beside it
-const TextStyle kMatrixStyle{kMatrixText, Weight::regular, Role::quiet_ink};
 
 class Matrix : PanelPicture {
  public:
@@ -37,12 +35,23 @@ class Matrix : PanelPicture {
   void draw() {
     if (matrix_.rows.empty() || cell_ < kLeastMatrixCell) return;
     for (std::size_t row = 0; row < matrix_.rows.size(); ++row)
-      for (std::size_t column = 0; column < matrix_.rows.size(); ++column) draw_square(row, column);
-    if (matrix_.lit != kNone) outline_row();
+      for (std::size_t column = 0; column < matrix_.rows.size(); ++column) {
+        const DrawList::Scope scope(list_, fmt::format("matrix/{}-{}", row, column));
+        draw_sample(matrix_.rows[row][column], row == matrix_.lit, square(row, column));
+      }
+    if (matrix_.lit != kNone) {
+      const DrawList::Scope scope(list_, "matrix/lit");
+      const Box<2> row{square(matrix_.lit, 0).lo, square(matrix_.lit, matrix_.rows.size() - 1).hi};
+      list_.rect(shrunk(row, -4), Role::none, {Role::lit, 3.2}, 4);
+    }
     for (std::size_t i = 0; i < matrix_.rows.size(); ++i) number(i);
-    draw_heading();
+    write(shortened("Who sees whom?", panel_.size().x, kStrong), {{corner_.x, panel_.lo.y + 26}, 0},
+          kStrong);
     draw_key();
-    depict();
+    // What can be counted on it.
+    list_.referents.insert({"sectors", "sector_pairs"});
+    if (frame_.count("visible_pairs")) list_.referents.emplace("visible_pairs");
+    if (matrix_.lit != kNone) list_.referents.insert({"sectors_seen", "sector"});
   }
 
  private:
@@ -60,36 +69,16 @@ class Matrix : PanelPicture {
     list_.rect(box, Role::free_space, {Role::rule, 1.2}, radius);
   }
 
-  void draw_square(std::size_t row, std::size_t column) {
-    const DrawList::Scope scope(list_, fmt::format("matrix/{}-{}", row, column));
-    draw_sample(matrix_.rows[row][column], row == matrix_.lit, square(row, column));
-  }
-
-  void outline_row() {
-    const DrawList::Scope scope(list_, "matrix/lit");
-    const std::size_t last = matrix_.rows.size() - 1;
-    const Box<2> row{square(matrix_.lit, 0).lo, square(matrix_.lit, last).hi};
-    list_.rect(shrunk(row, -4), Role::none, {Role::lit, 3.2}, 4);
-  }
-
   // A sector's number before its row and over its column.
   void number(std::size_t i) {
     const bool lit = i == matrix_.lit;
     if (cell_ < kLeastNumbered && !lit && i % 5 != 4) return;
-    TextStyle style = kMatrixStyle;
-    if (lit) style = {kMatrixText, Weight::semibold, Role::lit_ink};
+    TextStyle style = kQuiet;
+    if (lit) style = {kLabel, Weight::semibold, Role::lit_ink};
     const std::string text = fmt::format("{}", i + 1);
     const DrawList::Scope scope(list_, fmt::format("matrix/number/{}", i));
-    labels_.try_add(text, {centred({corner_.x - 12, square(i, 0).center().y}, style, 1)}, style,
-                    panel_);
-    const TextStyle over = kMatrixStyle;
-    labels_.try_add(text, {centred({square(0, i).center().x, corner_.y - 20}, over)}, over, panel_);
-  }
-
-  void draw_heading() {
-    const TextStyle style{kMatrixText, Weight::semibold, Role::ink};
-    labels_.add(shortened("Who sees whom?", panel_.size().x, style),
-                {{corner_.x, panel_.lo.y + 26}, 0}, style, panel_);
+    try_write(text, {centred({corner_.x - 12, square(i, 0).center().y}, style, 1)}, style);
+    try_write(text, {centred({square(0, i).center().x, corner_.y - 20}, kQuiet)}, kQuiet);
   }
 
   void draw_key() {
@@ -98,19 +87,12 @@ class Matrix : PanelPicture {
     for (const auto& [letter, words] :
          {std::pair{'1', "sees"}, std::pair{'0', "cannot see"}, std::pair{'.', "not known"}}) {
       const DrawList::Scope scope(list_, fmt::format("matrix/key/{}", words));
-      const double width = 24 + 10 + text_width(words, kMatrixStyle);
+      const double width = 24 + 10 + text_width(words, kQuiet);
       if (x + width > panel_.hi.x) return;
       draw_sample(letter, false, Box<2>::around({x + 12, y}, Vec<2>(11)));
-      labels_.add(words, centred({x + 34, y}, kMatrixStyle, 0), kMatrixStyle, panel_);
+      write(words, centred({x + 34, y}, kQuiet, 0), kQuiet);
       x += width + 26;
     }
-  }
-
-  // What can be counted on it.
-  void depict() const {
-    list_.referents.insert({"sectors", "sector_pairs"});
-    if (frame_.count("visible_pairs")) list_.referents.emplace("visible_pairs");
-    if (matrix_.lit != kNone) list_.referents.insert({"sectors_seen", "sector"});
   }
 
   const FrameMatrix& matrix_;
@@ -118,18 +100,10 @@ class Matrix : PanelPicture {
   Vec<2> corner_{0.0};  // of the first square
 };
 
-void draw_matrix(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
-                 Labels& labels) {
-  const Box<2> place = shrunk(panel, 3);
-  if (place.size().x < 160 || place.size().y < 160) return;
-  Matrix({frame, staging, place, list, labels}).draw();
-}
-
 }  // namespace
 
-// Who sees whom of a level's sectors: a square for each two of them, their numbers on the edges. A
-// full square is seen, an empty one is not, a dot is not known yet. The row that is asked for is
-// lit.
-PanelView matrix_panel() { return {.name = "matrix", .draw = draw_matrix}; }
+PanelView matrix_panel() {
+  return {.name = "matrix", .draw = draw_as<Matrix>, .inset = 3, .smallest = {160, 160}};
+}
 
 }  // namespace lantern::draw

@@ -7,11 +7,8 @@
 
 #include "base/printable.hpp"
 #include "draw/body_shapes.hpp"
-#include "draw/font.hpp"
-#include "draw/keys.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
-#include "draw/panels.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -23,8 +20,6 @@ constexpr double kNamedSlot = 46;  // from here on a body's name has room under 
 constexpr double kDrawnSlot = 18;  // from here on slots are drawn one by one
 constexpr double kSlots[] = {100, 84, 72, 62, 54, 46, 40, 34, 28, 24, 20, 16, 13, 10, 8, 6, 5};
 constexpr std::size_t kMostSlotShapes = 2600;  // that slots may take
-
-const TextStyle kIndex{kLeastLabel, Weight::regular, Role::quiet_ink};
 
 // How slots are laid out on a panel.
 struct Strip {
@@ -60,8 +55,8 @@ NameWidths name_widths(const Frame& frame) {
   std::map<std::string, std::string> meant;  // by brief names
   for (const FrameBody& body : frame.bodies) {
     const std::string brief = brief_name(body.name);
-    widest.full = std::max(widest.full, text_width(body.name, kIndex));
-    widest.brief = std::max(widest.brief, text_width(brief, kIndex));
+    widest.full = std::max(widest.full, text_width(body.name, kQuiet));
+    widest.brief = std::max(widest.brief, text_width(brief, kQuiet));
     if (meant.emplace(brief, body.name).first->second != body.name) widest.brief = 1e9;
   }
   if (widest.brief > widest.full) widest.brief = widest.full;  // brief ones would be mistaken
@@ -78,7 +73,7 @@ Strip strip_for(std::uint32_t slots, double slot, double width, const NameWidths
   s.height = s.named() ? slot + 16 : slot;
   s.pitch = s.height + (s.drawn() ? kBracket + kRowGap : 10);
   const std::string last = number_text(slots);
-  s.gutter = text_width(last, kIndex) + 12;
+  s.gutter = text_width(last, kQuiet) + 12;
   s.columns = static_cast<std::uint32_t>(std::max(1.0, (width - s.gutter) / slot));
   // Whole eights are easier to count.
   if (s.columns > 16 && s.columns < slots) s.columns -= s.columns % 8;
@@ -109,6 +104,8 @@ class MemoryView : PanelPicture {
   }
 
   void draw() {
+    list_.referents.insert({"slots", "entries", "allocations"});
+    if (is_in_pieces(frame_)) return draw_list_pieces(*this);
     std::vector<const FrameNode*> leaves;
     for (const FrameNode& node : frame_.nodes)
       if (node.leaf && node.first != kNone && node.room > 0 && node.first < shown_)
@@ -165,14 +162,13 @@ class MemoryView : PanelPicture {
       const Box<2> box = place(first);
       const double y = box.center().y + 6;
       if (y < last + 24) continue;
-      if (labels_.try_add(number_text(first), {{{origin_.x - 10, y}, 1}}, kIndex, panel_)) last = y;
+      if (try_write(number_text(first), {{{origin_.x - 10, y}, 1}}, kQuiet)) last = y;
     }
   }
 
   void draw_leaf(const FrameNode& leaf) {
-    const auto at = static_cast<std::uint32_t>(&leaf - frame_.nodes.data());
-    const DrawList::Scope scope(list_, node_key("memory/leaf", frame_.nodes, at),
-                                parent_key("memory/leaf", frame_.nodes, at));
+    const DrawList::Scope scope(list_, node_key("memory/leaf", frame_.nodes, leaf),
+                                parent_key("memory/leaf", frame_.nodes, leaf));
     const bool lit = leaf.mark == Mark::lit;
     const Stroke outline = lit ? Stroke{Role::lit, 2.8} : Stroke{Role::cell_line_1, 1.8};
     const auto used =
@@ -194,23 +190,22 @@ class MemoryView : PanelPicture {
   }
 
   void draw_slot(BodyId id, const Box<2>& box, Role ground) {
-    const auto found = bodies_.find(id);
+    const FrameBody* body = body_of(bodies_, id);
     const double inset = std::max(1.0, 0.13 * strip_.slot);
     if (list_.shapes.size() > kMostSlotShapes) return;
-    if (found == bodies_.end()) return list_.rect(shrunk(box, inset), Role::quiet_ink);
-    if (!strip_.drawn()) return list_.rect(shrunk(box, inset), body_role(found->second->color));
-    const FrameBody& body = *found->second;
+    if (!body) return list_.rect(shrunk(box, inset), Role::quiet_ink);
+    if (!strip_.drawn()) return list_.rect(shrunk(box, inset), body_role(body->color));
     Box<2> chip = shrunk(box, inset);
     if (strip_.named()) {
       chip = Box<2>::around({box.center().x, box.lo.y + 0.5 * (box.size().y - 20)},
                             Vec<2>(std::min(30.0, 0.33 * strip_.slot)));
-      TextStyle style = kIndex;
+      TextStyle style = kQuiet;
       style.role = ground == Role::lit_fill ? Role::ink : Role::quiet_ink;
       const bool full = strip_.names == Strip::Names::full;
-      labels_.try_add(full ? body.name : brief_name(body.name),
-                      {{{box.center().x, box.hi.y - 7}, 0.5}}, style, panel_);
+      try_write(full ? body->name : brief_name(body->name), {{{box.center().x, box.hi.y - 7}, 0.5}},
+                style);
     }
-    draw_character(body, chip, false, list_);
+    draw_character(*body, chip, false, list_);
   }
 
   void draw_bracket(const FrameNode& leaf, const Box<2>& run, const Stroke& outline) {
@@ -221,8 +216,7 @@ class MemoryView : PanelPicture {
     for (const Vec<2>& end : {from, to}) list_.crisp_line(end - Vec<2>(0, 4), end, stroke);
     TextStyle style{kLeastLabel, Weight::semibold, Role::quiet_ink};
     if (leaf.mark == Mark::lit) style.role = Role::lit_ink;
-    const std::size_t dot = leaf.label.rfind('.');
-    const std::string brief = dot == std::string::npos ? "" : "…" + leaf.label.substr(dot + 1);
+    const std::string brief = short_label(leaf.label);
     // All that a leaf stores of its contents: where they begin, and how many they are.
     const std::string numbers = fmt::format("first {}, count {}", leaf.first, leaf.bodies.size());
     const std::string pair = fmt::format("{}: {}, {}", leaf.label, leaf.first, leaf.bodies.size());
@@ -230,7 +224,7 @@ class MemoryView : PanelPicture {
     for (const std::string& text :
          {begins ? leaf.label + ": " + numbers : "", begins ? pair : "", leaf.label, brief}) {
       if (text.empty() || text_width(text, style) > run.size().x - 2) continue;
-      if (labels_.try_add(text, {{{run.center().x, y + 19}, 0.5}}, style, panel_)) return;
+      if (try_write(text, {{{run.center().x, y + 19}, 0.5}}, style)) return;
     }
   }
 
@@ -240,17 +234,15 @@ class MemoryView : PanelPicture {
       if (node.leaf && node.first != kNone && !node.of_static)
         used += static_cast<std::int64_t>(node.bodies.size());
     const auto slots = std::int64_t{frame_.get<FrameStructure>().array_size};
-    std::string text = fmt::format("{} slot{}, {} in use", number_text(double(slots)),
-                                   slots == 1 ? "" : "s", number_text(double(used)));
+    std::string text =
+        number_of(double(slots), "slot") + ", " + number_text(double(used)) + " in use";
     if (const auto calls = frame_.count("allocations"))
-      text += fmt::format(", {} allocation{}", number_text(double(*calls)), *calls == 1 ? "" : "s");
+      text += ", " + number_of(double(*calls), "allocation");
     if (shown_ < frame_.get<FrameStructure>().array_size)
       text += fmt::format(" — the first {} are drawn", number_text(double(shown_)));
     else if (leaves_left_out)
       text += " — not all leaves are drawn";
-    const TextStyle style{kLabel, Weight::semibold, Role::ink};
-    labels_.add(shortened(text, panel_.size().x, style),
-                {{panel_.lo.x, panel_.lo.y + 0.8 * style.size}, 0}, style, panel_);
+    heading(text);
   }
 
   Strip strip_;
@@ -259,30 +251,19 @@ class MemoryView : PanelPicture {
   BodiesById bodies_;
 };
 
-void draw_memory(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
-                 Labels& labels) {
-  const Box<2> place = shrunk(panel, 3);
-  if (place.size().x < 60 || place.size().y < kMemoryHeading + 12) return;
-  list.referents.insert({"slots", "entries", "allocations"});
-  if (is_in_pieces(frame)) return draw_list_pieces(frame, place, list, labels);
-  MemoryView({frame, staging, place, list, labels}).draw();
-}
-
-double memory_height(const Frame& frame, double width) {
-  constexpr double kMostRows = 3;
-  constexpr double kTwoRows = 230;  // of lists
-  if (is_in_pieces(frame)) return kTwoRows;
-  const NameWidths widest = name_widths(frame);
-  Strip s;
-  for (const double slot : {62.0, 54.0, 46.0, 40.0, 34.0, 28.0}) {
-    s = strip_for(frame.get<FrameStructure>().array_size, slot, width - 6, widest);
-    if (s.rows <= kMostRows - (s.named() ? 1 : 0)) break;
-  }
-  return kMemoryHeading + 8 + std::min<double>(s.rows, kMostRows) * s.pitch;
-}
-
 double memory_strip(const Frame& frame, const Vec<2>& area) {
-  return std::clamp(memory_height(frame, area.x), 0.2 * area.y, 0.46 * area.y);
+  constexpr double kMostRows = 3;
+  double height = 230;  // for two rows of lists
+  if (!is_in_pieces(frame)) {
+    const NameWidths widest = name_widths(frame);
+    Strip s;
+    for (const double slot : {62.0, 54.0, 46.0, 40.0, 34.0, 28.0}) {
+      s = strip_for(frame.get<FrameStructure>().array_size, slot, area.x - 6, widest);
+      if (s.rows <= kMostRows - (s.named() ? 1 : 0)) break;
+    }
+    height = kMemoryHeading + 8 + std::min<double>(s.rows, kMostRows) * s.pitch;
+  }
+  return std::clamp(height, 0.2 * area.y, 0.46 * area.y);
 }
 
 }  // namespace
@@ -292,7 +273,12 @@ double memory_strip(const Frame& frame, const Vec<2>& area) {
 // are quiet. Of an array too long for the panel as many slots are drawn as have room, and the
 // heading says so. It wants this height at a width.
 PanelView memory_panel() {
-  return {.name = "memory", .draw = draw_memory, .strip = memory_strip, .weight = 0.6};
+  return {.name = "memory",
+          .draw = draw_as<MemoryView>,
+          .strip = memory_strip,
+          .weight = 0.6,
+          .inset = 3,
+          .smallest = {60, kMemoryHeading + 12}};
 }
 
 }  // namespace lantern::draw

@@ -12,7 +12,6 @@
 
 #include <fmt/format.h>
 
-#include "draw/font.hpp"
 #include "draw/panel.hpp"
 #include "draw/texture_picture.hpp"
 
@@ -26,7 +25,6 @@ constexpr double kBindWidth = 6;  // of the mark
 constexpr double kMostSwatch = 44;
 constexpr double kLeastSwatch = 3;
 
-const TextStyle kWayName{kLabel, Weight::regular, Role::ink};
 const TextStyle kWayNumber{34, Weight::semibold, Role::ink};
 
 std::string name_of(const FrameWay& way) {
@@ -54,6 +52,8 @@ class ScreenView : PanelPicture {
   }
 
   void draw() {
+    if (screen_.elements.empty()) return;
+    list_.referents.insert({"bindings", "draws"});
     list_.crisp_rect(image_, Role::free_space);
     for (std::size_t i = 0; i < screen_.elements.size(); ++i)
       if (!screen_.elements[i].drawn) outline(i);
@@ -112,15 +112,14 @@ class ScreenView : PanelPicture {
     const double top = ways_.lo.y + row * double(index);
     const double baseline = top + 27;
     const std::string noun = way.bindings == 1 ? "binding" : "bindings";
-    const double words = text_width("bindings", kWayName);
-    const auto digits = static_cast<std::int64_t>(std::to_string(screen_.elements.size()).size());
-    const double number = Labels::number_width(digits, kWayNumber);
+    const double words = text_width("bindings", kPlain);
+    const double number = Labels::width_of(screen_.elements.size(), kWayNumber);
     const double right = ways_.hi.x - words - 8;
     const double key = right - number - kBindWidth - 12;
     if (key < ways_.lo.x) return;
-    const std::string name = shortened(name_of(way), key - 12 - ways_.lo.x, kWayName);
-    if (!name.empty()) labels_.add(name, {{ways_.lo.x, baseline}, 0}, kWayName, panel_);
-    labels_.add(noun, {{ways_.hi.x - words, baseline}, 0}, kWayName, panel_);
+    const std::string name = shortened(name_of(way), key - 12 - ways_.lo.x, kPlain);
+    if (!name.empty()) write(name, {{ways_.lo.x, baseline}, 0});
+    write(noun, {{ways_.hi.x - words, baseline}, 0});
     labels_.add_number(static_cast<std::int64_t>(way.bindings), {right, baseline}, kWayNumber,
                        panel_);
     list_.rect({{key, top + 2}, {key + kBindWidth, top + 30}}, Role::ink);
@@ -153,13 +152,6 @@ class ScreenView : PanelPicture {
   double scale_ = 1;  // page units a pixel
 };
 
-void draw_screen(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
-                 Labels& labels) {
-  if (frame.get<FrameScreen>().elements.empty()) return;
-  ScreenView({frame, staging, panel, list, labels}).draw();
-  list.referents.insert({"bindings", "draws"});
-}
-
 double screen_width(const Frame& frame, double height) {
   const FrameScreen& screen = frame.get<FrameScreen>();
   const double room = std::max(height - ways_height(screen), 0.45 * height);
@@ -168,9 +160,8 @@ double screen_width(const Frame& frame, double height) {
 
 }  // namespace
 
-// A screen as far as it is drawn, and below it a row for each way in which it was drawn: the draws
-// in order, with a mark before each that another image had to be bound for. It wants this width at
-// a height.
-PanelView screen_panel() { return {.name = "screen", .draw = draw_screen, .width = screen_width}; }
+PanelView screen_panel() {
+  return {.name = "screen", .draw = draw_as<ScreenView>, .width = screen_width};
+}
 
 }  // namespace lantern::draw

@@ -1,4 +1,5 @@
-// A thin strip under what moves: one count over the time so far.
+// A thin strip under what moves: one count over the time so far. The ends of its axes are those of
+// the whole part where they are known, else powers of two.
 //
 //   12 pairs |- - - - - - - - - | 64
 //            |__|~|_o___________| 4 s
@@ -7,8 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "draw/count_words.hpp"
-#include "draw/font.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 #include "draw/pen.hpp"
@@ -17,13 +16,9 @@
 namespace lantern::draw {
 namespace {
 
-constexpr double kSparkText = 24;
-constexpr double kSparkEdge = 0.7 * kSparkText;  // half of a line of text
+constexpr double kSparkEdge = 0.7 * kLabel;  // half of a line of text
 constexpr double kSparkDot = 6;
 constexpr std::size_t kMostSparkPoints = 600;
-
-const TextStyle kSparkNow{kSparkText, Weight::semibold, Role::ink};
-const TextStyle kSparkQuiet{kSparkText, Weight::regular, Role::quiet_ink};
 
 // At least `value`: an end of an axis that seldom moves.
 double power_of_two_over(double value) {
@@ -48,11 +43,10 @@ std::vector<Vec<2>> outline_of(const std::vector<Vec<2>>& points) {
   return some;
 }
 
-void draw_sparkline(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
+void draw_sparkline(const Frame& frame, const Staging& staging, const Box<2>& place, DrawList& list,
                     Labels& labels) {
   const FrameTrace& trace = frame.get<FrameTrace>();
-  const Box<2> place = shrunk(panel, 3);
-  if (trace.points.empty() || place.size().y < 2 * kSparkText) return;
+  if (trace.points.empty()) return;
   double highest = 0;
   for (const Vec<2>& p : trace.points) highest = std::max(highest, p.y);
   const Vec<2> now = trace.points.back();
@@ -64,33 +58,32 @@ void draw_sparkline(const Frame& frame, const Staging& staging, const Box<2>& pa
 
   const std::string one = count_words(trace.name, true), many = count_words(trace.name, false);
   const auto digits = static_cast<std::int64_t>(number_text(most).size());
-  const double number = Labels::number_width(digits, kSparkNow);
+  const double number = Labels::number_width(digits, kStrong);
   const std::string top = number_text(most), end = number_text(seconds, 2) + " s";
-  const double after = std::max(text_width(top, kSparkQuiet), text_width(end, kSparkQuiet)) + 14;
-  const double words = std::max(text_width(one, kSparkQuiet), text_width(many, kSparkQuiet));
+  const double after = std::max(text_width(top, kQuiet), text_width(end, kQuiet)) + 14;
+  const double words = std::max(text_width(one, kQuiet), text_width(many, kQuiet));
   const Box<2> area{place.lo + Vec<2>(number + 8 + words + 18, kSparkEdge),
                     place.hi - Vec<2>(after, kSparkEdge)};
   if (area.size().x < 60) return;
 
-  const double middle = area.center().y + 0.36 * kSparkText;
-  labels.add_number(static_cast<std::int64_t>(now.y), {place.lo.x + number, middle}, kSparkNow,
+  const double middle = area.center().y + 0.36 * kLabel;
+  labels.add_number(static_cast<std::int64_t>(now.y), {place.lo.x + number, middle}, kStrong,
                     place);
-  labels.add(now.y == 1 ? one : many, {{place.lo.x + number + 8, middle}, 0}, kSparkQuiet, place);
+  labels.add(now.y == 1 ? one : many, {{place.lo.x + number + 8, middle}, 0}, kQuiet, place);
   list.crisp_line(area.lo, {area.hi.x, area.lo.y}, {Role::rule, 1.4, 5});
   list.crisp_line({area.lo.x, area.hi.y}, area.hi, {Role::cell_line_2, 1.8});
-  labels.add(top, centred({area.hi.x + 12, area.lo.y}, kSparkQuiet, 0), kSparkQuiet, place);
-  labels.add(end, centred({area.hi.x + 12, area.hi.y}, kSparkQuiet, 0), kSparkQuiet, place);
+  labels.add(top, centred({area.hi.x + 12, area.lo.y}, kQuiet, 0), kQuiet, place);
+  labels.add(end, centred({area.hi.x + 12, area.hi.y}, kQuiet, 0), kQuiet, place);
 
   const auto at = [&](const Vec<2>& p) {
     const Vec<2> share{seconds > 0 ? p.x / seconds : 0, p.y / most};
     return Vec<2>{area.lo.x + std::clamp(share.x, 0.0, 1.0) * area.size().x,
                   area.hi.y - std::clamp(share.y, 0.0, 1.0) * area.size().y};
   };
-  const std::vector<Vec<2>> points = outline_of(trace.points);
   // A count holds until it changes.
   Pen pen(list, place);
   std::vector<Vec<2>> stairs;
-  for (const Vec<2>& p : points) {
+  for (const Vec<2>& p : outline_of(trace.points)) {
     const std::size_t n = stairs.size();
     if (n > 1 && stairs[n - 1].y == stairs[n - 2].y) stairs.pop_back();
     if (n > 0 && stairs.back().y != at(p).y) stairs.push_back({at(p).x, stairs.back().y});
@@ -103,13 +96,13 @@ void draw_sparkline(const Frame& frame, const Staging& staging, const Box<2>& pa
 
 }  // namespace
 
-// One count over the time so far. The ends of its axes are those of the whole part where they are
-// known, else powers of two.
 PanelView sparkline_panel() {
   return {.name = "sparkline",
           .draw = draw_sparkline,
           .strip = [](const Frame&, const Vec<2>&) { return 84.0; },
-          .weight = 0.28};
+          .weight = 0.28,
+          .inset = 3,
+          .smallest = {-1e300, 2 * kLabel}};
 }
 
 }  // namespace lantern::draw

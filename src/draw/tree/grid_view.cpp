@@ -6,15 +6,13 @@
 #include <cmath>
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "draw/body_shapes.hpp"
-#include "draw/font.hpp"
 #include "draw/number_text.hpp"
-#include "draw/panels.hpp"
+#include "draw/panel.hpp"
 #include "spatial/structure.hpp"
 
 namespace lantern::draw {
@@ -25,36 +23,29 @@ constexpr double kMostSlot = 260, kLeastShownSlot = 5;  // widths
 constexpr double kLeastChip = 15, kMostChip = 40;       // of a body in a slot
 constexpr double kLeastCounted = 30;                    // width of a slot that has a number in it
 
-const TextStyle kGridText{kLabel, Weight::regular, Role::quiet_ink};
-const TextStyle kGridCount{kLabel, Weight::semibold, Role::ink};
-
 // The cells in a slot of the array.
 using CellsOfSlot = std::map<std::uint32_t, std::vector<const FrameNode*>>;
 
-class GridView {
+class GridView : PanelPicture {
  public:
-  GridView(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
-      : frame_(frame),
-        structure_(frame.get<FrameStructure>()),
-        panel_(panel),
-        list_(list),
-        labels_(labels),
-        bodies_(by_id(frame.bodies)) {
+  explicit GridView(const PanelPicture& on)
+      : PanelPicture(on), structure_(frame_.get<FrameStructure>()), bodies_(by_id(frame_.bodies)) {
     levels_.resize(structure_.grid_levels.size());
-    std::vector<std::size_t> level(frame.nodes.size());
-    for (std::size_t i = 1; i < frame.nodes.size(); ++i) {
-      const FrameNode& node = frame.nodes[i];
+    std::vector<std::size_t> level(frame_.nodes.size());
+    for (std::size_t i = 1; i < frame_.nodes.size(); ++i) {
+      const FrameNode& node = frame_.nodes[i];
       level[i] = node.depth == 1 && levels_.size() > 1 ? node.slot : level[node.parent];
       if (!node.leaf) continue;
       if (node.slot == kGridLarge)
         large_ = &node;
       else
-        levels_[level[i]][structure_.hashed ? frame.nodes[node.parent].slot : node.slot].push_back(
+        levels_[level[i]][structure_.hashed ? frame_.nodes[node.parent].slot : node.slot].push_back(
             &node);
     }
   }
 
   void draw() {
+    if (panel_.size().x < 120 || panel_.size().y < 120) return;
     if (large_) draw_large();
     double rows = 0;
     for (const GridExtent& extent : structure_.grid_levels)
@@ -80,11 +71,9 @@ class GridView {
   // Where it ends.
   double draw_level(std::size_t level, const Box<2>& place) {
     const GridExtent& extent = structure_.grid_levels[level];
-    const TextStyle style{kLabel, Weight::semibold, Role::ink};
-    labels_.add(shortened(heading_of(extent), place.size().x, style),
-                {{place.lo.x, place.lo.y + 0.8 * style.size}, 0}, style, panel_);
-    const auto digits = std::to_string(extent.columns * extent.rows).size();
-    const double gutter = Labels::number_width(static_cast<std::int64_t>(digits), kGridText) + 12;
+    write(shortened(heading_of(extent), place.size().x, kStrong),
+          {{place.lo.x, place.lo.y + 0.8 * kLabel}, 0}, kStrong);
+    const double gutter = Labels::width_of(extent.columns * extent.rows, kQuiet) + 12;
     const Vec<2> origin{place.lo.x + gutter, place.lo.y + kGridHeading};
     double width =
         std::min(kMostSlot, (place.hi.x - origin.x) / static_cast<double>(extent.columns));
@@ -127,8 +116,8 @@ class GridView {
       const double y = origin.y + (static_cast<double>(row) + 0.5) * slot_.y;
       if (y < last + 30) continue;
       last = y;
-      labels_.add(number_text(static_cast<double>(row * extent.columns + 1)),
-                  centred({origin.x - 8, y}, kGridText, 1), kGridText, panel_);
+      write(number_text(static_cast<double>(row * extent.columns + 1)),
+            centred({origin.x - 8, y}, kQuiet, 1), kQuiet);
     }
   }
 
@@ -152,8 +141,7 @@ class GridView {
     if (!crowded)
       draw_bodies(cells, chip, box);
     else if (box.size().x >= kLeastCounted && box.size().y >= kLabel)
-      labels_.add(number_text(static_cast<double>(count)), centred(box.center(), kGridCount),
-                  kGridCount, panel_);
+      write(number_text(static_cast<double>(count)), centred(box.center(), kStrong), kStrong);
   }
 
   // The largest at which so many have room, in rows or in one.
@@ -188,8 +176,7 @@ class GridView {
       }
       for (const BodyId id : cells[i]->bodies) {
         const Box<2> icon = Box<2>::around(next(), Vec<2>(0.44 * chip));
-        if (const auto body = bodies_.find(id); body != bodies_.end())
-          draw_character(*body->second, icon, false, list_);
+        if (const FrameBody* body = body_of(bodies_, id)) draw_character(*body, icon, false, list_);
       }
     }
   }
@@ -198,22 +185,18 @@ class GridView {
   void draw_large() {
     const std::string words = "in too many cells, held apart:";
     const double y = panel_.hi.y - 0.5 * kGridHeading;
-    labels_.add(words, centred({panel_.lo.x, y}, kGridText, 0), kGridText, panel_);
-    double x = panel_.lo.x + text_width(words, kGridText) + 24;
+    write(words, centred({panel_.lo.x, y}, kQuiet, 0), kQuiet);
+    double x = panel_.lo.x + text_width(words, kQuiet) + 24;
     for (const BodyId id : large_->bodies) {
       if (x > panel_.hi.x - 16) break;
-      if (const auto body = bodies_.find(id); body != bodies_.end())
-        draw_character(*body->second, Box<2>::around({x, y}, Vec<2>(14)), false, list_);
+      if (const FrameBody* body = body_of(bodies_, id))
+        draw_character(*body, Box<2>::around({x, y}, Vec<2>(14)), false, list_);
       x += 34;
     }
     panel_.hi.y -= kGridHeading;
   }
 
-  const Frame& frame_;
   const FrameStructure& structure_;
-  Box<2> panel_;
-  DrawList& list_;
-  Labels& labels_;
   BodiesById bodies_;
   std::vector<CellsOfSlot> levels_;
   const FrameNode* large_ = nullptr;
@@ -222,9 +205,6 @@ class GridView {
 
 }  // namespace
 
-void draw_grid(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
-  if (panel.size().x < 120 || panel.size().y < 120) return;
-  GridView(frame, panel, list, labels).draw();
-}
+void draw_grid(const PanelPicture& on) { GridView(on).draw(); }
 
 }  // namespace lantern::draw

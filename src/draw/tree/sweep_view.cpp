@@ -12,17 +12,14 @@
 
 #include "draw/body_shapes.hpp"
 #include "draw/number_text.hpp"
-#include "draw/panels.hpp"
+#include "draw/panel.hpp"
 
 namespace lantern::draw {
 namespace {
 
-constexpr double kSweepText = 24;
 constexpr double kLeastBand = 24, kMostBand = 56;
 constexpr double kSweepHeading = 42, kSweepAxis = 44;  // heights
 constexpr std::size_t kMostSweepLinks = 400;
-
-const TextStyle kSweepStyle{kSweepText, Weight::regular, Role::quiet_ink};
 
 const Box<3>& swept_box(const FrameBody& body) {
   return body.stored_box ? *body.stored_box : body.box;
@@ -39,24 +36,20 @@ std::vector<const FrameBody*> swept(const Frame& frame) {
   return order;
 }
 
-class SweepView {
+class SweepView : PanelPicture {
  public:
-  SweepView(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels)
-      : frame_(frame),
-        panel_(panel),
-        list_(list),
-        labels_(labels),
-        axis_(frame.get<FrameStructure>().sweep_axis),
-        order_(swept(frame)),
+  explicit SweepView(const PanelPicture& on)
+      : PanelPicture(on),
+        axis_(frame_.get<FrameStructure>().sweep_axis),
+        order_(swept(frame_)),
         all_(order_.size()),
-        area_(panel.lo + Vec<2>(0, kSweepHeading), panel.hi - Vec<2>(16, kSweepAxis)) {
+        area_(panel_.lo + Vec<2>(0, kSweepHeading), panel_.hi - Vec<2>(16, kSweepAxis)) {
     const auto most = static_cast<std::size_t>(std::max(1.0, area_.size().y / kLeastBand));
     if (all_ > most) order_.resize(most);
     row_ = std::min(kMostBand,
                     area_.size().y / static_cast<double>(std::max<std::size_t>(1, order_.size())));
     area_.hi.y = area_.lo.y + row_ * static_cast<double>(order_.size());
-    const auto digits = static_cast<std::int64_t>(fmt::format("{}", order_.size()).size());
-    numbers_ = Labels::number_width(digits, kSweepStyle) + 14;
+    numbers_ = Labels::width_of(order_.size(), kQuiet) + 14;
     area_.lo.x += numbers_ + row_ + 10;
     std::size_t lit = 0;
     for (std::size_t i = 0; i < order_.size(); ++i) {
@@ -65,28 +58,27 @@ class SweepView {
       if (order_[i]->lit) at_ = i;
     }
     stands_ = lit == 1;
-    if (const auto at = frame.get<FrameStructure>().swept_to
-                            ? row_of_.find(*frame.get<FrameStructure>().swept_to)
-                            : row_of_.end();
-        at != row_of_.end()) {
+    const auto& swept_to = frame_.get<FrameStructure>().swept_to;
+    if (const auto at = swept_to ? row_of_.find(*swept_to) : row_of_.end(); at != row_of_.end()) {
       at_ = at->second;
       stands_ = sweeps_ = true;
     }
   }
 
   void draw() {
+    if (panel_.size().y < kSweepHeading + kSweepAxis + 2 * kLeastBand || panel_.size().x < 160)
+      return;
     if (order_.empty() || !(length() > 0)) return;
-    const TextStyle heading{kSweepText, Weight::semibold, Role::ink};
-    labels_.add(shortened(fmt::format("sorted along {}, then swept", "xyz"[axis_]), panel_.size().x,
-                          heading),
-                {{panel_.lo.x, panel_.lo.y + 0.8 * kSweepText}, 0}, heading, panel_);
+    heading(fmt::format("sorted along {}, then swept", "xyz"[axis_]));
     if (sweeps_)
       draw_reach();
     else if (stands_)
-      draw_open();
+      for (std::size_t i = 0; i <= at_; ++i)  // where the sweep stands
+        if (i == at_ || to(i) >= from(at_)) light(i);
     for (std::size_t i = 0; i < order_.size(); ++i) draw_row(i);
     draw_links();
-    if (stands_) draw_sweep_line();
+    if (stands_)
+      list_.crisp_line({from(at_), area_.lo.y - 6}, {from(at_), area_.hi.y + 8}, {Role::lit, 3});
     draw_axis();
   }
 
@@ -101,35 +93,26 @@ class SweepView {
   double y_of(std::size_t i) const { return area_.lo.y + (static_cast<double>(i) + 0.5) * row_; }
   double half() const { return std::min(0.26 * row_, 11.0); }
 
+  // Under the row of an interval that the sweep has open.
+  void light(std::size_t i) {
+    list_.rect({{panel_.lo.x, y_of(i) - row_ / 2 + 1}, {area_.hi.x + 8, y_of(i) + row_ / 2 - 1}},
+               i == at_ ? Role::lit_fill : Role::passed_fill, {}, 4);
+  }
   // From where the sweep stands to where its body ends; the rows of those that begin in between.
   void draw_reach() {
-    for (std::size_t i = at_; i < order_.size() && from(i) <= to(at_); ++i)
-      list_.rect({{panel_.lo.x, y_of(i) - row_ / 2 + 1}, {area_.hi.x + 8, y_of(i) + row_ / 2 - 1}},
-                 i == at_ ? Role::lit_fill : Role::passed_fill, {}, 4);
+    for (std::size_t i = at_; i < order_.size() && from(i) <= to(at_); ++i) light(i);
     list_.rect({{from(at_), area_.lo.y - 6}, {to(at_), area_.hi.y + 8}}, Role::lit_fill);
     list_.crisp_line({to(at_), area_.lo.y - 6}, {to(at_), area_.hi.y + 8}, {Role::lit, 2, 7});
-  }
-
-  // The rows of the intervals that are open where the sweep stands.
-  void draw_open() {
-    for (std::size_t i = 0; i <= at_; ++i)
-      if (i == at_ || to(i) >= from(at_))
-        list_.rect(
-            {{panel_.lo.x, y_of(i) - row_ / 2 + 1}, {area_.hi.x + 8, y_of(i) + row_ / 2 - 1}},
-            i == at_ ? Role::lit_fill : Role::passed_fill, {}, 4);
   }
 
   void draw_row(std::size_t i) {
     const FrameBody& body = *order_[i];
     const DrawList::Scope scope(list_, fmt::format("sweep/{}", body.id));
     const double y = y_of(i);
-    if (row_ >= kSweepText)
-      labels_.add(fmt::format("{}", i + 1),
-                  centred({panel_.lo.x + numbers_ - 10, y}, kSweepStyle, 1), kSweepStyle, panel_);
+    if (row_ >= kLabel)
+      write(fmt::format("{}", i + 1), centred({panel_.lo.x + numbers_ - 10, y}, kQuiet, 1), kQuiet);
     const double icon = std::min(0.42 * row_, 20.0);
-    draw_character(
-        body, icon_box(body, Box<2>::around({panel_.lo.x + numbers_ + row_ / 2, y}, Vec<2>(icon))),
-        false, list_);
+    draw_icon(&body, Box<2>::around({panel_.lo.x + numbers_ + row_ / 2, y}, Vec<2>(icon)), list_);
     list_.rect({{from(i), y - half()}, {std::max(to(i), from(i) + 3), y + half()}},
                body.dimmed ? Role::panel : body_role(body.color),
                {body.lit && stands_ ? Role::lit : Role::body_line, body.lit && stands_ ? 2.6 : 1.6},
@@ -152,32 +135,20 @@ class SweepView {
     }
   }
 
-  void draw_sweep_line() {
-    const double x = from(at_);
-    list_.crisp_line({x, area_.lo.y - 6}, {x, area_.hi.y + 8}, {Role::lit, 3});
-  }
-
   void draw_axis() {
-    const double y = area_.hi.y + 6, below = y + 0.78 * kSweepText + 8;
+    const double y = area_.hi.y + 6, below = y + 0.78 * kLabel + 8;
     list_.line({area_.lo.x, y}, {area_.hi.x, y}, {Role::ink, 2.2});
     list_.polygon({{area_.hi.x + 12, y}, {area_.hi.x, y - 6}, {area_.hi.x, y + 6}}, Role::ink);
     for (const double end : {area_.lo.x, area_.hi.x})
       list_.crisp_line({end, y}, {end, y + 7}, {Role::ink, 2.0});
-    labels_.try_add(number_text(frame_.bounds.lo[axis_], 2), {{{area_.lo.x, below}, 0}},
-                    kSweepStyle, panel_);
-    labels_.try_add(number_text(frame_.bounds.hi[axis_], 2), {{{area_.hi.x, below}, 1}},
-                    kSweepStyle, panel_);
-    labels_.try_add(std::string(1, "xyz"[axis_]), {{{area_.center().x, below}, 0.5}}, kSweepStyle,
-                    panel_);
+    try_write(number_text(frame_.bounds.lo[axis_], 2), {{{area_.lo.x, below}, 0}}, kQuiet);
+    try_write(number_text(frame_.bounds.hi[axis_], 2), {{{area_.hi.x, below}, 1}}, kQuiet);
+    try_write(std::string(1, "xyz"[axis_]), {{{area_.center().x, below}, 0.5}}, kQuiet);
     if (all_ > order_.size())
-      labels_.try_add(fmt::format("and {} more", all_ - order_.size()),
-                      {{{area_.lo.x + 0.27 * area_.size().x, below}, 0.5}}, kSweepStyle, panel_);
+      try_write(fmt::format("and {} more", all_ - order_.size()),
+                {{{area_.lo.x + 0.27 * area_.size().x, below}, 0.5}}, kQuiet);
   }
 
-  const Frame& frame_;
-  Box<2> panel_;
-  DrawList& list_;
-  Labels& labels_;
   int axis_;
   std::vector<const FrameBody*> order_;  // as many as have room
   std::size_t all_;
@@ -192,9 +163,6 @@ class SweepView {
 
 }  // namespace
 
-void draw_sweep(const Frame& frame, const Box<2>& panel, DrawList& list, Labels& labels) {
-  if (panel.size().y < kSweepHeading + kSweepAxis + 2 * kLeastBand || panel.size().x < 160) return;
-  SweepView(frame, panel, list, labels).draw();
-}
+void draw_sweep(const PanelPicture& on) { SweepView(on).draw(); }
 
 }  // namespace lantern::draw

@@ -12,6 +12,7 @@
 #include "base/hash.hpp"
 #include "frame/parts/asked.hpp"
 #include "frame/parts/atlas.hpp"
+#include "draw/body_shapes.hpp"
 
 namespace lantern::draw {
 
@@ -126,15 +127,8 @@ class TreeFold {
     }
   };
 
-  // In a large tree that is nearly all lit the marks tell nothing.
   void find_shown(const std::vector<BodyId>& hits) {
-    constexpr std::size_t kMany = 200;
-    std::size_t leaves = 0, lit = 0;
-    for (const FrameNode& node : nodes_) {
-      leaves += node.leaf;
-      lit += node.leaf && node.mark == Mark::lit;
-    }
-    if (nodes_.size() > kMany && 10 * lit > 7 * leaves) return;
+    if (is_nearly_all_lit(nodes_)) return;
     for (std::size_t i = 0; i < nodes_.size(); ++i) {
       const FrameNode& node = nodes_[i];
       const auto is_hit = [&](BodyId id) { return std::ranges::count(hits, id) > 0; };

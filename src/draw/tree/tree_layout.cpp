@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "draw/font.hpp"
-#include "draw/panels.hpp"
+#include "draw/panel.hpp"
 #include "draw/tree/tidy_tree.hpp"
 
 namespace lantern::draw {
@@ -324,37 +324,26 @@ TreeStage stage_tree(const UnionTree& tree, const std::vector<TreeOfFrame>& tree
 }
 
 TreeLayout lay_out_tree(const Frame& frame, const UnionTree& tree, const TreeStage& stage) {
-  TreeLayout layout;
-  if (frame.nodes.empty()) return layout;
+  if (frame.nodes.empty()) return {};
   const TreeFold fold(frame);
   const std::vector<std::string> ways = ways_of(frame.nodes);
   const Wanted wanted{frame.nodes, ways, tree, !frame.get<FrameTextures>().textures.empty()};
+  TreeLayout layout;
+  if (stage.whole) layout = stage.all;
   layout.branches = stage.whole ? fold.whole() : condensed(fold, wanted, stage);
   for (const Branch& branch : layout.branches) layout.ways.push_back(ways[branch.node]);
   if (!stage.whole) {
     place(wanted, stage, layout);
     return layout;
   }
-  layout.scale = stage.all.scale;
-  layout.words = stage.all.words;
-  layout.labels_between = stage.all.labels_between;
-  layout.room_between = stage.all.room_between;
-  layout.last_row = stage.all.last_row;
+  layout.boxes.clear();
+  layout.room.clear();
   for (const std::string& way : layout.ways) {
     const std::uint32_t i = tree.index.at(way);
     layout.boxes.push_back(stage.all.boxes[i]);
     layout.room.push_back(stage.all.room[i]);
   }
   return layout;
-}
-
-TreeLayout lay_out_tree(const Frame& frame, const Box<2>& panel) {
-  const Staging staging(frame);
-  if (frame.nodes.empty()) return {};
-  const UnionTree& tree = staging.trees()[0];
-  const bool atlas = !frame.get<FrameTextures>().textures.empty();
-  return lay_out_tree(
-      frame, tree, stage_tree(tree, {{frame.nodes, frame.get<FrameFinding>().hits}}, atlas, panel));
 }
 
 double tree_size_in(const Staging& staging, const Box<2>& panel) {

@@ -39,10 +39,6 @@ struct BranchText {
 BranchText text_of(const Branch& branch, const FrameNode& node, bool atlas, const TreeScale& scale,
                    const TreeWords& words);
 
-// The last step of the way down, "…3", for a label whose whole way has no room; empty if the way
-// has one step only.
-std::string short_label(const std::string& label);
-
 // A way of more than three steps: longer than anyone reads.
 bool is_long_way(const std::string& label);
 
@@ -87,9 +83,6 @@ TreeStage stage_tree(const UnionTree& tree, const std::vector<TreeOfFrame>& tree
 // One frame's tree: in its places of the union, or else condensed until it fits at the group's
 // scale, with the root in the middle.
 TreeLayout lay_out_tree(const Frame& frame, const UnionTree& tree, const TreeStage& stage);
-
-// Of a frame that stands alone.
-TreeLayout lay_out_tree(const Frame& frame, const Box<2>& panel);
 
 // How large a group's tree gets in a panel, as the side of a square of that area.
 double tree_size_in(const Staging& staging, const Box<2>& panel);

@@ -6,9 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "draw/font.hpp"
 #include "draw/panel.hpp"
-#include "draw/panels.hpp"
 #include "draw/tree/tree_layout.hpp"
 
 namespace lantern::draw {
@@ -52,23 +50,20 @@ std::vector<Fact> facts_of(const Frame& frame, const Staging& staging, const Box
 constexpr double kFactLine = 32;
 constexpr double kFactGap = 26;
 
-double number_width(std::int64_t number, const TextStyle& style) {
-  return Labels::number_width(static_cast<std::int64_t>(std::to_string(number).size()), style);
-}
-
 // Lays the facts out in lines and draws them when `labels` is given; gives the number of lines.
 // A count has room for two digits at least, so that the others do not move while a small tree
 // grows.
 int lay_out_facts(const std::vector<Fact>& facts, const Box<2>& panel, double top, Labels* labels) {
-  const TextStyle style{kLabel, Weight::regular, Role::quiet_ink};
+  const TextStyle& style = kQuiet;
   constexpr double kSpace = 6;
   double x = panel.lo.x;
   int line = 0;
   for (const Fact& fact : facts) {
     double number = 0, room = 0;  // width of this one, and of the widest
     if (fact.number) {
-      number = number_width(*fact.number, style) + kSpace;
-      room = number_width(std::max({*fact.number, fact.most, std::int64_t{10}}), style) + kSpace;
+      number = Labels::width_of(*fact.number, style) + kSpace;
+      room =
+          Labels::width_of(std::max({*fact.number, fact.most, std::int64_t{10}}), style) + kSpace;
     }
     const std::string words = shortened(fact.words, panel.size().x, style);
     const double width = room + text_width(fact.widest.empty() ? words : fact.widest, style);
@@ -114,17 +109,14 @@ std::vector<FrameNode> nodes_of_tree(const Frame& frame, bool of_static) {
   return nodes;
 }
 
-double share_of(const UnionTree& tree, bool beside) {
-  return beside ? std::min(tree.leaves(), 16u) : std::min(tree.rows(), 6u);
-}
-
 // In parts by what each tree needs, but none below a quarter of an even part.
 std::vector<Box<2>> cut(const std::vector<UnionTree>& trees, const Box<2>& area) {
   const Vec<2> size = area.size();
   const bool beside = size.x > kWideEnough * size.y;
   const int axis = beside ? 0 : 1;
   std::vector<double> shares;
-  for (const UnionTree& tree : trees) shares.push_back(share_of(tree, beside));
+  for (const UnionTree& tree : trees)
+    shares.push_back(beside ? std::min(tree.leaves(), 16u) : std::min(tree.rows(), 6u));
   const double even =
       std::accumulate(shares.begin(), shares.end(), 0.0) / static_cast<double>(trees.size());
   for (double& share : shares) share = std::max(share, (beside ? 0.6 : 0.7) * even);
@@ -143,10 +135,13 @@ void draw_staged_tree(const Frame& frame, const UnionTree& tree, const Staging& 
                       const Box<2>& diagram, DrawList& list, Labels& labels) {
   const auto& stage = staging.once<TreeStage>(tree.of_static ? "static tree" : "tree", diagram,
                                               [&] { return stage_of(tree, staging, diagram); });
-  if (staging.trees().size() == 1) return draw_one_tree(frame, tree, stage, list, labels);
+  const auto draw = [&](const Frame& one) {
+    draw_one_tree({one, staging, stage.panel, list, labels}, tree, stage);
+  };
+  if (staging.trees().size() == 1) return draw(frame);
   Frame part = frame;
   part.nodes = nodes_of_tree(frame, tree.of_static);
-  draw_one_tree(part, tree, stage, list, labels);
+  draw(part);
 }
 
 void draw_forest(const Frame& frame, const Staging& staging, const Box<2>& area, DrawList& list,
@@ -182,9 +177,9 @@ void draw_tree(const Frame& frame, const Staging& staging, const Box<2>& panel, 
   Box<2> diagram = panel;
   diagram.hi.y -= height + 4;
   if (traits_of(frame.structure).has(Setting::axis))
-    return draw_sweep(frame, shrunk(diagram, 6), list, labels);
+    return draw_sweep({frame, staging, shrunk(diagram, 6), list, labels});
   if (!frame.get<FrameStructure>().grid_levels.empty() && staging.trees().size() < 2)
-    return draw_grid(frame, shrunk(diagram, 6), list, labels);
+    return draw_grid({frame, staging, shrunk(diagram, 6), list, labels});
   if (staging.trees().size() > 1) return draw_forest(frame, staging, diagram, list, labels);
   for (const UnionTree& tree : staging.trees())
     draw_staged_tree(frame, tree, staging, diagram, list, labels);

@@ -3,30 +3,21 @@
 
 #include <fmt/format.h>
 
-#include "draw/body_shapes.hpp"
 #include "draw/font.hpp"
-#include "draw/keys.hpp"
-#include "draw/marks.hpp"
-#include "draw/naming.hpp"
-#include "draw/notes.hpp"
-#include "draw/panels.hpp"
-#include "draw/pattern.hpp"
+#include "draw/panel.hpp"
+#include "draw/texture_picture.hpp"
 #include "draw/tree/tree_layout.hpp"
 #include "draw/world/world2d_parts.hpp"
 
 namespace lantern::draw {
 namespace {
 
-class TreeView {
+class TreeView : PanelPicture {
  public:
-  TreeView(const Frame& frame, const UnionTree& tree, const TreeStage& stage, DrawList& list,
-           Labels& labels)
-      : frame_(frame),
-        panel_(stage.panel),
-        list_(list),
-        labels_(labels),
-        layout_(lay_out_tree(frame, tree, stage)),
-        bodies_(by_id(frame.bodies)) {
+  TreeView(const PanelPicture& on, const UnionTree& tree, const TreeStage& stage)
+      : PanelPicture(on),
+        layout_(lay_out_tree(frame_, tree, stage)),
+        bodies_(by_id(frame_.bodies)) {
     for (const Branch& branch : branches())  // rows come in order
       if (branch.row == says_holds_.size()) says_holds_.push_back(has_room_for_holds(branch.row));
   }
@@ -59,7 +50,7 @@ class TreeView {
 
   // What is drawn next belongs to a branch, and comes out of its parent's box.
   DrawList::Scope shown(std::string_view kind, std::size_t i) {
-    const std::uint32_t node = branches()[i].node;
+    const FrameNode& node = node_of(branches()[i]);
     return {list_, node_key(kind, frame_.nodes, node), parent_key("tree/node", frame_.nodes, node)};
   }
   // Its words, which appear where they stand.
@@ -68,8 +59,8 @@ class TreeView {
   }
   // A body or texture in a leaf, which comes there from the leaf's parent.
   DrawList::Scope carried(const std::string& what, const Branch& leaf) {
-    return {list_, node_key(what, frame_.nodes, leaf.node),
-            parent_key(what, frame_.nodes, leaf.node)};
+    const FrameNode& node = node_of(leaf);
+    return {list_, node_key(what, frame_.nodes, node), parent_key(what, frame_.nodes, node)};
   }
 
   bool is_lit_edge(const Branch& branch) const {
@@ -119,28 +110,21 @@ class TreeView {
     if (branch.kind == Branch::Kind::node)
       if (const auto level = level_in(frame_, node, shrunk(box, 3)))
         list_.rect(*level, Role::rule, {}, std::min(radius, 4.0));
-    if (labels_.has_notes()) tell_places(branch, box);
+    if (labels_.has_notes()) {
+      if (branch.copies == 1) labels_.tell_place(target_of_node(node.label), box);
+      labels_.tell_body(box);
+    }
     if (is_atlas() && branch.kind == Branch::Kind::node && !node_of(branch).leaf)
       draw_cut(node_of(branch), box, outline.role);
     else
       draw_content(branch, box);
     if (node.over_capacity && branch.kind == Branch::Kind::node) draw_badge(box);
-    if (branch.kind == Branch::Kind::node) draw_walk(node, box);
+    if (branch.kind == Branch::Kind::node) {  // its place on a ray's way
+      if (is_topmost_skipped(node, frame_)) draw_skipped({box.hi.x - 2, box.lo.y - 1}, list_);
+      const std::uint32_t place = node.met != kNone ? node.met : node.order;
+      if (place != kNone) draw_met(place, box.lo + Vec<2>(2, -11), panel_, list_, labels_);
+    }
     if (frame_.sleeps(node)) draw_zz(box.lo + Vec<2>(-9, -9), 24, 1.8, list_);
-  }
-
-  // What a ray, view or region left out, and the place of a leaf on a ray's way.
-  void draw_walk(const FrameNode& node, const Box<2>& box) {
-    if (node.skipped && (node.parent == kNone || !frame_.nodes[node.parent].skipped))
-      draw_skipped({box.hi.x - 2, box.lo.y - 1}, list_);
-    const std::uint32_t place = node.met != kNone ? node.met : node.order;
-    if (place != kNone) draw_met(place, box.lo + Vec<2>(2, -11), panel_, list_, labels_);
-  }
-
-  // For notes.
-  void tell_places(const Branch& branch, const Box<2>& box) {
-    if (branch.copies == 1) labels_.tell_place(target_of_node(node_of(branch).label), box);
-    labels_.tell_body(box);
   }
 
   // A dashed line where levels are left out.
@@ -168,8 +152,7 @@ class TreeView {
     if (content.icons > 0) x += 1;
     const Anchor at = centred({x, c.y}, style, 0);
     // Of a tree that has no room at all, words go before the nodes.
-    if (holds(panel_, Labels::extent(content.text, at, style)))
-      labels_.add(content.text, at, style, panel_);
+    if (holds(panel_, Labels::extent(content.text, at, style))) write(content.text, at, style);
   }
 
   TextStyle text_style(const Branch& branch) const {
@@ -187,10 +170,10 @@ class TreeView {
       draw_pattern(texture.id, texture.color, place, 0.8, kMostPatternParts, list_, texture.turned);
       return list_.rect(place, Role::none, {Role::body_line, 1.2});
     }
-    const auto found = bodies_.find(id);
-    if (found == bodies_.end()) return;
-    const DrawList::Scope scope = carried(body_key("tree/body", *found->second), branch);
-    draw_character(*found->second, icon_box(*found->second, place), false, list_);
+    const FrameBody* body = body_of(bodies_, id);
+    if (!body) return;
+    const DrawList::Scope scope = carried(body_key("tree/body", *body), branch);
+    draw::draw_icon(body, place, list_);
   }
 
   // How an atlas's node is cut: two halves, and the strong line between.
@@ -215,10 +198,9 @@ class TreeView {
 
   void label_levels(const Branch& branch, const Vec<2>& c) {
     const TextStyle style{layout_.scale.text, Weight::regular, Role::quiet_ink, Role::paper};
-    labels_.try_add(
-        text_of(branch, node_of(branch), is_atlas(), layout_.scale, layout_.words).text,
-        {{{c.x + 12, c.y + 0.36 * style.size}, 0}, {{c.x - 12, c.y + 0.36 * style.size}, 1}}, style,
-        panel_);
+    try_write(text_of(branch, node_of(branch), is_atlas(), layout_.scale, layout_.words).text,
+              {{{c.x + 12, c.y + 0.36 * style.size}, 0}, {{c.x - 12, c.y + 0.36 * style.size}, 1}},
+              style);
   }
 
   void label_branch(std::size_t i) {
@@ -235,9 +217,9 @@ class TreeView {
     const Anchor under{{box.center().x, box.hi.y + 4 + 0.78 * style.size}, 0.5};
     const double room = layout_.room[i];
     for (const std::string& text : label_choices(branch))
-      if (text_width(text, style) <= room && labels_.try_add(text, {under}, style, panel_)) return;
+      if (text_width(text, style) <= room && try_write(text, {under}, style)) return;
     if (branch.copies == 1 && short_label(node.label).empty())
-      labels_.try_add(shortened(node.label, room, style), {under}, style, panel_);
+      try_write(shortened(node.label, room, style), {under}, style);
   }
 
   // Where rows stand too close for words between them: in the gap to a neighbour, if that is wide
@@ -251,8 +233,7 @@ class TreeView {
             {align > 0 ? box.lo.x - kNear : box.hi.x + kNear, box.center().y}, style, align);
         Box<2> extent = Labels::extent(text, anchor, style);
         (align > 0 ? extent.lo.x : extent.hi.x) += align > 0 ? -kFar : kFar;
-        if (!text.empty() && labels_.is_free(extent, panel_) &&
-            labels_.try_add(text, {anchor}, style, panel_))
+        if (!text.empty() && labels_.is_free(extent, panel_) && try_write(text, {anchor}, style))
           return;
       }
   }
@@ -340,14 +321,9 @@ class TreeView {
     const TextStyle style{layout_.scale.label, Weight::regular, Role::quiet_ink, Role::paper};
     const double align = b.x < a.x ? 1 : 0;
     const double beside = b.x < a.x ? -14 : 14;
-    labels_.try_add(side, {{middle + Vec<2>(beside, 2), align}, {middle + Vec<2>(0, 6), 0.5}},
-                    style, panel_);
+    try_write(side, {{middle + Vec<2>(beside, 2), align}, {middle + Vec<2>(0, 6), 0.5}}, style);
   }
 
-  const Frame& frame_;
-  Box<2> panel_;
-  DrawList& list_;
-  Labels& labels_;
   TreeLayout layout_;
   std::vector<bool> says_holds_;  // by row
   BodiesById bodies_;
@@ -355,9 +331,8 @@ class TreeView {
 
 }  // namespace
 
-void draw_one_tree(const Frame& frame, const UnionTree& tree, const TreeStage& stage,
-                   DrawList& list, Labels& labels) {
-  TreeView(frame, tree, stage, list, labels).draw();
+void draw_one_tree(const PanelPicture& on, const UnionTree& tree, const TreeStage& stage) {
+  TreeView(on, tree, stage).draw();
 }
 
 }  // namespace lantern::draw

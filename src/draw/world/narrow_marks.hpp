@@ -10,14 +10,13 @@
 
 namespace lantern::draw {
 
-// The marks themselves, and their samples for the legend.
+// The marks themselves.
 void draw_shadow(const Vec<2>& from, const Vec<2>& to, Role role, Pen& pen);
 void draw_gap(const Vec<2>& from, const Vec<2>& to, Pen& pen);
 void draw_shared_shadow(const Vec<2>& from, const Vec<2>& to, Pen& pen);
 void draw_support(const Vec<2>& at, Pen& pen);
 void draw_simplex(const std::vector<Vec<2>>& points, Pen& pen);
 void draw_origin(const Vec<2>& at, Pen& pen);
-bool draw_narrow_sample(MarkKind kind, const Vec<2>& left, const Vec<2>& right, Pen& pen);
 
 // The axes along which the bodies of frame.find<FrameSeparation>() were measured, beside them:
 // their shadows, and what lies between these. The newest axis, or the one that answers, with lines

@@ -1,9 +1,8 @@
-#include "draw/world/painter_order.hpp"
-
 #include <cmath>
 #include <set>
 
 #include "base/stop.hpp"
+#include "draw/world/world3d_parts.hpp"
 #include "geometry/not_finite.hpp"
 #include "geometry/ray.hpp"
 

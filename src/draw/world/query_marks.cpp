@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "draw/font.hpp"
 #include "draw/marks.hpp"
 #include "frame/parts/asked.hpp"
 #include "geometry/not_finite.hpp"

@@ -9,12 +9,10 @@
 //   ---------------> axis
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include <fmt/format.h>
 
 #include "draw/body_shapes.hpp"
-#include "draw/keys.hpp"
 #include "draw/world/narrow_marks.hpp"
 #include "geometry/plane.hpp"
 

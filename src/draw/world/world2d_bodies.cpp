@@ -1,14 +1,10 @@
 #include <cmath>
 #include <functional>
 #include <set>
-#include <unordered_map>
 
 #include <fmt/format.h>
 
 #include "base/stop.hpp"
-#include "draw/body_shapes.hpp"
-#include "draw/keys.hpp"
-#include "draw/pen.hpp"
 #include "draw/world/world2d_parts.hpp"
 
 namespace lantern::draw {

@@ -1,11 +1,7 @@
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
-#include "draw/body_shapes.hpp"
-#include "draw/borders.hpp"
-#include "draw/keys.hpp"
-#include "draw/pen.hpp"
+#include "draw/world/borders.hpp"
 #include "draw/world/world2d_parts.hpp"
 #include "frame/parts/asked.hpp"
 #include "geometry/not_finite.hpp"
@@ -124,31 +120,27 @@ void hatch_unmade(const Frame& frame, const View2D& map, DrawList& list) {
   }
 }
 
-// In a tree of many leaves that are nearly all lit, the tone would tell nothing and drown the
-// bodies.
+// The tone would drown the bodies.
 bool nearly_all_lit(const Frame& frame) {
-  constexpr std::size_t kMany = 200;  // nodes
-  std::size_t leaves = 0, lit = 0;
-  for (const FrameNode& node : frame.nodes) {
-    leaves += node.leaf;
-    lit += node.leaf && node.mark == Mark::lit;
-  }
-  return frame.nodes.size() > kMany && frame.bodies.size() > kMany / 4 && 10 * lit > 7 * leaves;
+  return frame.bodies.size() > 50 && is_nearly_all_lit(frame.nodes);
+}
+
+void paint_cell(const Frame& frame, const FrameNode& node, Role role, const View2D& map,
+                DrawList& list, Grounds& grounds) {
+  grounds.push_back({page_region(node, map), role});
+  if (node.region.empty())
+    list.crisp_rect(cell_of(frame, node, map), role);
+  else
+    list.polygon(grounds.back().region, role);
 }
 
 // What a ray, view or region has left out.
 void fill_skipped(const Frame& frame, const View2D& map, DrawList& list, Grounds& grounds) {
   std::size_t filled = 0;
   for (const FrameNode& node : frame.nodes) {
-    const bool topmost =
-        node.skipped && (node.parent == kNone || !frame.nodes[node.parent].skipped);
-    if (!topmost || !is_drawn(cell_of(frame, node, map))) continue;
+    if (!is_topmost_skipped(node, frame) || !is_drawn(cell_of(frame, node, map))) continue;
     if (++filled > kMostFills) return;
-    grounds.push_back({page_region(node, map), Role::free_space});
-    if (node.region.empty())
-      list.crisp_rect(cell_of(frame, node, map), Role::free_space);
-    else
-      list.polygon(grounds.back().region, Role::free_space);
+    paint_cell(frame, node, Role::free_space, map, list, grounds);
   }
 }
 
@@ -163,15 +155,9 @@ void fill_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& 
   if (painted.size() > kMostFills) return;  // some alone would say what is not so
   for (const auto& [i, tone] : painted) {
     const FrameNode& node = frame.nodes[i];
-    const Role role = ground_of(tone);
-    grounds.push_back({page_region(node, map), role});
-    const auto at = static_cast<std::uint32_t>(i);
-    const DrawList::Scope scope(list, node_key("world/cell", frame.nodes, at),
-                                parent_key("world/cell", frame.nodes, at));
-    if (node.region.empty())
-      list.crisp_rect(cell_of(frame, node, map), role);
-    else
-      list.polygon(grounds.back().region, role);
+    const DrawList::Scope scope(list, node_key("world/cell", frame.nodes, node),
+                                parent_key("world/cell", frame.nodes, node));
+    paint_cell(frame, node, ground_of(tone), map, list, grounds);
     list.marks.add(tone == Mark::lit ? MarkKind::lit : MarkKind::passed);
   }
 }
@@ -196,7 +182,7 @@ void draw_planes(const Frame& frame, const View2D& map, DrawList& list) {
     const Vec<2> a = map.in_reach(map.to_page(line->first));
     const Vec<2> b = map.in_reach(map.to_page(line->second));
     const bool upright = a.x == b.x || a.y == b.y;
-    const std::string key = node_key("world/plane", frame.nodes, static_cast<std::uint32_t>(i));
+    const std::string key = node_key("world/plane", frame.nodes, node);
     const DrawList::Scope scope(list, key, key);
     list.shapes.emplace_back(LineShape{a, b, plane_stroke(node, level), upright});
   }
@@ -217,26 +203,13 @@ void tone_asleep(const Frame& frame, const View2D& map, DrawList& list) {
 }
 
 // Of a grid of several levels the coarser cells have the stronger lines.
-class GridDepths {
- public:
-  explicit GridDepths(const Frame& frame) : frame_(frame) {
-    for (const FrameNode& node : frame.nodes)
-      if (is_level(node)) coarsest_ = std::max(coarsest_, node.slot);
-  }
-  std::uint32_t operator[](const FrameNode& node) const {
-    if (!has_cells(frame_.structure) || node.depth < 2) return node.depth;
-    const FrameNode* above = &node;
-    while (above->depth > 1) above = &frame_.nodes[above->parent];
-    return is_level(*above) ? 1 + coarsest_ - above->slot : 1;
-  }
-
- private:
-  static bool is_level(const FrameNode& node) {
-    return node.depth == 1 && node.label.starts_with('L');
-  }
-  const Frame& frame_;
-  std::uint32_t coarsest_ = 0;
-};
+bool is_grid_level(const FrameNode& node) { return node.depth == 1 && node.label.starts_with('L'); }
+std::uint32_t line_depth(const Frame& frame, const FrameNode& node, std::uint32_t coarsest) {
+  if (!has_cells(frame.structure) || node.depth < 2) return node.depth;
+  const FrameNode* above = &node;
+  while (above->depth > 1) above = &frame.nodes[above->parent];
+  return is_grid_level(*above) ? 1 + coarsest - above->slot : 1;
+}
 
 // Of a grid, where the cells lie that hold nothing; not of cells so small that lines would fill
 // the picture.
@@ -275,7 +248,9 @@ void fill_levels(const Frame& frame, const View2D& map, DrawList& list) {
 bool draw_borders(const Frame& frame, const View2D& map, bool of_static, DrawList& list) {
   const bool fitted = traits_of(frame.structure).hugs && !of_static;
   bool complete = true;
-  const GridDepths depths(frame);
+  std::uint32_t coarsest = 0;
+  for (const FrameNode& node : frame.nodes)
+    if (is_grid_level(node)) coarsest = std::max(coarsest, node.slot);
   Borders borders;
   for (std::uint32_t i = 0; i < frame.nodes.size(); ++i) {
     const FrameNode& node = frame.nodes[i];
@@ -285,7 +260,7 @@ bool draw_borders(const Frame& frame, const View2D& map, bool of_static, DrawLis
       continue;
     const Box<2> cell = cell_of(frame, node, map);
     if (is_drawn(cell))
-      borders.add(cell, depths[node], i);
+      borders.add(cell, line_depth(frame, node, coarsest), i);
     else if (overlap(shrunk(map.picture(), kLeastCell), map.to_page(node.box)))
       complete &= of_static;
   }

@@ -5,10 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "draw/font.hpp"
-#include "draw/keys.hpp"
-#include "draw/pen.hpp"
-#include "draw/staging.hpp"
 #include "draw/world/world2d_parts.hpp"
 #include "geometry/plane.hpp"
 #include "frame/parts/level.hpp"
@@ -88,8 +84,7 @@ const Vec<2> kNarrowRoom{15, 14};  // in a sector without that room
 std::vector<Vec<2>> number_places(const Polygon& region, const Vec<2>& room) {
   constexpr int kSteps = 10;
   const Vec<2> middle = centroid(region);
-  Box<2> box{region[0], region[0]};
-  for (const Vec<2>& corner : region) box = united(box, Box<2>{corner, corner});
+  const Box<2> box = box_of(region);
   std::vector<Vec<2>> places{middle};
   for (int x = 1; x < kSteps; ++x)
     for (int y = 1; y < kSteps; ++y)
@@ -107,11 +102,11 @@ class Obstacles {
     if (frame.bodies.size() > kCrowd) return;
     for (const Stand& stand : stands_of(frame, map)) bodies_.push_back(stand.box);
     if (!frame.display.pairs) return;
-    for_each_pair(frame, by_id(frame.bodies),
-                  [&](const FrameBody& a, const FrameBody& b, const FramePair&) {
-                    links_.push_back({map.to_page(a.position), map.to_page(b.position)});
-                    return true;
-                  });
+    const BodiesById bodies = by_id(frame.bodies);
+    for (const FramePair& pair : frame.pairs)
+      if (const FrameBody* a = body_of(bodies, pair.pair.a), *b = body_of(bodies, pair.pair.b);
+          a && b)
+        links_.push_back({map.to_page(a->position), map.to_page(b->position)});
   }
 
   bool no_body_at(const Vec<2>& at) const {
@@ -153,13 +148,11 @@ struct NumberPlaces {
 const SectorPlaces& sector_places(const Staging& staging, const Box<2>& panel) {
   return staging.once<SectorPlaces>("places of sectors", panel, [&] {
     constexpr std::size_t kMostLookedAt = 60;  // frames of a group, here and there
-    const std::size_t all = staging.frames().size(), looked_at = std::min(all, kMostLookedAt);
     const View2D map(flat(staging.frames()[0]->bounds), panel);
     std::map<std::string, NumberPlaces, std::less<>> sectors;
-    for (std::size_t i = 0; i < looked_at; ++i) {
-      const Frame& frame = *staging.frames()[i * all / looked_at];
-      const Obstacles obstacles(frame, map);
-      for (const FrameNode* sector : sectors_of(frame)) {
+    for (const Frame* frame : staging.some_frames(kMostLookedAt)) {
+      const Obstacles obstacles(*frame, map);
+      for (const FrameNode* sector : sectors_of(*frame)) {
         if (sector->label.empty()) continue;
         NumberPlaces& own = sectors[sector->label];
         if (own.frames == 0) own.places = number_places(page_region(*sector, map), kNumberRoom);
@@ -235,8 +228,7 @@ void number_sectors(const Frame& frame, const Staging& staging, const View2D& ma
     if (found == places.end()) continue;
     const Vec<2> at = map.to_page(found->second);
     if (touches(bodies, Box<2>::around(at, kNarrowRoom))) continue;
-    const auto node = static_cast<std::uint32_t>(sector - frame.nodes.data());
-    const DrawList::Scope scope(list, node_key("world/cell name", frame.nodes, node));
+    const DrawList::Scope scope(list, node_key("world/cell name", frame.nodes, *sector));
     if (sector->order != kNone && draw_met(sector->order, at, map.picture(), list, labels))
       continue;
     TextStyle style{kLabel, Weight::semibold, Role::quiet_ink};

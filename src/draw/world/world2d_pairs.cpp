@@ -4,8 +4,6 @@
 #include <map>
 #include <unordered_map>
 
-#include "draw/keys.hpp"
-#include "draw/pen.hpp"
 #include "draw/world/world2d_parts.hpp"
 
 namespace lantern::draw {

@@ -8,21 +8,11 @@
 #include <span>
 
 #include "draw/font.hpp"
-#include "draw/keys.hpp"
-#include "draw/naming.hpp"
 
 namespace lantern::draw {
 namespace {
 
 constexpr std::size_t kMostLabels = 120;
-
-// Where along its line a name may stand: near the end of the first line; the others end on a line,
-// where it would not be clear whose name it is.
-std::array<double, 7> plate_places(const FrameNode& node) {
-  return {node.depth == 0 ? 0.92 : 0.7, 0.3, 0.5, 0.8, 0.2, 0.6, 0.4};
-}
-
-const TextStyle kPlateStyle{kLabel, Weight::semibold, Role::ink};
 
 bool has_plate(const FrameNode& node) {
   return node.plane && !node.plane_name.empty() && dividing_line(node);
@@ -34,11 +24,13 @@ std::array<std::pair<Vec<2>, Box<2>>, 7> plates_of(const FrameNode& node, const 
   Vec<2> a = map.in_reach(map.to_page(line.first));
   Vec<2> b = map.in_reach(map.to_page(line.second));
   if (b.y < a.y) std::swap(a, b);
-  const std::array<double, 7> places = plate_places(node);
+  // Near the end of the first line; the others end on a line, where it would not be clear whose
+  // name it is.
+  const std::array<double, 7> places{node.depth == 0 ? 0.92 : 0.7, 0.3, 0.5, 0.8, 0.2, 0.6, 0.4};
   std::array<std::pair<Vec<2>, Box<2>>, 7> plates;
   for (std::size_t k = 0; k < places.size(); ++k) {
     const Vec<2> p = a + (b - a) * places[k];
-    plates[k] = {p, plate_of(node.plane_name, p, kPlateStyle, {9, 7})};
+    plates[k] = {p, plate_of(node.plane_name, p, kStrong, {9, 7})};
   }
   return plates;
 }
@@ -74,9 +66,8 @@ const PlatePlaces& chosen_plates(const Staging& staging, const Box<2>& panel) {
   return staging.once<PlatePlaces>("plates of planes", panel, [&] {
     constexpr std::size_t kMostLookedAt = 120;  // frames of a group, here and there
     std::vector<PlateCounts> counts;
-    const std::size_t all = staging.frames().size(), looked_at = std::min(all, kMostLookedAt);
-    for (std::size_t i = 0; i < looked_at; ++i)
-      count_plates(*staging.frames()[i * all / looked_at], panel, counts);
+    for (const Frame* frame : staging.some_frames(kMostLookedAt))
+      count_plates(*frame, panel, counts);
     PlatePlaces places;
     std::vector<Box<2>> taken;
     for (PlateCounts& plane : counts) {
@@ -108,7 +99,7 @@ void label_planes(const Frame& frame, const Staging& staging, const View2D& map,
       if (touches(bodies, plate) || !labels.is_free(plate, shrunk(map.picture(), 6))) continue;
       const Role role = node.mark == Mark::lit ? Role::lit : cell_line_role(node.depth);
       list.rect(plate, Role::panel, {role, 1.8}, 6);
-      labels.add(node.plane_name, centred(at, kPlateStyle), kPlateStyle, map.picture());
+      labels.add(node.plane_name, centred(at, kStrong), kStrong, map.picture());
       labels.block(plate);
       break;
     }
@@ -263,8 +254,7 @@ void label_cells(const Frame& frame, const Staging& staging, const View2D& map,
   std::ranges::stable_sort(leaves, {}, &FrameNode::depth);
   if (leaves.size() > kMostLabels) leaves.resize(kMostLabels);
   for (const FrameNode* leaf : leaves) {
-    const auto at = static_cast<std::uint32_t>(leaf - frame.nodes.data());
-    const DrawList::Scope scope(list, node_key("world/cell name", frame.nodes, at));
+    const DrawList::Scope scope(list, node_key("world/cell name", frame.nodes, *leaf));
     for (const std::string& name : leaf_names(frame, *leaf))
       if (label_cell(*leaf, name, map, bodies, grounds, labels)) break;
   }

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "draw/body_shapes.hpp"
-#include "draw/labels.hpp"
 #include "draw/marks.hpp"
 #include "draw/naming.hpp"
 
@@ -144,5 +143,12 @@ void draw_sights(const Frame& frame, const View2D& map, DrawList& list);
 
 // Where marks may be drawn: the bounds and a little beyond.
 inline Box<2> mark_limit(const View2D& map) { return shrunk(map.picture(), -8); }
+
+// Where in a 2D world a view of a part of it is: a small picture of the whole, in the corner of the
+// picture where it hides least of the bodies; the frame must have a view.
+Box<2> place_of_locator(const Frame& frame, const View2D& map);
+
+// The bounds with their largest cells, bodies as dots, and the part that is shown.
+void draw_locator(const Frame& frame, const Box<2>& place, DrawList& list);
 
 }  // namespace lantern::draw

@@ -1,11 +1,10 @@
 // Where bodies come from and go to: trails, and the looks for the moment of an impact.
 #include <algorithm>
+#include <set>
 
 #include <fmt/format.h>
 
-#include "draw/body_shapes.hpp"
-#include "draw/keys.hpp"
-#include "draw/pen.hpp"
+#include "draw/number_text.hpp"
 #include "draw/world/world2d_parts.hpp"
 #include "frame/parts/motion.hpp"
 
@@ -63,6 +62,32 @@ void draw_gap(const FrameLook& look, const View2D& map, Pen& pen, Labels& labels
                  style, map.panel());
 }
 
+constexpr double kFromEdge = 22;  // of a cell, to a mark in its corner
+
+// Places for a mark in a cell: its corners, the upper right one first, then its middle.
+std::vector<Vec<2>> places_in(const Box<2>& cell) {
+  const Box<2> corners = shrunk(cell, kFromEdge);
+  if (corners.lo.x >= corners.hi.x || corners.lo.y >= corners.hi.y) return {cell.center()};
+  return {{corners.hi.x, corners.lo.y},
+          corners.hi,
+          {corners.lo.x, corners.hi.y},
+          corners.lo,
+          cell.center()};
+}
+
+// Draws at the first place that is free of bodies and of labels.
+template <class Draw>
+bool at_free_place(const Box<2>& cell, double radius, const std::vector<Box<2>>& bodies,
+                   const Box<2>& room, Labels& labels, const Draw& draw) {
+  for (const Vec<2>& at : places_in(cell)) {
+    const Box<2> box = Box<2>::around(at, Vec<2>(radius));
+    if (touches(bodies, box) || !labels.is_free(box, room) || !draw(at)) continue;
+    labels.block(box);
+    return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 void draw_way(const std::vector<Vec<2>>& points, Pen& pen) {
@@ -104,8 +129,7 @@ void draw_looks(const Frame& frame, const View2D& map, DrawList& list, Labels& l
       pen.path(outline, true, now ? Stroke{meets, 3.6} : kLookStroke);
       const TextStyle style{kLeastLabel, Weight::semibold, now ? Role::lit_ink : Role::ray,
                             Role::panel};
-      Box<2> box{outline[0], outline[0]};
-      for (const Vec<2>& p : outline) box = united(box, Box<2>{p, p});
+      const Box<2> box = box_of(outline);
       const Vec<2> c = box.center();
       labels.try_add(fmt::format("{:.2f}", look.time),
                      {{{c.x, box.hi.y + 24}, 0.5},
@@ -118,6 +142,65 @@ void draw_looks(const Frame& frame, const View2D& map, DrawList& list, Labels& l
   draw_gap(last, map, pen, labels);
   list.marks.add(MarkKind::look);
   for (const char* name : {"impact_looks", "time_of_impact"}) list.referents.emplace(name);
+}
+
+// What a ray, view or region left out of a 2D world and in which order a ray meets its cells, and
+// the coordinates of the way down.
+
+void mark_walk(const Frame& frame, const View2D& map, const std::vector<Box<2>>& bodies,
+               DrawList& list, Labels& labels) {
+  constexpr std::size_t kMostMarks = 80;
+  const Box<2> room = shrunk(map.picture(), 3);
+  std::size_t drawn = 0;
+  bool all = true;
+  for (const FrameNode& node : frame.nodes) {
+    const bool skipped = is_topmost_skipped(node, frame);
+    if (!skipped && node.met == kNone) continue;
+    if (++drawn > kMostMarks) return;
+    const Box<2> cell = map.to_page(node.box);
+    if (skipped)
+      all &= at_free_place(cell, kSkipRadius + 1, bodies, room, labels, [&](const Vec<2>& at) {
+        draw_skipped(at, list);
+        return true;
+      });
+    else
+      at_free_place(cell, 1, bodies, room, labels,
+                    [&](const Vec<2>& at) { return draw_met(node.met, at, room, list, labels); });
+  }
+  if (drawn > 0 && all) list.referents.emplace("nodes_skipped");
+}
+
+void draw_coordinates(const Frame& frame, const View2D& map, DrawList& list, Labels& labels) {
+  if (!frame.display.coordinates) return;
+  const TextStyle style{std::max(kLabel, 22.0), Weight::semibold, Role::lit_ink, Role::panel};
+  const Box<2>& picture = map.picture();
+  constexpr double kTick = 12;
+  std::set<double> done[2];
+  for (const bool root : {true, false})
+    for (const FrameNode& node : frame.nodes) {
+      if ((node.depth == 0) != root || (!root && node.mark == Mark::quiet)) continue;
+      for (int axis = 0; axis < 2; ++axis)
+        for (const double at : {node.box.lo[axis], node.box.hi[axis]}) {
+          if (!done[axis].insert(at).second) continue;
+          const Vec<2> p = map.in_reach(map.to_page(axis == 0 ? Vec<2>(at, 0) : Vec<2>(0, at)));
+          const std::string text = short_number(at);
+          if (axis == 0) {
+            const double y = picture.hi.y, align = p.x < picture.lo.x + 8   ? 0
+                                                   : p.x > picture.hi.x - 8 ? 1
+                                                                            : 0.5;
+            list.line({p.x, y - kTick}, {p.x, y}, {Role::lit, 3.4});
+            const double inwards = align == 0 ? 8 : align == 1 ? -8 : 0;
+            labels.try_add(text, {{{p.x + inwards, y - kTick - 5}, align}}, style, picture);
+          } else {
+            const double x = picture.lo.x;
+            const double below = p.y < picture.lo.y + 8   ? style.size
+                                 : p.y > picture.hi.y - 8 ? -2 * style.size
+                                                          : 0.36 * style.size;
+            list.line({x, p.y}, {x + kTick, p.y}, {Role::lit, 3.4});
+            labels.try_add(text, {{{x + kTick + 5, p.y + below}, 0}}, style, picture);
+          }
+        }
+    }
 }
 
 }  // namespace lantern::draw

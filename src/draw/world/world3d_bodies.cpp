@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "draw/body_shapes.hpp"
-#include "draw/pen.hpp"
 #include "draw/world/world3d_parts.hpp"
 #include "geometry/plane.hpp"
 

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "draw/keys.hpp"
-#include "draw/pen.hpp"
 #include "draw/world/world3d_parts.hpp"
 
 namespace lantern::draw {
@@ -266,9 +265,8 @@ void draw_cell_grounds(const Frame& frame, const View3D& view, DrawList& list) {
     return std::pair{n->mark == Mark::lit, -view.depth(n->box.center())};
   });
   for (const FrameNode* node : filled) {
-    const auto at = static_cast<std::uint32_t>(node - frame.nodes.data());
-    const DrawList::Scope scope(list, node_key("world/ground", frame.nodes, at),
-                                parent_key("world/ground", frame.nodes, at));
+    const DrawList::Scope scope(list, node_key("world/ground", frame.nodes, *node),
+                                parent_key("world/ground", frame.nodes, *node));
     const bool lit = node->mark == Mark::lit;
     list.marks.add(lit ? MarkKind::lit : MarkKind::passed);
     fill_inside(node->box, lit ? Role::lit_fill : Role::passed_fill, Role::passed_fill, view, list);

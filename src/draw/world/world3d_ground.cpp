@@ -5,7 +5,6 @@
 #include "draw/body_shapes.hpp"
 #include "draw/keys.hpp"
 #include "draw/number_text.hpp"
-#include "draw/pen.hpp"
 #include "draw/world/world3d_parts.hpp"
 #include "geometry/plane.hpp"
 #include "frame/parts/asked.hpp"

@@ -1,19 +1,12 @@
 #include <algorithm>
 #include <functional>
+#include <optional>
+#include <span>
 
 #include <fmt/format.h>
 
-#include "draw/body_shapes.hpp"
-#include "draw/font.hpp"
-#include "draw/keys.hpp"
-#include "draw/naming.hpp"
-#include "draw/notes.hpp"
 #include "draw/page.hpp"
 #include "draw/panel.hpp"
-#include "draw/panels.hpp"
-#include "draw/pen.hpp"
-#include "draw/projection.hpp"
-#include "draw/world/locator.hpp"
 #include "draw/world/narrow_marks.hpp"
 #include "draw/world/world2d_parts.hpp"
 #include "draw/world/world3d_parts.hpp"
@@ -96,8 +89,7 @@ void name_world3d(const Frame& frame, const Staging& staging, const std::vector<
   });
   if (cells.size() > kMostCells) cells.resize(kMostCells);
   for (const FrameNode* cell : cells) {
-    const auto at = static_cast<std::uint32_t>(cell - frame.nodes.data());
-    const DrawList::Scope scope(list, node_key("world/cell name", frame.nodes, at));
+    const DrawList::Scope scope(list, node_key("world/cell name", frame.nodes, *cell));
     name_cell(*cell, bodies, view, list, labels);
   }
 }
@@ -136,12 +128,8 @@ void add_marks(const Frame& frame, Marks3D& marks, LeftOut& left_out) {
 }
 
 // The numbers that can be counted on the picture.
-void depict_contacts(DrawList& list) {
-  for (const char* name : {"contacts", "contact_points", "impulses", "touching"})
-    list.referents.emplace(name);
-}
 void depict_bodies(const Frame& frame, DrawList& list) {
-  for (const char* name : {"bodies", "asleep", "awake"}) list.referents.emplace(name);
+  list.referents.insert({"bodies", "asleep", "awake"});
   if (frame.display.depths) list.referents.emplace("penetration");
 }
 
@@ -159,15 +147,9 @@ bool shows(const View3D& view, const FrameBody& body) {
 void add_contacts(const Frame& frame, const Marks& marks, LeftOut& left_out, DrawList& list) {
   if (!frame.display.contacts) return;
   if (mark_contacts(frame, marks))
-    depict_contacts(list);
+    list.referents.insert({"contacts", "contact_points", "impulses", "touching"});
   else
     left_out.push_back("not all contacts are drawn");
-}
-
-// Whose eye it is then.
-bool is_in_a_body(const Frame& frame, const Vec<2>& eye) {
-  return std::ranges::any_of(frame.bodies,
-                             [&](const FrameBody& body) { return contains(flat(body.box), eye); });
 }
 
 // What lies over the bodies.
@@ -186,50 +168,31 @@ void draw_marks(const Frame& frame, const View2D& map, LeftOut& left_out, DrawLi
   mark_forces(frame, marks);
   write_forces(frame, map, labels);
   mark_rulers(frame, marks, labels);
-  if (frame.get<FrameLevel>().eye && !is_in_a_body(frame, *frame.get<FrameLevel>().eye)) {
-    const Vec<2> eye = map.to_page(*frame.get<FrameLevel>().eye);
+  const auto is_in_a_body = [&](const Vec<2>& eye) {  // then the eye is the body's
+    return std::ranges::any_of(
+        frame.bodies, [&](const FrameBody& body) { return contains(flat(body.box), eye); });
+  };
+  if (const auto& own = frame.get<FrameLevel>().eye; own && !is_in_a_body(*own)) {
+    const Vec<2> eye = map.to_page(*own);
     draw_eye(eye, {1, 0}, Role::ink, shrunk(map.picture(), -20), list);
     labels.block(Box<2>::around(eye, {24, 18}));
   }
 }
 
-// Where a flat world has drawn what notes are about.
-void tell_places(const Frame& frame, const View2D& map, const std::vector<Stand>& stands,
+// Where a world has drawn what notes are about: bodies, then what else has a place in the picture.
+using PlaceOf = std::function<std::optional<Box<2>>(const FrameNode&)>;
+void tell_places(const Frame& frame, const Projection& view, const PlaceOf& place_of,
                  Labels& labels) {
-  const Box<2>& picture = map.picture();
-  const auto seen = [&](const Box<2>& box) {
-    return Box<2>{glm::clamp(box.lo, picture.lo, picture.hi),
-                  glm::clamp(box.hi, picture.lo, picture.hi)};
-  };
-  for (const Stand& stand : stands) {
-    if (!overlap(stand.box, picture)) continue;
-    labels.tell_body(seen(stand.box));
-    for (const FrameBody* body : stand.bodies) labels.tell_place(target_of(*body), seen(stand.box));
-  }
   for (const FrameNode& node : frame.nodes)
-    if (const Box<2> cell = map.to_page(node.box); overlap(cell, picture))
-      labels.tell_place(target_of_cell(node.label), seen(cell));
+    if (const auto place = place_of(node)) labels.tell_place(target_of_cell(node.label), *place);
   for (std::size_t i = 0; i < frame.notes.size(); ++i)
-    if (const Vec<2> at = map.to_page(frame.notes[i].point); contains(picture, at))
-      labels.tell_place(target_of_note(i), {at, at});
+    if (const auto at = view.seen(frame.notes[i].point); at && contains(view.picture(), *at))
+      labels.tell_place(target_of_note(i), {*at, *at});
 }
 
-// The same of a solid one.
-void tell_places(const Frame& frame, const View3D& view, const std::vector<Body3D>& bodies,
-                 Labels& labels) {
-  for (const Body3D& b : bodies) {
-    labels.tell_body(b.box);
-    labels.tell_place(target_of(*b.body), b.box);
-  }
-  for (const FrameNode& node : frame.nodes) {
-    if (!is_valid(node.box)) continue;
-    const auto at = view.seen(node.box.center());
-    if (at && contains(view.panel(), *at))
-      labels.tell_place(target_of_cell(node.label), {*at, *at});
-  }
-  for (std::size_t i = 0; i < frame.notes.size(); ++i)
-    if (const auto at = view.seen(frame.notes[i].point); at && contains(view.panel(), *at))
-      labels.tell_place(target_of_note(i), {*at, *at});
+void tell_body(const Box<2>& box, std::span<const FrameBody* const> bodies, Labels& labels) {
+  labels.tell_body(box);
+  for (const FrameBody* body : bodies) labels.tell_place(target_of(*body), box);
 }
 
 void draw_world3d(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
@@ -266,7 +229,16 @@ void draw_world3d(const Frame& frame, const Staging& staging, const Box<2>& pane
   write_depths(frame, view, covered, labels);
   name_world3d(frame, staging, bodies, view, list, labels);
   write_heights(bodies, view, list, labels);
-  if (labels.has_notes()) tell_places(frame, view, bodies, labels);
+  if (!labels.has_notes()) return;
+  for (const Body3D& b : bodies) tell_body(b.box, {&b.body, 1}, labels);
+  tell_places(
+      frame, view,
+      [&](const FrameNode& node) -> std::optional<Box<2>> {
+        if (!is_valid(node.box)) return {};
+        const auto at = view.seen(node.box.center());
+        return at && contains(view.panel(), *at) ? std::optional(Box<2>{*at, *at}) : std::nullopt;
+      },
+      labels);
 }
 
 void draw_world2d(const Frame& frame, const Staging& staging, const View2D& map, DrawList& list,
@@ -322,7 +294,17 @@ void draw_world2d(const Frame& frame, const Staging& staging, const View2D& map,
   label_cells(frame, staging, map, covered, grounds, list, labels);
   name_half_spaces(frame, ground, map, grounds, labels);
   name_bodies(frame, stands, covered, name_sides(staging, map.panel()), map, grounds, labels);
-  if (labels.has_notes()) tell_places(frame, map, stands, labels);
+  if (!labels.has_notes()) return;
+  const auto seen = [&](const Box<2>& box) -> std::optional<Box<2>> {
+    const Box<2>& picture = map.picture();
+    if (!overlap(box, picture)) return {};
+    return Box<2>{glm::clamp(box.lo, picture.lo, picture.hi),
+                  glm::clamp(box.hi, picture.lo, picture.hi)};
+  };
+  for (const Stand& stand : stands)
+    if (const auto box = seen(stand.box)) tell_body(*box, stand.bodies, labels);
+  tell_places(
+      frame, map, [&](const FrameNode& node) { return seen(map.to_page(node.box)); }, labels);
 }
 
 }  // namespace
