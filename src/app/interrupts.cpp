@@ -111,8 +111,6 @@ void catch_interrupts() {
   std::signal(SIGXFSZ, SIG_IGN);
 }
 
-bool interrupted() { return stop_asked(); }
-
 void give_time_to_save() {
   if (stop_asked()) end_in(kTimeToSave);
 }

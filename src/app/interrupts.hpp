@@ -9,9 +9,6 @@ namespace lantern::app {
 // nothing finished is lost. Writes to a closed pipe, or beyond a limit, fail as other writes do.
 void catch_interrupts();
 
-// Whether there was such a signal.
-bool interrupted();
-
 // What is finished is about to be saved and told: the timer gives it a few seconds. A second signal
 // then ends the process at once.
 void give_time_to_save();
