@@ -7,8 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "app/answer.hpp"
-#include "app/commands/command_line.hpp"
+#include "app/commands/command.hpp"
 #include "app/folders/shard.hpp"
 #include "app/interrupts.hpp"
 #include "app/run_scenario.hpp"

@@ -14,14 +14,14 @@
 
 namespace lantern::app {
 
-// Where the frames of a run go: to files, to standard output, nowhere.
+// Where the frames of a run go: to files, to standard output, and as this itself is, nowhere.
 class FrameSink {
  public:
   virtual ~FrameSink() = default;
   // Every frame of the run, in order.
-  virtual void frame(const Frame& frame) = 0;
+  virtual void frame(const Frame& /*frame*/) {}
   // After the last one. What is to be whole stands whole from here on.
-  virtual void finish(const DirectorReport& report) = 0;
+  virtual void finish(const DirectorReport& /*report*/) {}
   // How many of the frames that it was given it has still to deal with; from any thread.
   virtual std::uint64_t waiting() const { return 0; }
 };

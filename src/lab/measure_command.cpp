@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "app/answer.hpp"
 #include "app/interrupts.hpp"
 #include "app/progress.hpp"
 #include "app/report_folder.hpp"
@@ -53,10 +52,8 @@ Options measure_options(MeasureOptions& o) {
            "problems or families by name, or scenario files; the default is all problems; "
            "'broad_phase' measures the trees' settings"},
           folder_option(o.output, "folder for tables, plots and the overview page"),
-          {"--method",
-           &o.methods,
-           "only these: velocity_verlet, soft:16, impulse:100, ...",
-           {.value = "NAME", .one_each = true}},
+          {"--method", &o.methods, "only these: velocity_verlet, soft:16, impulse:100, ...",
+           OptionTraits{.value = "NAME", .one_each = true}},
           {"--step", &o.steps, "only these time steps, seconds", {.value = "H", .one_each = true}},
           {"--quick", &o.quick, "about a minute: plain problems, few repeats"},
           {"--full", &o.full, "every run, however long it takes", {.without = "--quick"}},
@@ -65,11 +62,10 @@ Options measure_options(MeasureOptions& o) {
           {"--theme", &o.theme, "colours of the plots", {.words = kThemes}},
           backend_option(o.backend, "off-screen OpenGL, for the PNG files"),
           {"--list", &o.list, "name the problems, measure nothing"},
-          {"--from",
-           &o.from,
+          {"--from", &o.from,
            "measure nothing: report.html of these folders or measure.json files, one a "
            "machine, side by side",
-           {.value = "PATH"}},
+           OptionTraits{.value = "PATH"}},
           memory_option(),
           json_option(o.json)};
 }

@@ -136,10 +136,9 @@ Option pace_option(std::string& pace, const char* help) {
 }
 
 Option memory_option() {
-  return {"--memory",
-          &read_memory,
+  return {"--memory", &read_memory,
           "memory to take at most, such as 800M or 4G; the default is half of the machine's",
-          {.value = "SIZE"}};
+          OptionTraits{.value = "SIZE"}};
 }
 
 Option tolerance_option(int& tolerance) {
@@ -152,10 +151,9 @@ Option fraction_option(double& fraction) {
 
 Options manners() {
   return {{"--quiet", &be_quiet, "say nothing but errors and warnings"},
-          {"--color",
-           &read_colour,
+          {"--color", &read_colour,
            "colour in messages; auto asks the terminal, NO_COLOR and CLICOLOR_FORCE",
-           {.value = "WHEN", .words = {"auto", "always", "never"}}}};
+           OptionTraits{.value = "WHEN", .words = {"auto", "always", "never"}}}};
 }
 
 const Words& command_line_words() { return remembered_words(); }

@@ -1,5 +1,3 @@
-#include "app/commands/command_line.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -9,7 +7,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "app/answer.hpp"
+#include "app/commands/command.hpp"
 #include "app/terminal.hpp"
 #include "base/suggest.hpp"
 #include "embedded/version.hpp"

@@ -12,7 +12,6 @@
 
 #include <fmt/format.h>
 
-#include "app/answer.hpp"
 #include "app/commands/command.hpp"
 #include "app/folders/kept_files.hpp"
 #include "app/output/sinks.hpp"
@@ -37,10 +36,9 @@ struct CompareOptions {
 Options compare_options(CompareOptions& o) {
   return {{"EXPECTED", &o.expected, "picture, facts or folder", {.required = true}},
           {"ACTUAL", &o.actual, "picture, facts or folder", {.required = true}},
-          {"-o,--output",
-           &o.output,
+          {"-o,--output", &o.output,
            "where the difference picture goes (a folder when folders are compared)",
-           {.value = "PATH"}},
+           OptionTraits{.value = "PATH"}},
           tolerance_option(o.tolerance),
           fraction_option(o.fraction),
           json_option(o.json)};

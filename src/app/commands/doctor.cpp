@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "app/answer.hpp"
 #include "app/commands/command.hpp"
 #include "app/lab.hpp"
 #include "app/terminal.hpp"
@@ -15,12 +14,6 @@
 
 namespace lantern::app {
 namespace {
-
-struct DoctorOptions {
-  bool json = false;
-};
-
-Options doctor_options(DoctorOptions& o) { return {json_option(o.json)}; }
 
 // What Lantern can be measured beside: "Box2D 2.4.1 (single)", or that there is no lab.
 std::vector<std::string> found_peers(
@@ -41,7 +34,7 @@ std::string lines_of(const std::vector<std::string>& found,
   return text;
 }
 
-int examine(const DoctorOptions& options) {
+int examine(const JsonOnly& options) {
   const auto found = find_program("ffmpeg");
   const std::string ffmpeg = found ? found->string() : "";
   std::vector<std::string> missing, missing_boxes;
@@ -74,7 +67,7 @@ int examine(const DoctorOptions& options) {
 }  // namespace
 
 Command doctor_command() {
-  return command("doctor", "Graphics backends found, and what to install", examine, doctor_options);
+  return command("doctor", "Graphics backends found, and what to install", examine, json_only);
 }
 
 }  // namespace lantern::app

@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "app/answer.hpp"
 #include "app/commands/command.hpp"
 #include "app/commands/golden_sinks.hpp"
 #include "app/folders/kept_files.hpp"
@@ -48,15 +47,12 @@ Options golden_options(GoldenOptions& o) {
   return {{"FILE", &o.files, "scenario files", {.required = true}},
           {"--update", &o.update, "make today's frames the golden ones: writes what changed"},
           {"--dir", &o.folder, "the golden frames are in DIR/<scenario>", {.value = "DIR"}},
-          {"--report",
-           &o.report,
+          {"--report", &o.report,
            "page of what differs, with pictures side by side: a file, or a folder for "
            "golden.html; without it output/golden.html, made only if something differs",
-           {.value = "PATH", .without = "--update"}},
-          {"--junit",
-           &o.junit,
-           "findings as JUnit's XML, for whatever builds and tests",
-           {.value = "FILE", .without = "--update"}},
+           OptionTraits{.value = "PATH", .without = "--update"}},
+          {"--junit", &o.junit, "findings as JUnit's XML, for whatever builds and tests",
+           OptionTraits{.value = "FILE", .without = "--update"}},
           tolerance_option(o.tolerance),
           fraction_option(o.fraction),
           {"--size", &o.size, "pixels", {.value = "WxH"}},

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "app/answer.hpp"
 #include "app/commands/command.hpp"
 #include "app/run_scenario.hpp"
 #include "app/scenario_folder.hpp"
@@ -24,20 +23,18 @@ constexpr std::string_view kHead =
     "its "
     "expectations prove them; this page is\nprinted by `lantern list --course`.\n";
 
-struct Asked {
-  FrameQuestion question;
-  std::uint32_t step = 0;
-  std::uint32_t frame = 0;
-};
-
+// The questions of a run, each with the frame that has its answer.
 class QuestionSink : public FrameSink {
  public:
   void frame(const Frame& frame) override {
-    if (frame.find<FrameQuestion>())
-      asked.push_back({*frame.find<FrameQuestion>(), frame.step, frame.index});
+    if (const auto* question = frame.find<FrameQuestion>())
+      asked.push_back({*question, frame.step, frame.index});
   }
-  void finish(const DirectorReport&) override {}
 
+  struct Asked {
+    FrameQuestion question;
+    std::uint32_t step = 0, frame = 0;
+  };
   std::vector<Asked> asked;
 };
 
@@ -56,11 +53,11 @@ std::string needs_of(const Scenario& s, const std::map<std::string, std::string>
   return text.empty() ? "" : text + ".\n\n";
 }
 
-std::string entry_of(const Scenario& s, const std::vector<Asked>& asked,
+std::string entry_of(const Scenario& s, const std::vector<QuestionSink::Asked>& asked,
                      const std::map<std::string, std::string>& headings) {
   std::string text = fmt::format("\n## <a id=\"{1}\"></a>{0}\n\n`{1}`: {2}\n\n{3}", heading_of(s),
                                  s.name, s.idea.empty() ? s.title : s.idea, needs_of(s, headings));
-  for (const Asked& a : asked) {
+  for (const auto& a : asked) {
     const std::string& step = s.steps.at(a.step).name;
     text += fmt::format(
         "**{}**\n\n<details><summary>Answer</summary>\n\n{} Look at {}, frame {}.\n\n"
@@ -71,8 +68,6 @@ std::string entry_of(const Scenario& s, const std::vector<Asked>& asked,
   }
   return text;
 }
-
-}  // namespace
 
 int print_course(const std::vector<std::string>& files) {
   int code = kGood;
@@ -100,8 +95,6 @@ int print_course(const std::vector<std::string>& files) {
   return code;
 }
 
-namespace {
-
 struct ListOptions {
   std::vector<std::string> folders;
   bool course = false, json = false;
@@ -110,11 +103,10 @@ struct ListOptions {
 Options list_options(ListOptions& o) {
   return {{"DIR", &o.folders, "folders or files; the default is scenarios"},
           json_option(o.json),
-          {"--course",
-           &o.course,
+          {"--course", &o.course,
            "run them, and print the course as Markdown: ideas, what comes before, questions "
            "with their answers",
-           {.without = "--json"}}};
+           OptionTraits{.without = "--json"}}};
 }
 
 std::vector<std::string> row_of(const Scenario& s) {

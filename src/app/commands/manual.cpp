@@ -1,5 +1,3 @@
-#include "app/commands/manual.hpp"
-
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -7,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "app/commands/command.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "embedded/version.hpp"
@@ -172,10 +171,8 @@ struct ManualOptions {
 
 Options manual_options(ManualOptions& o) {
   return {{"COMMAND", &o.names, "the command; the default is all of Lantern"},
-          {"--dir",
-           &o.folder,
-           "write every page into this folder instead",
-           {.value = "DIR", .without = "COMMAND"}}};
+          {"--dir", &o.folder, "write every page into this folder instead",
+           OptionTraits{.value = "DIR", .without = "COMMAND"}}};
 }
 
 int write_manual(const ManualOptions& options) {

@@ -13,7 +13,6 @@
 
 #include <fmt/format.h>
 
-#include "app/answer.hpp"
 #include "app/commands/command.hpp"
 #include "app/folders/frame_folder.hpp"
 #include "app/folders/kept_files.hpp"

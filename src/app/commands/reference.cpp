@@ -7,12 +7,12 @@
 
 #include <fmt/format.h>
 
-#include "app/answer.hpp"
 #include "app/commands/command.hpp"
 #include "app/terminal.hpp"
 #include "base/counted.hpp"
 #include "base/file.hpp"
 #include "base/hash.hpp"
+#include "base/json_writer.hpp"
 #include "base/stop.hpp"
 #include "draw/page.hpp"
 #include "embedded/output_schema.hpp"
@@ -34,10 +34,8 @@ struct ReferenceOptions {
 };
 
 Options reference_options(ReferenceOptions& o) {
-  return {{"--pictures",
-           &o.pictures,
-           "draw the page's pictures into this folder instead",
-           {.value = "DIR"}},
+  return {{"--pictures", &o.pictures, "draw the page's pictures into this folder instead",
+           OptionTraits{.value = "DIR"}},
           backend_option(o.backend),
           json_option(o.json)};
 }
@@ -47,10 +45,8 @@ struct SchemaOptions {
 };
 
 Options schema_options(SchemaOptions& o) {
-  return {{"--of",
-           &o.of,
-           "scenario files, or what commands print with --json",
-           {.words = {"scenario", "output"}}}};
+  return {{"--of", &o.of, "scenario files, or what commands print with --json",
+           OptionTraits{.words = {"scenario", "output"}}}};
 }
 
 int print_schema(const SchemaOptions& o) {
@@ -71,13 +67,12 @@ Frame last_frame(const Scenario& scenario) {
   return last;
 }
 
-std::string key_of(std::string_view text) {
-  return fmt::format("{:016x}", Hash().add(text).value());
-}
-
 // What a picture is made from: the frame, and every shape that is drawn of it.
 MadeFrom made_from_all(const Frame& frame, const DrawList& list, const Theme& theme) {
-  return {key_of(to_json(frame)), key_of(to_svg(list, theme, false, kWidth, kHeight))};
+  const auto key = [](std::string_view text) {
+    return fmt::format("{:016x}", Hash().add(text).value());
+  };
+  return {key(to_json(frame)), key(to_svg(list, theme, false, kWidth, kHeight))};
 }
 
 // Is it there, as it would be made now?
@@ -88,29 +83,13 @@ bool is_right(const fs::path& path, const MadeFrom& from) {
          made_from(FileKind::png, read_file(path, kMostBytes)) == from;
 }
 
-// Draws what is not there yet, with graphics that are made when the first one is needed.
-class Painter {
- public:
-  explicit Painter(Backend backend) : backend_(backend) {}
-
-  std::string painted(const DrawList& list, const Theme& theme, const MadeFrom& from) {
-    if (!renderer_) renderer_.emplace(Context::create(backend_), kWidth, kHeight);
-    renderer_->draw(list, theme, false, image_);
-    constexpr int kPixelsPerMetre = 6299;
-    return sealed(FileKind::png, encode_png(image_, PngEffort::small, {}, kPixelsPerMetre), from);
-  }
-
- private:
-  Backend backend_;
-  std::optional<Renderer> renderer_;
-  Image image_;
-};
-
 int draw_pictures(const ReferenceOptions& options) {
   const fs::path folder = options.pictures;
   make_folder(folder);
   const Theme theme = *theme_named("light");
-  Painter painter(*backend_named(options.backend));
+  constexpr int kPixelsPerMetre = 6299;
+  std::optional<Renderer> renderer;  // made when the first picture is not there yet
+  Image image;
   std::set<std::string> names;
   std::size_t drawn = 0;
   for (const ExamplePicture& picture : example_pictures()) {
@@ -121,7 +100,11 @@ int draw_pictures(const ReferenceOptions& options) {
     const fs::path path = folder / (picture.name + ".png");
     names.insert(path.filename().string());
     if (is_right(path, from)) continue;
-    write_file(path, painter.painted(list, theme, from));
+    if (!renderer)
+      renderer.emplace(Context::create(*backend_named(options.backend)), kWidth, kHeight);
+    renderer->draw(list, theme, false, image);
+    write_file(path, sealed(FileKind::png, encode_png(image, PngEffort::small, {}, kPixelsPerMetre),
+                            from));
     ++drawn;
   }
   if (options.json)

@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "app/answer.hpp"
 #include "app/commands/command.hpp"
 #include "app/folders/kept_files.hpp"
 #include "app/folders/shard.hpp"
@@ -32,61 +31,44 @@ namespace {
 Options drawing_options(RenderOptions& o) {
   return {
       {"FILE", &o.files, kFilesHelp, {.required = true}},
-      {"-o,--output",
-       &o.output,
+      {"-o,--output", &o.output,
        "a folder, for DIR/<scenario>/<scenario>_0000.png ...; or a file, whose ending says "
        "what it becomes: .png .svg pictures, .mp4 .webm .gif .apng .webp a film, .pdf a "
        "document, .html a lesson page; {scenario}, {step} and {frame} in its name make "
        "several, of a film with {step} a clip a step; - writes one picture to standard output",
-       {.value = "PATH"}},
-      {"--sheet",
-       &o.sheet,
-       "so many frames across and down a page, with -o x.pdf or x.png",
-       {.value = "CxR"}},
+       OptionTraits{.value = "PATH"}},
+      {"--sheet", &o.sheet, "so many frames across and down a page, with -o x.pdf or x.png",
+       OptionTraits{.value = "CxR"}},
       {"--frames", &o.frames, "only these frames: 7, 3-9, 3- or -9", {.value = "A-B"}},
-      {"--at",
-       &o.at,
+      {"--at", &o.at,
        "only the frames of this event (a step's name, split, store, ...), or the first "
        "frame at or after this time in seconds",
-       {.value = "EVENT|TIME"}},
-      {"--size",
-       &o.size,
-       "pixels; the default is 1600x900, of a sheet A4 across",
-       {.value = "WxH"}},
-      {"--dpi",
-       &o.dpi,
-       "pixels to the inch: how large a PDF's page is, and a PNG on paper",
-       {.value = "N", .least = 72, .most = 1200}},
-      {"--format",
-       &o.format,
-       "file format in a folder",
-       {.words = {"png", "svg"}, .given = &o.format_given}},
-      {"--text",
-       &o.text,
-       "an SVG's letters: outlines, or text in the reader's Inter",
-       {.words = {"outlines", "text"}}},
-      {"--tween",
-       &o.tween,
+       OptionTraits{.value = "EVENT|TIME"}},
+      {"--size", &o.size, "pixels; the default is 1600x900, of a sheet A4 across",
+       OptionTraits{.value = "WxH"}},
+      {"--dpi", &o.dpi, "pixels to the inch: how large a PDF's page is, and a PNG on paper",
+       OptionTraits{.value = "N", .least = 72, .most = 1200}},
+      {"--format", &o.format, "file format in a folder",
+       OptionTraits{.words = {"png", "svg"}, .given = &o.format_given}},
+      {"--text", &o.text, "an SVG's letters: outlines, or text in the reader's Inter",
+       OptionTraits{.words = {"outlines", "text"}}},
+      {"--tween", &o.tween,
        "in-betweens after each frame but the last: <scenario>_0007_03.png is the third "
        "from frame 7 on; a film shows so many in the same time, and cuts at 0",
-       {.value = "N", .most = 0x1p53}},
-      {"--fps",
-       &o.fps,
+       OptionTraits{.value = "N", .most = 0x1p53}},
+      {"--fps", &o.fps,
        "as many in-betweens as a film of so many pictures a second has while something "
        "changes: half a second each, or the world's own time; of a film, its rate: 30, "
        "25 for a .gif",
-       {.value = "F", .least = 1, .most = 240}},
-      {"--hold",
-       &o.hold,
+       OptionTraits{.value = "F", .least = 1, .most = 240}},
+      {"--hold", &o.hold,
        "how long a film stands still where nothing moves, seconds; the default is as long "
        "as it takes to read the caption",
-       {.value = "S", .most = 3600}},
+       OptionTraits{.value = "S", .most = 3600}},
       {"--theme", &o.theme, "colours", {.words = kThemes}},
       pace_option(o.pace, "one frame per step, or one for each thing the algorithm does"),
-      {"--png",
-       &o.png,
-       "fast to write, or small",
-       {.words = {"fast", "small"}, .given = &o.png_given}},
+      {"--png", &o.png, "fast to write, or small",
+       OptionTraits{.words = {"fast", "small"}, .given = &o.png_given}},
       backend_option(o.backend),
       {"--transparent", &o.transparent, "draw no background"},
       {"--no-title", &o.no_title, "leave out the line above"},
@@ -94,10 +76,8 @@ Options drawing_options(RenderOptions& o) {
       {"--no-counters", &o.no_counters, "leave out the numbers beside the caption"},
       {"--legend", &o.legend, "say what the marks on each frame mean"},
       {"--strict", &o.strict, "turn warnings into errors (exit code 3)"},
-      {"-j,--threads",
-       &o.threads,
-       "encoding threads; the default is one per core",
-       {.value = "N", .least = 1, .most = 256}},
+      {"-j,--threads", &o.threads, "encoding threads; the default is one per core",
+       OptionTraits{.value = "N", .least = 1, .most = 256}},
   };
 }
 
@@ -111,11 +91,10 @@ Options watch_options(RenderOptions& o) {
 Options render_options(RenderOptions& o) {
   Options options = watch_options(o);
   options.insert(options.end() - 2,
-                 {"--shard",
-                  &o.shard,
+                 {"--shard", &o.shard,
                   "only the I-th of N parts, into DIR/shard-I-of-N; 'lantern merge' makes one of "
                   "them",
-                  {.value = "I/N"}});
+                  OptionTraits{.value = "I/N"}});
   return options;
 }
 
