@@ -11,7 +11,7 @@
 #include "app/interrupts.hpp"
 #include "app/progress.hpp"
 #include "app/report_folder.hpp"
-#include "app/scenario_folder.hpp"
+#include "app/run_scenario.hpp"
 #include "app/terminal.hpp"
 #include "base/check.hpp"
 #include "base/stop.hpp"

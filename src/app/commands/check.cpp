@@ -6,7 +6,6 @@
 #include "app/commands/command.hpp"
 #include "app/progress.hpp"
 #include "app/run_scenario.hpp"
-#include "app/scenario_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/clock.hpp"
 #include "base/counted.hpp"

@@ -16,7 +16,6 @@
 #include "app/output/render_job.hpp"
 #include "app/progress.hpp"
 #include "app/run_scenario.hpp"
-#include "app/scenario_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"

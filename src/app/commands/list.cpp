@@ -7,7 +7,6 @@
 
 #include "app/commands/command.hpp"
 #include "app/run_scenario.hpp"
-#include "app/scenario_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/json_writer.hpp"
 

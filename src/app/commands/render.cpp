@@ -15,7 +15,6 @@
 #include "app/output/sinks.hpp"
 #include "app/progress.hpp"
 #include "app/run_scenario.hpp"
-#include "app/scenario_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/counted.hpp"
 #include "base/file.hpp"
