@@ -12,7 +12,6 @@
 #include "app/commands/command.hpp"
 #include "app/commands/golden_sinks.hpp"
 #include "app/folders/kept_files.hpp"
-#include "app/output/destination.hpp"
 #include "app/output/render_job.hpp"
 #include "app/progress.hpp"
 #include "app/run_scenario.hpp"

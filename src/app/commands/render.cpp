@@ -10,7 +10,6 @@
 #include "app/commands/command.hpp"
 #include "app/folders/kept_files.hpp"
 #include "app/folders/shard.hpp"
-#include "app/output/destination.hpp"
 #include "app/output/render_job.hpp"
 #include "app/output/sinks.hpp"
 #include "app/progress.hpp"
@@ -165,8 +164,9 @@ int render_one(const RenderJob& job, const Destination& to, const Scenario& scen
   const RenderOptions& options = job.options;
   const Pace pace = pace_of(options.pace, scenario);
   Selection selection(options.frames, options.at, extent_of(scenario, pace).frames);
+  const Sequence sequence{job, to, scenario, pace, selection, work};
   if (to.kind() != OutputKind::folder) {
-    const auto sink = make_file_sink({job, to, scenario, pace, selection, work});
+    const auto sink = make_file_sink(sequence);
     const RunResult result = run_scenario(scenario, pace, *sink, work, selection.most());
     const int code = tell(result, options.strict);
     if (to.is_file()) tell_of(sink->made(), scenario, result.report, json);
@@ -176,7 +176,7 @@ int render_one(const RenderJob& job, const Destination& to, const Scenario& scen
   job.in_betweens.require_few(most);
   const Part& part = shard.part(index);
   if (part.is_none()) return kGood;
-  const auto sink = make_folder_sink(job, scenario, pace, selection, work, part);
+  const auto sink = make_folder_sink(sequence, part);
   const auto of_part = part.is_all() || !most ? selection.most() : std::optional(part.count(*most));
   const RunResult result =
       run_scenario(scenario, pace, *sink, work, of_part, job.in_betweens.most());

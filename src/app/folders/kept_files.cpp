@@ -16,7 +16,7 @@
 #include "app/folders/frame_folder.hpp"
 #include "app/folders/golden_list.hpp"
 #include "app/folders/shard.hpp"
-#include "app/output/destination.hpp"
+#include "app/output/render_job.hpp"
 #include "app/terminal.hpp"
 #include "base/printable.hpp"
 #include "render/renderer.hpp"

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "app/folders/kept_files.hpp"
-#include "app/output/destination.hpp"
+#include "app/output/render_job.hpp"
 #include "app/progress.hpp"
 #include "app/run_scenario.hpp"
 #include "app/terminal.hpp"

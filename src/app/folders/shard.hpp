@@ -26,8 +26,6 @@ struct Shard {
 
   std::string text() const;                                       // "2/4"
   std::filesystem::path folder_in(const std::string& out) const;  // OUT/shard-2-of-4
-  // Things that come one by one are dealt as cards are: every n-th is this shard's.
-  bool has(std::uint64_t position) const { return position % of + 1 == number; }
   bool operator==(const Shard&) const = default;
 };
 

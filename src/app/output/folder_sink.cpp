@@ -47,28 +47,26 @@ std::string atlas_facts(const Manifest& manifest, const Frame& frame, const Draw
 
 class FramesInFolder : public FolderSink {
  public:
-  FramesInFolder(const RenderJob& job, const Scenario& scenario, Pace pace, Selection& selection,
-                 Work& work, const Part& part)
-      : job_(job),
-        scenario_(scenario),
-        selection_(selection),
-        manifest_(job.manifest(scenario, pace)),
-        work_(work),
+  FramesInFolder(const Sequence& sequence, const Part& part)
+      : of_(sequence),
+        job_(of_.job),
+        manifest_(job_.manifest(of_.scenario, of_.pace)),
         part_(part),
-        walk_(job, work) {
-    made_.path = std::filesystem::path(job.options.output) / scenario.name;
+        walk_(job_, of_.work) {
+    made_.path = std::filesystem::path(job_.options.output) / of_.scenario.name;
   }
 
  private:
   void draw(const Frame& frame, const Staging& staging) override {
     all_.push_back({frame.step, frame.event, frame.time, frame.caption, frame.hash});
-    if (selection_.takes(frame)) take(frame, staging);
+    if (of_.selection.takes(frame)) take(frame, staging);
     // Of sides each has an atlas of its own, and none is the scenario's.
-    if (scenario_.atlas && scenario_.sides.empty() && frame.step + 1 == frame.steps) last_ = frame;
+    if (of_.scenario.atlas && of_.scenario.sides.empty() && frame.step + 1 == frame.steps)
+      last_ = frame;
   }
 
   void close(const DirectorReport& report) override {
-    selection_.require_some();
+    of_.selection.require_some();
     if (pipeline_) pipeline_->finish();
     if (!folder_ && !part_.is_all()) return;  // none of the frames is of this part
     list_frames();
@@ -83,7 +81,7 @@ class FramesInFolder : public FolderSink {
 
   // Only when there is a frame for it. What cannot draw it removes nothing.
   void open_folder(const Frame& frame) {
-    folder_.emplace(output_folder(job_.options), manifest_, selection_.takes_all());
+    folder_.emplace(output_folder(job_.options), manifest_, of_.selection.takes_all());
     if (job_.format == FileKind::png && !folder_->stands(frame.index, job_.format)) pipeline();
     folder_->remove_old();
     write_manifest();
@@ -125,7 +123,7 @@ class FramesInFolder : public FolderSink {
     made_.in_betweens += count;
     if (all_.size() + made_.in_betweens > InBetweens::kMostPictures)
       throw UsageError(fmt::format("{}: more than {} pictures; ask for fewer in-betweens",
-                                   scenario_.name, InBetweens::kMostPictures));
+                                   of_.scenario.name, InBetweens::kMostPictures));
     for (std::uint64_t k = 1; k <= count; ++k) {
       const std::string file = in_between_file(manifest_, index, k);
       if (folder_->stands(file)) continue;
@@ -137,8 +135,8 @@ class FramesInFolder : public FolderSink {
   void write_picture(const std::string& file, const DrawList& list, const Frame& frame,
                      const MadeFrom& from) {
     if (job_.format == FileKind::svg) {
-      write_counted(file, picture_of(job_, job_.picture, frame, list, from, work_));
-      ++work_.frames_written;
+      write_counted(file, picture_of(job_, job_.picture, frame, list, from, of_.work));
+      ++of_.work.frames_written;
     } else {
       pipeline().submit(list, texts_of(frame), {folder_->folder(), file}, from);
       written_.insert(file);
@@ -148,12 +146,12 @@ class FramesInFolder : public FolderSink {
   void write_counted(const std::string& file, const std::string& bytes) {
     write_file({folder_->folder(), file}, bytes);
     written_.insert(file);
-    work_.bytes_written += bytes.size();
+    of_.work.bytes_written += bytes.size();
   }
 
   // Made when there is something to draw.
   Pipeline& pipeline() {
-    if (!pipeline_) pipeline_ = job_.make_pipeline(work_);
+    if (!pipeline_) pipeline_ = job_.make_pipeline(of_.work);
     return *pipeline_;
   }
 
@@ -189,7 +187,7 @@ class FramesInFolder : public FolderSink {
     const std::string picture = atlas_file(manifest_.scenario, manifest_.format),
                       facts = atlas_file(manifest_.scenario, FileKind::json);
     if (!folder_->stands(picture))
-      write_counted(picture, picture_of(job_, as, frame, list, from, work_));
+      write_counted(picture, picture_of(job_, as, frame, list, from, of_.work));
     if (!folder_->stands(facts))
       write_counted(facts, sealed(FileKind::json, atlas_facts(manifest_, frame, list), from));
     made_.has_atlas = true;
@@ -200,11 +198,9 @@ class FramesInFolder : public FolderSink {
     written_.insert(kManifest);
   }
 
+  const Sequence of_;
   const RenderJob& job_;
-  const Scenario& scenario_;
-  Selection& selection_;
   Manifest manifest_;
-  Work& work_;
   Part part_;
   std::optional<FrameFolder> folder_;
   std::unique_ptr<Pipeline> pipeline_;
@@ -218,10 +214,8 @@ class FramesInFolder : public FolderSink {
 
 }  // namespace
 
-std::unique_ptr<FolderSink> make_folder_sink(const RenderJob& job, const Scenario& scenario,
-                                             Pace pace, Selection& selection, Work& work,
-                                             const Part& part) {
-  return std::make_unique<FramesInFolder>(job, scenario, pace, selection, work, part);
+std::unique_ptr<FolderSink> make_folder_sink(const Sequence& sequence, const Part& part) {
+  return std::make_unique<FramesInFolder>(sequence, part);
 }
 
 }  // namespace lantern::app

@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "app/output/destination.hpp"
 #include "app/output/render_job.hpp"
 #include "app/output/sinks.hpp"
 #include "app/output/watch.hpp"

@@ -101,26 +101,17 @@ Vec<2> paper_of(const RenderJob& job) {
   return Vec<2>(job.picture.width, job.picture.height) * (kMillimetres / job.options.dpi);
 }
 
-// Counts the frames that are chosen, and draws none: only a run can tell how many pages there are.
-class CountingSink : public FrameSink {
- public:
-  explicit CountingSink(Selection& selection) : selection_(selection) {}
-  void frame(const Frame& frame) override { chosen_ += selection_.takes(frame); }
-  void finish(const DirectorReport&) override { selection_.require_some(); }
-  std::uint64_t chosen() const { return chosen_; }
-
- private:
-  Selection& selection_;
-  std::uint64_t chosen_ = 0;
-};
-
+// Draws none of the frames: only a run can tell how many pages there are.
 std::uint64_t pages_of(const Sequence& sequence, const publish::SheetGrid& grid) {
-  const RenderOptions& options = sequence.job.options;
-  Selection selection(options.frames, options.at,
-                      extent_of(sequence.scenario, sequence.pace).frames);
-  CountingSink sink(selection);
-  run_scenario(sequence.scenario, sequence.pace, sink, sequence.work, selection.most());
-  return (sink.chosen() + grid.pictures() - 1) / grid.pictures();
+  struct CountingSink : FrameSink {
+    explicit CountingSink(const Selection& of) : selection(of) {}
+    void frame(const Frame& frame) override { chosen += selection.takes(frame); }
+    void finish(const DirectorReport&) override { selection.require_some(); }
+    Selection selection;
+    std::uint64_t chosen = 0;
+  } sink(sequence.selection);  // as it is before the run
+  run_scenario(sequence.scenario, sequence.pace, sink, sequence.work, sink.selection.most());
+  return (sink.chosen + grid.pictures() - 1) / grid.pictures();
 }
 
 // Makes pages: PNG or PDF.

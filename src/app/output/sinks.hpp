@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "app/folders/shard.hpp"
-#include "app/output/destination.hpp"
 #include "app/output/render_job.hpp"
 #include "app/run_scenario.hpp"
 #include "base/file.hpp"
@@ -52,6 +51,22 @@ class StagedSink : public FrameSink {
   std::atomic<std::uint64_t> undrawn_{0};
 };
 
+// What a sink is made for. All of it must outlive the sink.
+struct Sequence {
+  const RenderJob& job;
+  const Destination& to;
+  const Scenario& scenario;
+  Pace pace;
+  Selection& selection;
+  Work& work;
+
+  std::filesystem::path file_of(const Frame& frame) const {
+    return to.file({scenario.name, frame.step, frame.index});
+  }
+  // That `why` speaks against what stands after -o.
+  [[noreturn]] void refuse(const std::string& why) const;
+};
+
 // Frames into DIR/<scenario>/: a picture and facts each, a manifest, and the finished atlas. Each
 // chosen frame is drawn when its group is whole, unless its picture stands there already; of a part
 // only that part's, and the atlas with the last frame. The disk is left as it was until the first
@@ -72,26 +87,7 @@ class FolderSink : public StagedSink {
  protected:
   Made made_;
 };
-// All that is given to it must outlive it.
-std::unique_ptr<FolderSink> make_folder_sink(const RenderJob& job, const Scenario& scenario,
-                                             Pace pace, Selection& selection, Work& work,
-                                             const Part& part);
-
-// What a sink is made for. All of it must outlive the sink.
-struct Sequence {
-  const RenderJob& job;
-  const Destination& to;
-  const Scenario& scenario;
-  Pace pace;
-  Selection& selection;
-  Work& work;
-
-  std::filesystem::path file_of(const Frame& frame) const {
-    return to.file({scenario.name, frame.step, frame.index});
-  }
-  // That `why` speaks against what stands after -o.
-  [[noreturn]] void refuse(const std::string& why) const;
-};
+std::unique_ptr<FolderSink> make_folder_sink(const Sequence& sequence, const Part& part);
 
 // Frames into files that the user names, or onto standard output. A file has its name only when it
 // is whole: when a run fails or is interrupted, what stood there before still does. Each kind
@@ -131,9 +127,7 @@ class FileSink : public StagedSink {
 
 // The sink for this kind of output, which is no folder.
 std::unique_ptr<FileSink> make_file_sink(const Sequence& sequence);
-// Each of them in a file of its own.
-std::unique_ptr<FileSink> make_picture_sink(const Sequence& sequence);
-std::unique_ptr<FileSink> make_stdout_sink(const Sequence& sequence);
+// Of the kinds that have a file of their own.
 std::unique_ptr<FileSink> make_film_sink(const Sequence& sequence);
 std::unique_ptr<FileSink> make_document_sink(const Sequence& sequence);
 std::unique_ptr<FileSink> make_sheet_sink(const Sequence& sequence);
