@@ -10,12 +10,13 @@
 #include <fmt/format.h>
 
 #include "app/commands/command.hpp"
-#include "app/commands/golden_sinks.hpp"
+#include "app/folders/goldens.hpp"
 #include "app/folders/kept_files.hpp"
 #include "app/output/render_job.hpp"
 #include "app/progress.hpp"
 #include "app/run_scenario.hpp"
 #include "app/terminal.hpp"
+#include "base/counted.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
 #include "embedded/version.hpp"
@@ -212,8 +213,8 @@ class GoldenRun {
       suite.findings.push_back(fmt::format(
           "the golden facts are {}, those of today {}; look at the pictures, then --update",
           then.facts, now.facts));
-    GoldenComparison sink(goldens, {options_.tolerance, options_.fraction}, suite, shown_left_);
-    run_it(suite, goldens, sink);
+    const Allowance allowance{options_.tolerance, options_.fraction};
+    run_it(suite, goldens, *make_golden_comparison(goldens, allowance, suite, shown_left_));
     if (suite.first() != nullptr && then.version != now.version)
       suite.findings.push_back(fmt::format("the golden frames are of Lantern {}, this is {}",
                                            then.version, now.version));
@@ -223,9 +224,9 @@ class GoldenRun {
     if (!words.empty() && !goldens.selection.takes_all())
       throw UsageError(fmt::format("{}: the golden frames were made with{}; --update all frames",
                                    goldens.scenario.name, words));
-    GoldenUpdate sink(goldens);
-    run_it(suite, goldens, sink);
-    changes_ = sink.changes();
+    GoldenChanges changes;
+    run_it(suite, goldens, *make_golden_update(goldens, changes));
+    changes_ = std::move(changes);
     for (const auto& [what, names] :
          {std::pair{"written", changes_.written}, std::pair{"removed", changes_.removed},
           std::pair{"left alone, since it is not as Lantern made it", changes_.strange}})
@@ -296,12 +297,9 @@ class GoldenRun {
     for (const GoldenSuite& s : suites_) frames += s.cases.size();
     const auto bad = std::ranges::count_if(suites_, [](const auto& s) { return !s.good(); });
     const std::string place = report.empty() ? "" : fmt::format("; see {}", report);
-    const std::string of =
-        suites_.size() == 1 ? "1 scenario" : fmt::format("{} scenarios", suites_.size());
-    if (bad == 0)
-      say(fmt::format("{} of {} as expected{}", counted_frames(frames), of, place));
-    else
-      say(fmt::format("{} of {} not as expected{}", bad, of, place));
+    say(fmt::format("{} of {} {}as expected{}",
+                    bad == 0 ? counted_frames(frames) : fmt::format("{}", bad),
+                    counted(suites_.size(), "scenario"), bad == 0 ? "" : "not ", place));
   }
 
   const GoldenOptions& options_;
@@ -310,7 +308,7 @@ class GoldenRun {
   std::vector<std::pair<GoldenSuite, std::optional<Scenario>>> loaded_;
   std::vector<GoldenSuite> suites_;
   std::size_t shown_left_ = kMostShown;
-  GoldenUpdate::Changes changes_;  // of the scenario that was updated last
+  GoldenChanges changes_;  // of the scenario that was updated last
   Work work_;
   JsonWriter json_ = answer_of("golden");
   int code_ = kGood;

@@ -45,13 +45,14 @@ Options merge_options(MergeOptions& o) {
 
 // "shard-2-of-4", and not what somebody has written down beside it.
 bool is_named_as_a_shard(std::string_view name) {
-  constexpr std::string_view kStart = "shard-", kMiddle = "-of-", kDigits = "0123456789";
-  if (!name.starts_with(kStart)) return false;
-  name.remove_prefix(kStart.size());
-  const std::size_t middle = std::min(name.find_first_not_of(kDigits), name.size());
-  const std::string_view rest = name.substr(middle);
-  return middle > 0 && rest.starts_with(kMiddle) && rest.size() > kMiddle.size() &&
-         rest.find_first_not_of(kDigits, kMiddle.size()) == rest.npos;
+  for (const std::string_view part : {"shard-", "-of-"}) {
+    if (!name.starts_with(part)) return false;
+    name.remove_prefix(part.size());
+    const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
+    if (digits == 0) return false;
+    name.remove_prefix(digits);
+  }
+  return name.empty();
 }
 
 struct FoundShard {
@@ -59,12 +60,6 @@ struct FoundShard {
   ShardRecord record;
 
   std::string path() const { return folder.path().string(); }
-};
-
-// Two finished shards of one number, to be held against each other.
-struct Twins {
-  const FoundShard* first = nullptr;
-  const FoundShard* second = nullptr;
 };
 
 class ShardSet {
@@ -76,16 +71,21 @@ class ShardSet {
   explicit ShardSet(const std::vector<std::string>& folders) {
     for (const std::string& folder : folders) look_into(folder);
     require_one_run();
-    shards_.resize(run().shard.of);
+    shards.resize(run().shard.of);
     for (const FoundShard& one : found_) {
       if (!one.record.finished) continue;
-      const FoundShard*& place = shards_[one.record.shard.number - 1];
+      const FoundShard*& place = shards[one.record.shard.number - 1];
       if (place != nullptr)
-        twins_.push_back({place, &one});
+        twins.emplace_back(place, &one);
       else
         place = &one;
     }
   }
+
+  // By number - 1; none where it is missing or not finished. Of several equal ones the first.
+  std::vector<const FoundShard*> shards;
+  // Finished ones whose number was there before, behind that one: to be held against each other.
+  std::vector<std::pair<const FoundShard*, const FoundShard*>> twins;
 
   // A record of the run, of some shard.
   const ShardRecord& run() const { return found_.front().record; }
@@ -93,10 +93,6 @@ class ShardSet {
   bool takes_all() const {
     return run().settings.at("frames").empty() && run().settings.at("at").empty();
   }
-  // By number - 1; none where it is missing or not finished. Of several equal ones the first.
-  const std::vector<const FoundShard*>& shards() const { return shards_; }
-  // Finished ones whose number was there before, beside that one.
-  const std::vector<Twins>& twins() const { return twins_; }
 
   // For each shard that is missing or not finished a sentence that says so, and what to run.
   std::vector<std::string> missing() const {
@@ -104,8 +100,8 @@ class ShardSet {
     std::string names = inputs.front().name.text();
     if (inputs.size() > 1) names += fmt::format(" and {} more", inputs.size() - 1);
     std::vector<std::string> sentences;
-    for (std::uint32_t i = 0; i < shards_.size(); ++i) {
-      if (shards_[i] != nullptr) continue;
+    for (std::uint32_t i = 0; i < shards.size(); ++i) {
+      if (shards[i] != nullptr) continue;
       const Shard shard{i + 1, run().shard.of};
       const FoundShard* begun = any(shard);
       sentences.push_back(
@@ -178,8 +174,6 @@ class ShardSet {
   }
 
   std::vector<FoundShard> found_;
-  std::vector<const FoundShard*> shards_;
-  std::vector<Twins> twins_;
 };
 
 // A file of a shard that the whole has, too.
@@ -235,9 +229,7 @@ Manifest manifest_of(const ShardSet& set, const FoundShard& shard, const ShardIn
     if (const auto words = contradiction(m, shard.record)) throw RefusedFile(*words);
     m.in_between_digits = *in_between_digits(set.run());
     return m;
-  } catch (const IoError& e) {
-    why = e.what();
-  } catch (const RefusedFile& e) {
+  } catch (const std::runtime_error& e) {  // an IoError or a RefusedFile
     why = e.what();
   }
   refuse(set, shard,
@@ -310,7 +302,7 @@ std::string head_of(Manifest m) {
 // Nothing if no frame of it was chosen by anybody.
 std::optional<MergedSequence> gather(const ShardSet& set, std::size_t index) {
   std::optional<MergedSequence> whole;
-  for (const FoundShard* shard : set.shards()) {
+  for (const FoundShard* shard : set.shards) {
     const ShardInput& input = shard->record.inputs[index];
     if (input.here == 0) continue;
     Manifest part = manifest_of(set, *shard, input);
@@ -328,7 +320,7 @@ std::optional<MergedSequence> gather(const ShardSet& set, std::size_t index) {
   }
   // As the parts that stepped it say, none of those that were chosen is missing.
   const std::size_t frames = whole ? whole->manifest.frames.size() : 0;
-  for (const FoundShard* shard : set.shards()) {
+  for (const FoundShard* shard : set.shards) {
     const ShardInput& input = shard->record.inputs[index];
     if (input.chosen != 0 ? input.chosen == frames : frames > 0 || !set.takes_all()) continue;
     refuse(set, *shard,
@@ -339,23 +331,21 @@ std::optional<MergedSequence> gather(const ShardSet& set, std::size_t index) {
 }
 
 // Where both have a shard, they must have the same.
-void require_equal(const ShardSet& set, const Twins& twins) {
+void require_equal(const ShardSet& set, const FoundShard& a, const FoundShard& b) {
   for (std::size_t i = 0; i < set.run().inputs.size(); ++i) {
-    const ShardInput& first = twins.first->record.inputs[i];
-    const ShardInput& second = twins.second->record.inputs[i];
+    const ShardInput &first = a.record.inputs[i], &second = b.record.inputs[i];
     bool same = first.here == second.here && first.atlas == second.atlas;
     if (same && first.here > 0) {
-      const Manifest m = manifest_of(set, *twins.first, first);
-      same = to_json(m) == to_json(manifest_of(set, *twins.second, second));
-      const Folder one = folder_in_part(set, *twins.first, first.name);
-      const Folder other = folder_in_part(set, *twins.second, first.name);
-      for (const ShardFile& file : files_of(*twins.first, m, first.atlas))
+      const Manifest m = manifest_of(set, a, first);
+      same = to_json(m) == to_json(manifest_of(set, b, second));
+      const Folder one = folder_in_part(set, a, first.name);
+      const Folder other = folder_in_part(set, b, first.name);
+      for (const ShardFile& file : files_of(a, m, first.atlas))
         same = same && whole_bytes(one, file) == whole_bytes(other, file);
     }
     if (!same)
-      throw UsageError(fmt::format("'{}' and '{}' are both shard {}, but differ in '{}'",
-                                   twins.first->path(), twins.second->path(),
-                                   twins.first->record.shard.text(), first.name.text()));
+      throw UsageError(fmt::format("'{}' and '{}' are both shard {}, but differ in '{}'", a.path(),
+                                   b.path(), a.record.shard.text(), first.name.text()));
   }
 }
 
@@ -398,7 +388,7 @@ Counted write_whole(const ShardSet& set, const Folder& output, const MergedSeque
 // of that run; `json` gets members of what was done. Nothing is written before all that the shards
 // say of themselves was found right.
 int merge_frames(const ShardSet& set, const std::string& into, JsonWriter& json) {
-  for (const Twins& twins : set.twins()) require_equal(set, twins);
+  for (const auto& [first, second] : set.twins) require_equal(set, *first, *second);
   std::vector<MergedSequence> sequences;
   for (std::size_t i = 0; i < set.run().inputs.size(); ++i)
     if (auto whole = gather(set, i)) sequences.push_back(std::move(*whole));
@@ -429,8 +419,8 @@ int merge_parts(const MergeOptions& options) {
   std::vector<std::uint32_t> numbers;  // of those that are missing
   std::error_code none;
   const bool is_there = std::filesystem::is_directory(options.output, none);
-  for (std::uint32_t i = 0; i < set.shards().size(); ++i) {
-    const FoundShard* shard = set.shards()[i];
+  for (std::uint32_t i = 0; i < set.shards.size(); ++i) {
+    const FoundShard* shard = set.shards[i];
     if (shard == nullptr) numbers.push_back(i + 1);
     // The whole would stand where a part of it does.
     if (shard != nullptr && is_there && shard->folder.is(Folder(options.output)))

@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 
 #include "app/folders/frame_folder.hpp"
-#include "app/folders/golden_list.hpp"
+#include "app/folders/goldens.hpp"
 #include "app/folders/shard.hpp"
 #include "app/output/render_job.hpp"
 #include "app/terminal.hpp"
