@@ -8,7 +8,6 @@
 
 #include <fmt/format.h>
 
-#include "app/interrupts.hpp"
 #include "app/progress.hpp"
 #include "app/report_folder.hpp"
 #include "app/run_scenario.hpp"

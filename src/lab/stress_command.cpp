@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "app/interrupts.hpp"
 #include "app/progress.hpp"
 #include "app/report_folder.hpp"
 #include "app/terminal.hpp"

@@ -28,8 +28,7 @@ namespace {
 struct CompareOptions {
   std::string expected, actual;
   std::string output;  // where the difference picture goes; empty for nowhere
-  int tolerance = 0;
-  double fraction = 0;  // of the pixels that may differ
+  Allowance allowance;
   bool json = false;
 };
 
@@ -39,8 +38,8 @@ Options compare_options(CompareOptions& o) {
           {"-o,--output", &o.output,
            "where the difference picture goes (a folder when folders are compared)",
            OptionTraits{.value = "PATH"}},
-          tolerance_option(o.tolerance),
-          fraction_option(o.fraction),
+          tolerance_option(o.allowance.tolerance),
+          fraction_option(o.allowance.fraction),
           json_option(o.json)};
 }
 
@@ -92,12 +91,12 @@ Result compare_files(const fs::path& expected, const fs::path& actual, const Com
     result.finding = result.equal ? "the same facts" : finding(*compared);
   } else {
     const Image a = image_of(expected, before), b = image_of(actual, now);
-    const Comparison compared = compare(a, b, o.tolerance);
-    result.equal = passes(compared, a, {o.tolerance, o.fraction});
+    const Comparison compared = compare(a, b, o.allowance.tolerance);
+    result.equal = passes(compared, a, o.allowance);
     result.finding = finding(compared);
     if (!result.equal && picture)
-      write_file(picture(),
-                 encode_png(difference_picture(a, b, o.tolerance), PngEffort::fast, {}, 0));
+      write_file(picture(), encode_png(difference_picture(a, b, o.allowance.tolerance),
+                                       PngEffort::fast, {}, 0));
   }
   return result;
 }

@@ -227,7 +227,7 @@ Manifest manifest_of(const ShardSet& set, const FoundShard& shard, const ShardIn
     if (fmt::format("{:016x}", m.scenario_hash) != input.text)
       throw RefusedFile(fmt::format("scenario_hash is another than {}", input.text));
     if (const auto words = contradiction(m, shard.record)) throw RefusedFile(*words);
-    m.in_between_digits = *in_between_digits(set.run());
+    m.in_between_digits = in_between_digits(set.run());
     return m;
   } catch (const std::runtime_error& e) {  // an IoError or a RefusedFile
     why = e.what();

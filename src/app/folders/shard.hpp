@@ -34,22 +34,14 @@ struct Shard {
 std::optional<Shard> parse_shard(const std::string& words);
 
 // Of the frames chosen of one scenario: those that a shard draws.
-class Part {
- public:
-  Part() = default;  // all
-  static Part none() { return {0, 0}; }
-  static Part every(std::uint64_t nth, std::uint64_t first) { return {nth, first}; }
+struct Part {
+  std::uint64_t nth = 1, first = 0;  // every nth, from the first on; none if nth is 0
 
-  bool is_all() const { return nth_ == 1; }
-  bool is_none() const { return nth_ == 0; }
-  bool has(std::uint64_t position) const { return nth_ > 0 && position % nth_ == first_; }
+  bool is_all() const { return nth == 1; }
+  bool is_none() const { return nth == 0; }
+  bool has(std::uint64_t position) const { return nth > 0 && position % nth == first; }
   // Of so many.
   std::uint64_t count(std::uint64_t frames) const;
-
- private:
-  Part(std::uint64_t nth, std::uint64_t first) : nth_(nth), first_(first) {}
-
-  std::uint64_t nth_ = 1, first_ = 0;
 };
 
 // A part of each of these scenarios, of which is known at most how many frames each gives, if that
@@ -96,8 +88,8 @@ std::map<std::string, std::string> settings_told_by(const Manifest& manifest);
 // How a manifest contradicts the record's settings: "theme is \"dark\", the record says \"light\"".
 std::optional<std::string> contradiction(const Manifest& manifest, const ShardRecord& record);
 
-// How many digits the numbers of in-betweens have; nothing if the settings do not say it rightly.
-std::optional<int> in_between_digits(const ShardRecord& record);
+// How many digits the numbers of in-betweens have.
+int in_between_digits(const ShardRecord& record);
 
 // How two records of one run would differ, as "the size is 160x90 in the first, 320x180 in the
 // second"; nothing if they are parts of one run. The number of the shard, and what is in it, may

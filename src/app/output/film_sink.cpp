@@ -4,7 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "app/output/film_clock.hpp"
 #include "app/output/render_job.hpp"
 #include "app/output/sinks.hpp"
 #include "app/terminal.hpp"

@@ -31,7 +31,7 @@ class InBetweens {
   static constexpr double kChange = 0.5;
 
   InBetweens() = default;
-  // Both are asked for only of a film, which has a clock of its own (app/output/film_clock.hpp).
+  // Both are asked for only of a film, which has a clock of its own (app/output/sinks.hpp).
   InBetweens(std::optional<std::uint64_t> tween, std::optional<double> fps);
 
   bool wanted() const { return number_ > 0; }
