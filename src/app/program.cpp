@@ -3,10 +3,7 @@
 #include <cerrno>
 #include <csignal>
 #include <ctime>
-#include <filesystem>
 #include <new>
-#include <string>
-#include <utility>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -18,7 +15,6 @@
 #include "app/progress.hpp"
 #include "app/run_scenario.hpp"
 #include "app/terminal.hpp"
-#include "base/file.hpp"
 #include "base/memory.hpp"
 #include "base/printable.hpp"
 #include "base/stop.hpp"

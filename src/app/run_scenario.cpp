@@ -1,15 +1,10 @@
 #include "app/run_scenario.hpp"
 
 #include <algorithm>
-#include <cstddef>
 #include <cstdlib>
-#include <filesystem>
 #include <iterator>
 #include <limits>
 #include <sstream>
-#include <string>
-#include <string_view>
-#include <utility>
 
 #include <fmt/format.h>
 

@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstdlib>
 #include <mutex>
-#include <optional>
-#include <utility>
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -1,9 +1,6 @@
 // The module build/lantern_lab.so: what the program asks of it.
 #include "app/lab.hpp"
 
-#include <memory>
-#include <string>
-#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>

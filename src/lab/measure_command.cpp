@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
-#include <span>
 
 #include <fmt/format.h>
 
@@ -10,7 +8,6 @@
 #include "app/report_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/counted.hpp"
-#include "base/file.hpp"
 #include "base/json_writer.hpp"
 #include "base/stop.hpp"
 #include "base/suggest.hpp"

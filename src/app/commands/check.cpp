@@ -7,10 +7,8 @@
 #include "app/progress.hpp"
 #include "app/run_scenario.hpp"
 #include "app/terminal.hpp"
-#include "base/clock.hpp"
 #include "base/counted.hpp"
 #include "base/grouped.hpp"
-#include "base/json_writer.hpp"
 #include "base/memory.hpp"
 #include "run/tally.hpp"
 

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <sstream>
 #include <type_traits>
-#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,14 +1,7 @@
 #include "render/compare.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <functional>
 #include <set>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -17,7 +10,6 @@
 #include "app/output/sinks.hpp"
 #include "app/terminal.hpp"
 #include "base/counted.hpp"
-#include "base/file.hpp"
 #include "base/json_writer.hpp"
 #include "render/png.hpp"
 #include "render/seal.hpp"

@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <iterator>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 

@@ -1,27 +1,15 @@
 #include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <map>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "app/commands/command.hpp"
 #include "app/folders/goldens.hpp"
 #include "app/folders/kept_files.hpp"
-#include "app/output/render_job.hpp"
 #include "app/progress.hpp"
-#include "app/run_scenario.hpp"
 #include "app/terminal.hpp"
 #include "base/counted.hpp"
-#include "base/file.hpp"
 #include "base/json_writer.hpp"
 #include "embedded/version.hpp"
-#include "language/scenario.hpp"
-#include "publish/golden_report.hpp"
 
 namespace lantern::app {
 namespace {

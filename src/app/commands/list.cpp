@@ -1,9 +1,7 @@
 // What there is: `list`, the scenarios and the course that they make, and `doctor`, what they can
 // be drawn and measured with.
 #include <algorithm>
-#include <cstdint>
 #include <map>
-#include <optional>
 
 #include <fmt/format.h>
 
@@ -12,7 +10,6 @@
 #include "app/run_scenario.hpp"
 #include "app/terminal.hpp"
 #include "base/child.hpp"
-#include "base/json_writer.hpp"
 #include "base/printable.hpp"
 #include "embedded/version.hpp"
 #include "render/context.hpp"

@@ -1,26 +1,15 @@
 // `merge`: the shards that folders hold, whether they are parts of one run, and their frames as one
 // run's folder.
 #include <algorithm>
-#include <filesystem>
-#include <optional>
-#include <set>
-#include <stdexcept>
-#include <string>
-#include <string_view>
 #include <system_error>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "app/commands/command.hpp"
-#include "app/folders/frame_folder.hpp"
 #include "app/folders/kept_files.hpp"
 #include "app/folders/shard.hpp"
 #include "app/terminal.hpp"
 #include "base/counted.hpp"
-#include "base/error.hpp"
-#include "base/file.hpp"
 #include "base/json_writer.hpp"
 #include "base/stop.hpp"
 #include "embedded/version.hpp"

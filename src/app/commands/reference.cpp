@@ -1,8 +1,6 @@
 // The reference page, its pictures, and the schemas.
 #include "language/reference.hpp"
 
-#include <filesystem>
-#include <optional>
 #include <set>
 
 #include <fmt/format.h>

@@ -1,25 +1,15 @@
 #include <algorithm>
-#include <memory>
-#include <optional>
-#include <set>
-#include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "app/commands/command.hpp"
 #include "app/folders/kept_files.hpp"
-#include "app/folders/shard.hpp"
-#include "app/output/render_job.hpp"
 #include "app/output/sinks.hpp"
 #include "app/progress.hpp"
-#include "app/run_scenario.hpp"
 #include "app/terminal.hpp"
 #include "base/counted.hpp"
-#include "base/file.hpp"
 #include "base/json_writer.hpp"
 #include "base/stop.hpp"
-#include "draw/page.hpp"
 #include "publish/lesson.hpp"
 
 namespace lantern::app {

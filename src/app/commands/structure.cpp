@@ -1,7 +1,6 @@
 // `structure`: the structures that this program knows, whether they find what brute force finds,
 // and how soon, beside each other.
 #include <algorithm>
-#include <filesystem>
 
 #include <fmt/format.h>
 
@@ -10,7 +9,6 @@
 #include "app/report_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/counted.hpp"
-#include "base/file.hpp"
 #include "base/json_writer.hpp"
 #include "base/suggest.hpp"
 #include "spatial/structure_bench.hpp"

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 
 #include <fmt/format.h>
 
 #include "app/folders/kept_files.hpp"
 #include "app/output/render_job.hpp"
-#include "app/terminal.hpp"
 #include "base/error.hpp"
 #include "base/hash.hpp"
 #include "base/json_writer.hpp"

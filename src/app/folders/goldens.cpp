@@ -1,10 +1,7 @@
 #include "app/folders/goldens.hpp"
 
 #include <algorithm>
-#include <array>
 #include <sstream>
-#include <string_view>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -15,9 +12,7 @@
 #include "base/printable.hpp"
 #include "draw/theme.hpp"
 #include "embedded/version.hpp"
-#include "render/png.hpp"
 #include "render/renderer.hpp"
-#include "render/seal.hpp"
 
 namespace lantern::app {
 

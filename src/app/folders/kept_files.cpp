@@ -6,17 +6,11 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
 
 #include <fmt/format.h>
 
-#include "app/folders/frame_folder.hpp"
 #include "app/folders/goldens.hpp"
 #include "app/folders/shard.hpp"
-#include "app/output/render_job.hpp"
 #include "app/terminal.hpp"
 #include "base/printable.hpp"
 #include "render/renderer.hpp"

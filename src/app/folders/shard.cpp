@@ -2,20 +2,13 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
-#include <set>
-#include <string_view>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "app/folders/kept_files.hpp"
-#include "app/output/render_job.hpp"
 #include "app/progress.hpp"
 #include "app/run_scenario.hpp"
 #include "app/terminal.hpp"
-#include "base/file.hpp"
-#include "base/json_writer.hpp"
 #include "base/number.hpp"
 #include "base/printable.hpp"
 #include "draw/theme.hpp"

@@ -1,14 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include <fmt/format.h>
 
-#include "app/output/render_job.hpp"
 #include "app/output/sinks.hpp"
 #include "app/terminal.hpp"
-#include "base/error.hpp"
-#include "base/file.hpp"
 #include "base/utf8.hpp"
 #include "publish/film.hpp"
 #include "render/renderer.hpp"

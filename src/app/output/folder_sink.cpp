@@ -1,17 +1,10 @@
-#include <algorithm>
-#include <memory>
-#include <optional>
 #include <set>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "app/output/sinks.hpp"
 #include "app/terminal.hpp"
 #include "atlas/atlas.hpp"
-#include "base/file.hpp"
 #include "base/json_writer.hpp"
 #include "draw/page.hpp"
 

@@ -1,20 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include "app/output/render_job.hpp"
 #include "app/output/sinks.hpp"
 #include "app/output/watch.hpp"
 #include "app/progress.hpp"
 #include "app/terminal.hpp"
-#include "base/file.hpp"
 #include "base/grouped.hpp"
 #include "base/memory.hpp"
 #include "draw/page.hpp"

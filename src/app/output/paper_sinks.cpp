@@ -1,19 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "app/output/sinks.hpp"
 #include "app/progress.hpp"
 #include "app/terminal.hpp"
-#include "base/error.hpp"
 #include "base/memory.hpp"
 #include "draw/page.hpp"
 #include "embedded/version.hpp"

@@ -1,22 +1,14 @@
 #include "app/output/render_job.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <functional>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <thread>
 #include <tuple>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "app/run_scenario.hpp"
-#include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/grouped.hpp"
 #include "base/hash.hpp"
@@ -24,7 +16,6 @@
 #include "base/stop.hpp"
 #include "base/suggest.hpp"
 #include "draw/page.hpp"
-#include "draw/tween.hpp"
 #include "embedded/version.hpp"
 #include "render/svg.hpp"
 #include "spatial/structure_kind.hpp"

@@ -1,14 +1,11 @@
 #include "app/output/sinks.hpp"
 
-#include <map>
 #include <set>
-#include <string>
 
 #include <fmt/format.h>
 
 #include "app/folders/kept_files.hpp"
 #include "app/terminal.hpp"
-#include "base/file.hpp"
 #include "base/stop.hpp"
 #include "draw/axis_ranges.hpp"
 #include "render/pipeline.hpp"

@@ -1,22 +1,15 @@
 #include "app/output/watch.hpp"
 
 #include <chrono>
-#include <exception>
-#include <filesystem>
-#include <optional>
-#include <string>
 #include <system_error>
 #include <thread>
-#include <vector>
 
 #include <fmt/format.h>
 #include <sys/stat.h>
 
 #include "app/commands/command.hpp"
 #include "app/output/render_job.hpp"
-#include "app/terminal.hpp"
 #include "base/error.hpp"
-#include "base/file.hpp"
 #include "base/hash.hpp"
 #include "base/json_writer.hpp"
 #include "base/stop.hpp"
