@@ -20,6 +20,7 @@ namespace lantern::app {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::json;
 
 struct Kept {
   const char* list;         // the file that says so
@@ -63,14 +64,14 @@ std::string lower_ending(const fs::path& file) {
   return ending;
 }
 
-// As a report's tables and pages are.
-bool is_some_page(const fs::path& file) {
-  constexpr std::string_view kTables[] = {".csv", ".html", ".svg", ".png"};
-  return std::ranges::find(kTables, lower_ending(file)) != std::end(kTables);
-}
-
 [[noreturn]] void refuse(const fs::path& file, std::string_view what) {
   throw UsageError(fmt::format("'{}' is {}; name another file", file.string(), what));
+}
+
+// Lantern's own are less deep; the rest is read, and dropped.
+bool is_near(int depth, Json::parse_event_t, const Json&) {
+  constexpr int kDeepest = 8;
+  return depth <= kDeepest;
 }
 
 }  // namespace
@@ -109,21 +110,11 @@ void require_free(const fs::path& file) {
   for (const Kept& kept : kKept)
     if (is_some_frame(name.string()) && may_be(standing(folder, kept)))
       refuse(file, fmt::format("called as one of {} there", kept.words));
-  if (is_some_page(name) && folder.has(kMeasurement) && folder.has(name.string()))
+  constexpr std::string_view kTables[] = {".csv", ".html", ".svg", ".png"};
+  const bool is_some_page = std::ranges::find(kTables, lower_ending(name)) != std::end(kTables);
+  if (is_some_page && folder.has(kMeasurement) && folder.has(name.string()))
     refuse(file, "one of the tables and pages of a measurement there");
 }
-
-using Json = nlohmann::json;
-
-namespace {
-
-// Lantern's own are less deep; the rest is read, and dropped.
-bool is_near(int depth, Json::parse_event_t, const Json&) {
-  constexpr int kDeepest = 8;
-  return depth <= kDeepest;
-}
-
-}  // namespace
 
 JsonMembers::JsonMembers(std::string_view text)
     : json_(std::make_shared<const Json>(Json::parse(text.begin(), text.end(), is_near, false))) {

@@ -128,6 +128,29 @@ void require_possible(const JsonMembers& settings) {
       settings.refuse(name.c_str(), "there is no such setting");
 }
 
+// How many frames of each are chosen, at most; nothing where only the run can tell.
+std::vector<std::optional<std::uint64_t>> chosen_frames(const RenderOptions& options,
+                                                        const std::vector<Scenario>& scenarios) {
+  std::vector<std::optional<std::uint64_t>> frames;
+  for (const Scenario& scenario : scenarios) {
+    const auto extent = extent_of(scenario, pace_of(options.pace, scenario)).frames;
+    const Selection selection(options.frames, options.at, extent);
+    frames.push_back(selection.most() ? selection.most() : extent);
+  }
+  return frames;
+}
+
+// What the folder of one run would depend on: as its manifest says it, and the choice of frames.
+std::map<std::string, std::string> settings_of(const RenderJob& job, const Scenario& scenario) {
+  const Manifest m = job.manifest(scenario, pace_of(job.options.pace, scenario));
+  std::map<std::string, std::string> settings = settings_told_by(m);
+  settings["frames"] = job.options.frames;
+  settings["at"] = job.options.at;
+  settings["pace"] = job.options.pace;
+  settings["tween digits"] = std::to_string(m.in_between_digits);
+  return settings;
+}
+
 }  // namespace
 
 ShardRecord new_record(const Shard& shard) {
@@ -227,33 +250,6 @@ std::optional<std::string> difference(const ShardRecord& a, const ShardRecord& b
       return differs("the setting '" + name + "'", setting(a, name), setting(b, name));
   return difference_of_inputs(a, b);
 }
-
-namespace {
-
-// How many frames of each are chosen, at most; nothing where only the run can tell.
-std::vector<std::optional<std::uint64_t>> chosen_frames(const RenderOptions& options,
-                                                        const std::vector<Scenario>& scenarios) {
-  std::vector<std::optional<std::uint64_t>> frames;
-  for (const Scenario& scenario : scenarios) {
-    const auto extent = extent_of(scenario, pace_of(options.pace, scenario)).frames;
-    const Selection selection(options.frames, options.at, extent);
-    frames.push_back(selection.most() ? selection.most() : extent);
-  }
-  return frames;
-}
-
-// What the folder of one run would depend on: as its manifest says it, and the choice of frames.
-std::map<std::string, std::string> settings_of(const RenderJob& job, const Scenario& scenario) {
-  const Manifest m = job.manifest(scenario, pace_of(job.options.pace, scenario));
-  std::map<std::string, std::string> settings = settings_told_by(m);
-  settings["frames"] = job.options.frames;
-  settings["at"] = job.options.at;
-  settings["pace"] = job.options.pace;
-  settings["tween digits"] = std::to_string(m.in_between_digits);
-  return settings;
-}
-
-}  // namespace
 
 RenderOptions options_of_shard(const RenderOptions& options) {
   const auto shard = parse_shard(options.shard);

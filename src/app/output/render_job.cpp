@@ -29,6 +29,81 @@ std::uint64_t within(double seconds, double fps) {
   return static_cast<std::uint64_t>(std::max(0.0, std::floor(seconds * fps + 0.5) - 1));
 }
 
+constexpr const char* kUsualSize = "1600x900";
+constexpr int kUsualDots = 160;  // to the inch: a frame of 1600 pixels is 10 inches wide on paper
+
+// The ids of two files differ unless they show the same frame in the same way. A new version of
+// Lantern changes none of them, so that files can be compared.
+SvgWords svg_words(const RenderJob& job, const Frame& frame, const MadeFrom& from) {
+  const std::uint64_t key = Hash().add(frame.scenario).add(from.picture).value();
+  return {frame.title, frame.caption, fmt::format("l{:08x}-", key >> 32),
+          job.options.text == "text"};
+}
+
+// What a structure that this program was given says depends on its code, which is no part of
+// Lantern's sources.
+std::uint64_t program_hash() {
+  constexpr std::size_t kMostBytes = std::size_t{1} << 31;
+  static const std::uint64_t hash =
+      std::hash<std::string>()(read_file("/proc/self/exe", kMostBytes));
+  return hash;
+}
+
+namespace fs = std::filesystem;
+
+struct Ending {
+  std::string_view name;
+  OutputKind kind;
+};
+constexpr std::array kEndings = {
+    Ending{"png", OutputKind::picture},  Ending{"svg", OutputKind::picture},
+    Ending{"pdf", OutputKind::document}, Ending{"html", OutputKind::page},
+    Ending{"mp4", OutputKind::film},     Ending{"webm", OutputKind::film},
+    Ending{"gif", OutputKind::film},     Ending{"apng", OutputKind::film},
+    Ending{"webp", OutputKind::film},
+};
+constexpr std::array<std::string_view, 3> kPlaceholders = {"scenario", "step", "frame"};
+
+// "mp4" of "talk.mp4"; empty where a folder is meant: no ending, or a folder that stands there.
+std::string ending_of(const std::string& words) {
+  std::error_code error;
+  std::string ending = fs::path(words).extension().string();
+  if (ending.size() < 2 || fs::is_directory(words, error)) return {};
+  ending.erase(0, 1);
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
+  return ending;
+}
+
+OutputKind kind_of(const std::string& words, const std::string& ending) {
+  if (words == "-") return OutputKind::standard_output;
+  if (ending.empty()) return OutputKind::folder;
+  std::vector<std::string_view> names;
+  for (const Ending& e : kEndings) {
+    if (e.name == ending) return e.kind;
+    names.push_back(e.name);
+  }
+  throw UsageError(with_suggestion(
+      fmt::format("-o {}: there is no output '.{}', and a folder's name that has a dot ends with /",
+                  words, ending),
+      ending, names, names.size()));
+}
+
+// f(text) for what stands between placeholders, g(name) for each of them.
+template <class F, class G>
+void for_each_part(std::string_view words, const F& f, const G& g) {
+  for (std::size_t at = 0; at < words.size();) {
+    const std::size_t open = std::min(words.find('{', at), words.size());
+    f(words.substr(at, open - at));
+    if (open == words.size()) return;
+    const std::size_t close = words.find('}', open);
+    if (close == std::string_view::npos)
+      throw UsageError(fmt::format("-o {}: a {{ without its }}", words));
+    g(words.substr(open + 1, close - open - 1));
+    at = close + 1;
+  }
+}
+
 }  // namespace
 
 InBetweens::InBetweens(std::optional<std::uint64_t> tween, std::optional<double> fps) {
@@ -67,21 +142,6 @@ void InBetweens::require_few(std::optional<std::uint64_t> frames) const {
                   number_, known, number_, lantern::grouped(kMostPictures, " ")));
 }
 
-namespace {
-
-constexpr const char* kUsualSize = "1600x900";
-constexpr int kUsualDots = 160;  // to the inch: a frame of 1600 pixels is 10 inches wide on paper
-
-// The ids of two files differ unless they show the same frame in the same way. A new version of
-// Lantern changes none of them, so that files can be compared.
-SvgWords svg_words(const RenderJob& job, const Frame& frame, const MadeFrom& from) {
-  const std::uint64_t key = Hash().add(frame.scenario).add(from.picture).value();
-  return {frame.title, frame.caption, fmt::format("l{:08x}-", key >> 32),
-          job.options.text == "text"};
-}
-
-}  // namespace
-
 RenderJob::RenderJob(const RenderOptions& o)
     : options(o),
       backend(*backend_named(o.backend)),
@@ -118,19 +178,6 @@ DrawList RenderJob::page_of(const Frame& frame, const Staging& staging, Work& wo
   switched.display = display;
   return draw_frame(switched, staging, page, work);
 }
-
-namespace {
-
-// What a structure that this program was given says depends on its code, which is no part of
-// Lantern's sources.
-std::uint64_t program_hash() {
-  constexpr std::size_t kMostBytes = std::size_t{1} << 31;
-  static const std::uint64_t hash =
-      std::hash<std::string>()(read_file("/proc/self/exe", kMostBytes));
-  return hash;
-}
-
-}  // namespace
 
 Manifest RenderJob::manifest(const Scenario& scenario, Pace pace) const {
   Manifest m(name_of(scenario));
@@ -208,65 +255,6 @@ DrawList FrameWalk::in_between(double t) {
   ++work_.in_betweens;
   return between(page_before(), page(), t, InBetweens::motion(before_->frame, here_->frame));
 }
-
-namespace {
-
-namespace fs = std::filesystem;
-
-struct Ending {
-  std::string_view name;
-  OutputKind kind;
-};
-constexpr std::array kEndings = {
-    Ending{"png", OutputKind::picture},  Ending{"svg", OutputKind::picture},
-    Ending{"pdf", OutputKind::document}, Ending{"html", OutputKind::page},
-    Ending{"mp4", OutputKind::film},     Ending{"webm", OutputKind::film},
-    Ending{"gif", OutputKind::film},     Ending{"apng", OutputKind::film},
-    Ending{"webp", OutputKind::film},
-};
-constexpr std::array<std::string_view, 3> kPlaceholders = {"scenario", "step", "frame"};
-
-// "mp4" of "talk.mp4"; empty where a folder is meant: no ending, or a folder that stands there.
-std::string ending_of(const std::string& words) {
-  std::error_code error;
-  std::string ending = fs::path(words).extension().string();
-  if (ending.size() < 2 || fs::is_directory(words, error)) return {};
-  ending.erase(0, 1);
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; });
-  return ending;
-}
-
-OutputKind kind_of(const std::string& words, const std::string& ending) {
-  if (words == "-") return OutputKind::standard_output;
-  if (ending.empty()) return OutputKind::folder;
-  std::vector<std::string_view> names;
-  for (const Ending& e : kEndings) {
-    if (e.name == ending) return e.kind;
-    names.push_back(e.name);
-  }
-  throw UsageError(with_suggestion(
-      fmt::format("-o {}: there is no output '.{}', and a folder's name that has a dot ends with /",
-                  words, ending),
-      ending, names, names.size()));
-}
-
-// f(text) for what stands between placeholders, g(name) for each of them.
-template <class F, class G>
-void for_each_part(std::string_view words, const F& f, const G& g) {
-  for (std::size_t at = 0; at < words.size();) {
-    const std::size_t open = std::min(words.find('{', at), words.size());
-    f(words.substr(at, open - at));
-    if (open == words.size()) return;
-    const std::size_t close = words.find('}', open);
-    if (close == std::string_view::npos)
-      throw UsageError(fmt::format("-o {}: a {{ without its }}", words));
-    g(words.substr(open + 1, close - open - 1));
-    at = close + 1;
-  }
-}
-
-}  // namespace
 
 Destination::Destination(const std::string& words, bool sheet)
     : words_(words), ending_(words == "-" ? "" : ending_of(words)), kind_(kind_of(words, ending_)) {

@@ -18,55 +18,14 @@ namespace lantern::app {
 
 namespace fs = std::filesystem;
 
-WatchedFiles::WatchedFiles(const std::vector<std::string>& files) {
-  for (const std::string& file : files) {
-    const Stamp stamp = stamp_of(file);
-    files_.push_back({file, stamp, std::nullopt, hash_of(file).value_or(0)});
-  }
-}
+namespace {
 
-WatchedFiles::Stamp WatchedFiles::stamp_of(const std::string& file) {
-  struct stat found {};
-  std::error_code error;
-  const auto written = fs::last_write_time(file, error);
-  if (error || ::stat(file.c_str(), &found) != 0) return std::nullopt;
-  return std::tuple(written, static_cast<std::uintmax_t>(found.st_size),
-                    static_cast<std::uint64_t>(found.st_ino));
-}
-
-std::optional<std::uint64_t> WatchedFiles::hash_of(const std::string& file) try {
+std::optional<std::uint64_t> hash_of(const std::string& file) try {
   constexpr std::size_t kMostBytes = std::size_t{1} << 28;
   return Hash().add(read_file(file, kMostBytes)).value();
 } catch (const IoError&) {
   return std::nullopt;
 }
-
-// A stamp that has rested is older than a clock tick, so that whatever is written later has
-// another.
-std::vector<std::string> WatchedFiles::changed() {
-  std::vector<std::string> changed;
-  gone_.clear();
-  back_.clear();
-  for (Watched& one : files_) {
-    const Stamp now = stamp_of(one.file);
-    const bool rests = now == one.looked_at;
-    one.looked_at = now;
-    if (rests && one.is_gone != !now) {
-      one.is_gone = !now;
-      (now ? back_ : gone_).push_back(one.file);
-    }
-    if (!now || !rests || now == one.told) continue;
-    const auto hash = hash_of(one.file);
-    if (!hash) continue;
-    one.told = now;
-    if (*hash == one.hash) continue;
-    one.hash = *hash;
-    changed.push_back(one.file);
-  }
-  return changed;
-}
-
-namespace {
 
 constexpr const char* kScript = R"(<script>
 (() => {{
@@ -113,7 +72,62 @@ std::string script_string(std::string_view text) {
   return quoted;
 }
 
+constexpr auto kLook = std::chrono::milliseconds(25);  // a signal is heard as soon
+
+// What is wrong with a scenario, or with what was asked of it, may be mended by the next save: it
+// is said, and the watch goes on. A machine without graphics will not be.
+void render_and_tell(const RenderOptions& options) {
+  try {
+    draw_scenarios(options);
+  } catch (const UsageError& e) {
+    complain(e.what());
+  } catch (const IoError& e) {
+    complain(e.what());
+  }
+}
+
 }  // namespace
+
+WatchedFiles::WatchedFiles(const std::vector<std::string>& files) {
+  for (const std::string& file : files) {
+    const Stamp stamp = stamp_of(file);
+    files_.push_back({file, stamp, std::nullopt, hash_of(file).value_or(0)});
+  }
+}
+
+WatchedFiles::Stamp WatchedFiles::stamp_of(const std::string& file) {
+  struct stat found {};
+  std::error_code error;
+  const auto written = fs::last_write_time(file, error);
+  if (error || ::stat(file.c_str(), &found) != 0) return std::nullopt;
+  return std::tuple(written, static_cast<std::uintmax_t>(found.st_size),
+                    static_cast<std::uint64_t>(found.st_ino));
+}
+
+// A stamp that has rested is older than a clock tick, so that whatever is written later has
+// another.
+std::vector<std::string> WatchedFiles::changed() {
+  std::vector<std::string> changed;
+  gone_.clear();
+  back_.clear();
+  for (Watched& one : files_) {
+    const Stamp now = stamp_of(one.file);
+    const bool rests = now == one.looked_at;
+    one.looked_at = now;
+    if (rests && one.is_gone != !now) {
+      one.is_gone = !now;
+      (now ? back_ : gone_).push_back(one.file);
+    }
+    if (!now || !rests || now == one.told) continue;
+    const auto hash = hash_of(one.file);
+    if (!hash) continue;
+    one.told = now;
+    if (*hash == one.hash) continue;
+    one.hash = *hash;
+    changed.push_back(one.file);
+  }
+  return changed;
+}
 
 std::string reload_script(const std::filesystem::path& page) {
   return fmt::format(kScript, script_string(version_file(page.filename().string())));
@@ -152,24 +166,6 @@ void forget_versions() noexcept {
     }
   written().clear();
 }
-
-namespace {
-
-constexpr auto kLook = std::chrono::milliseconds(25);  // a signal is heard as soon
-
-// What is wrong with a scenario, or with what was asked of it, may be mended by the next save: it
-// is said, and the watch goes on. A machine without graphics will not be.
-void render_and_tell(const RenderOptions& options) {
-  try {
-    draw_scenarios(options);
-  } catch (const UsageError& e) {
-    complain(e.what());
-  } catch (const IoError& e) {
-    complain(e.what());
-  }
-}
-
-}  // namespace
 
 int watch_scenarios(const RenderOptions& asked) {
   RenderOptions options = asked;
