@@ -181,7 +181,7 @@ int run_program(int argc, char** argv, std::vector<OwnKind> own, std::vector<Own
   keep_freed_memory();
   catch_interrupts();
   const int code = run_and_report([&] {
-    remember_command_line(argc, argv);
+    if (argc > 1) command_line_words().assign(argv + 1, argv + argc);
     try {
       know_own_structures(std::move(own));
       for (OwnPanel& panel : panels) {

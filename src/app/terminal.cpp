@@ -32,6 +32,17 @@ bool is_set(const char* variable) {
   return value != nullptr && *value != '\0';
 }
 
+// Do messages have colour? Told nothing: not if NO_COLOR is set, surely if CLICOLOR_FORCE is set to
+// anything but 0, and otherwise if standard error is a terminal. See no-color.org and
+// bixense.com/clicolors; an empty variable counts as none.
+bool colourful() {
+  if (colour != ColourMode::automatic) return colour == ColourMode::always;
+  if (is_set("NO_COLOR")) return false;
+  if (is_set("CLICOLOR_FORCE") && std::string_view(std::getenv("CLICOLOR_FORCE")) != "0")
+    return true;
+  return animated();
+}
+
 void keep(const Diagnostic& diagnostic) noexcept try {
   const std::lock_guard guard(writing);
   if (keeps) kept.push_back(diagnostic);
@@ -77,14 +88,6 @@ void be_quiet() noexcept { quiet = true; }
 bool is_quiet() noexcept { return quiet; }
 
 void set_colour(ColourMode mode) noexcept { colour = mode; }
-
-bool colourful() {
-  if (colour != ColourMode::automatic) return colour == ColourMode::always;
-  if (is_set("NO_COLOR")) return false;
-  if (is_set("CLICOLOR_FORCE") && std::string_view(std::getenv("CLICOLOR_FORCE")) != "0")
-    return true;
-  return animated();
-}
 
 void say(std::string_view message) noexcept {
   if (!quiet) write_line([&] { return printable(message); });

@@ -25,10 +25,6 @@ bool is_quiet() noexcept;
 enum class ColourMode { automatic, always, never };
 void set_colour(ColourMode mode) noexcept;
 
-// Do messages have colour? Told nothing: not if NO_COLOR is set, surely if CLICOLOR_FORCE is set to
-// anything but 0, and otherwise if standard error is a terminal. See no-color.org and
-// bixense.com/clicolors; an empty variable counts as none.
-bool colourful();
 // Standard error is a terminal that a person looks at: progress is drawn in place.
 bool animated();
 

@@ -1,5 +1,7 @@
 // `check` and `explain`: runs of scenarios of which nothing is drawn.
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -33,10 +35,8 @@ struct Verdict {
   std::string file;
   std::string name;  // empty if it could not be read
   int code = kGood;
-  DirectorReport report;
+  RunResult result;
   std::vector<Diagnostic> problems;
-  std::vector<Diagnostic> warnings;
-  std::vector<std::string> facts;
 };
 
 // Runs one scenario; what is wrong with it goes to standard error.
@@ -47,13 +47,12 @@ Verdict check_one(const std::string& file, const CheckOptions& options, Work& wo
     const Scenario scenario = load_scenario(scenario_file(file));
     verdict.name = scenario.name;
     FrameSink nobody;
-    const RunResult result = run_scenario(scenario, pace_of(options.pace, scenario), nobody, work);
-    verdict.code = tell(result, options.strict);
-    verdict.report = result.report;
-    verdict.facts = result.facts;
-    verdict.problems = unmet_of(result);
-    auto& list = options.strict ? verdict.problems : verdict.warnings;
-    list.insert(list.end(), result.warnings.begin(), result.warnings.end());
+    verdict.result = run_scenario(scenario, pace_of(options.pace, scenario), nobody, work);
+    verdict.code = tell(verdict.result, options.strict);
+    verdict.problems = unmet_of(verdict.result);
+    if (options.strict)
+      std::ranges::move(std::exchange(verdict.result.warnings, {}),
+                        std::back_inserter(verdict.problems));
   } catch (const ScenarioError& e) {
     verdict.code = exit_code_of(e);
     complain(e);
@@ -80,20 +79,21 @@ void write(JsonWriter& json, const Verdict& v) {
   json.line().begin_object().member("file", v.file).key("name");
   v.name.empty() ? json.null() : json.value(v.name);
   json.member("good", v.code == kGood);
-  json.member("frames", v.report.frames).member("expectations", v.report.expectations);
+  json.member("frames", v.result.report.frames)
+      .member("expectations", v.result.report.expectations);
   write(json, "problems", v.problems);
-  write(json, "warnings", v.warnings);
-  json.member("facts", v.facts).end_object();
+  write(json, "warnings", v.result.warnings);
+  json.member("facts", v.result.facts).end_object();
 }
 
 // "x.toml: good; 8 frames, 1 expectation holds; 2 warnings"
 std::string summary_of(const Verdict& v) {
-  const std::uint64_t expectations = v.report.expectations;
+  const std::uint64_t expectations = v.result.report.expectations;
   std::string text =
-      fmt::format("{}: good; {}, {} {}", v.file, counted(v.report.frames, "frame"),
+      fmt::format("{}: good; {}, {} {}", v.file, counted(v.result.report.frames, "frame"),
                   counted(expectations, "expectation"), expectations == 1 ? "holds" : "hold");
-  for (const std::string& fact : v.facts) text += "; " + fact;
-  if (!v.warnings.empty()) text += "; " + counted(v.warnings.size(), "warning");
+  for (const std::string& fact : v.result.facts) text += "; " + fact;
+  if (!v.result.warnings.empty()) text += "; " + counted(v.result.warnings.size(), "warning");
   return text;
 }
 

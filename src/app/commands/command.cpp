@@ -114,11 +114,6 @@ std::string for_a_shell(const std::string& word) {
   return quoted + "'";
 }
 
-Words& remembered_words() {
-  static Words words;
-  return words;
-}
-
 }  // namespace
 
 Option json_option(bool& json) { return {"--json", &json, "print JSON instead of a table"}; }
@@ -156,10 +151,9 @@ Options manners() {
            OptionTraits{.value = "WHEN", .words = {"auto", "always", "never"}}}};
 }
 
-const Words& command_line_words() { return remembered_words(); }
-
-void remember_command_line(int argc, const char* const* argv) {
-  if (argc > 1) remembered_words().assign(argv + 1, argv + argc);
+Words& command_line_words() {
+  static Words words;
+  return words;
 }
 
 std::string command_text(const Words& words) {

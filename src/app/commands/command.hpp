@@ -95,8 +95,7 @@ Command completions_command();
 Command help_command();
 
 // The words of this process's command line, without the program's name.
-const Words& command_line_words();
-void remember_command_line(int argc, const char* const* argv);
+Words& command_line_words();
 // Such words as they would be typed: "lantern bench step --pile boxes2d:500".
 std::string command_text(const Words& words);
 

@@ -71,59 +71,6 @@ bool read_line(std::string_view line, GoldenList& list) {
   return false;
 }
 
-}  // namespace
-
-std::string to_text(const GoldenList& list) {
-  std::string text = fmt::format("{}{}\n", kGoldenFormat, kGoldenVersion);
-  for (const auto& [name, member] : kMembers)
-    text += fmt::format("{} {}\n", name, list.made_with.*member);
-  for (const auto& [index, entry] : list.frames)
-    text += fmt::format("frame {} {} {}\n", index, entry.pixels, printable(entry.event));
-  return text;
-}
-
-std::optional<GoldenList> read_golden_list(const Folder& folder) {
-  constexpr std::size_t kMostBytes = std::size_t{1} << 28;
-  const auto text = folder.read(kGoldenList, kMostBytes);
-  if (!text) return std::nullopt;
-  const std::string file = folder.path(kGoldenList).string();
-  const auto damaged = [&](const std::string& how) {
-    return DamagedGoldens(fmt::format("'{}' is damaged{}; --update makes it anew", file, how));
-  };
-  std::istringstream lines(*text);
-  GoldenList list;
-  std::string line, all;
-  for (std::size_t number = 1; std::getline(lines, line); ++number) {
-    if (line.ends_with('\r')) line.pop_back();  // as some version control systems give it
-    all += line + "\n";
-    if (number == 1) {
-      if (!line.starts_with(kGoldenFormat))
-        throw IoError(
-            fmt::format("'{}' is not Lantern's: move it, or give --dir another folder", file));
-      if (line.substr(kGoldenFormat.size()) != kGoldenVersion)
-        throw IoError(fmt::format("'{}' is of a later Lantern: {}", file, line));
-    } else if (!read_line(line, list)) {
-      throw damaged(fmt::format(" in line {}", number));
-    }
-  }
-  for (const auto& [name, member] : kMembers)
-    if ((list.made_with.*member).empty()) throw damaged(fmt::format(": no {}", name));
-  try {
-    require_as_written(all, to_text(list));
-  } catch (const RefusedFile& why) {
-    throw damaged(fmt::format(": {}", why.what()));
-  }
-  return list;
-}
-
-GoldenList::MadeWith Goldens::made_with() const {
-  const Manifest m = job.manifest(scenario, pace);
-  return {std::string(kVersion), m.size, m.theme, std::string(word_for(m.pace, kPaces)),
-          fmt::format("lantern.frame/{}", kFactsVersion)};
-}
-
-namespace {
-
 // Draws the chosen frames.
 class GoldenSink : public StagedSink {
  protected:
@@ -336,6 +283,55 @@ class GoldenUpdate : public GoldenSink {
 };
 
 }  // namespace
+
+std::string to_text(const GoldenList& list) {
+  std::string text = fmt::format("{}{}\n", kGoldenFormat, kGoldenVersion);
+  for (const auto& [name, member] : kMembers)
+    text += fmt::format("{} {}\n", name, list.made_with.*member);
+  for (const auto& [index, entry] : list.frames)
+    text += fmt::format("frame {} {} {}\n", index, entry.pixels, printable(entry.event));
+  return text;
+}
+
+std::optional<GoldenList> read_golden_list(const Folder& folder) {
+  constexpr std::size_t kMostBytes = std::size_t{1} << 28;
+  const auto text = folder.read(kGoldenList, kMostBytes);
+  if (!text) return std::nullopt;
+  const std::string file = folder.path(kGoldenList).string();
+  const auto damaged = [&](const std::string& how) {
+    return DamagedGoldens(fmt::format("'{}' is damaged{}; --update makes it anew", file, how));
+  };
+  std::istringstream lines(*text);
+  GoldenList list;
+  std::string line, all;
+  for (std::size_t number = 1; std::getline(lines, line); ++number) {
+    if (line.ends_with('\r')) line.pop_back();  // as some version control systems give it
+    all += line + "\n";
+    if (number == 1) {
+      if (!line.starts_with(kGoldenFormat))
+        throw IoError(
+            fmt::format("'{}' is not Lantern's: move it, or give --dir another folder", file));
+      if (line.substr(kGoldenFormat.size()) != kGoldenVersion)
+        throw IoError(fmt::format("'{}' is of a later Lantern: {}", file, line));
+    } else if (!read_line(line, list)) {
+      throw damaged(fmt::format(" in line {}", number));
+    }
+  }
+  for (const auto& [name, member] : kMembers)
+    if ((list.made_with.*member).empty()) throw damaged(fmt::format(": no {}", name));
+  try {
+    require_as_written(all, to_text(list));
+  } catch (const RefusedFile& why) {
+    throw damaged(fmt::format(": {}", why.what()));
+  }
+  return list;
+}
+
+GoldenList::MadeWith Goldens::made_with() const {
+  const Manifest m = job.manifest(scenario, pace);
+  return {std::string(kVersion), m.size, m.theme, std::string(word_for(m.pace, kPaces)),
+          fmt::format("lantern.frame/{}", kFactsVersion)};
+}
 
 std::unique_ptr<FrameSink> make_golden_comparison(const Goldens& goldens,
                                                   const Allowance& allowance, GoldenSuite& suite,

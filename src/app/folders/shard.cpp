@@ -18,10 +18,6 @@ namespace lantern::app {
 
 std::string Shard::text() const { return fmt::format("{}/{}", number, of); }
 
-std::filesystem::path Shard::folder_in(const std::string& out) const {
-  return std::filesystem::path(out) / fmt::format("shard-{}-of-{}", number, of);
-}
-
 std::optional<Shard> parse_shard(const std::string& words) {
   if (words.empty()) return std::nullopt;
   const auto found = two_numbers_in<std::uint32_t>(words, '/');
@@ -260,7 +256,8 @@ RenderOptions options_of_shard(const RenderOptions& options) {
                     "on one machine, without --shard",
                     options.output));
   RenderOptions of_shard = options;
-  of_shard.output = shard->folder_in(options.output).string();
+  const std::string folder = fmt::format("shard-{}-of-{}", shard->number, shard->of);
+  of_shard.output = (std::filesystem::path(options.output) / folder).string();
   return of_shard;
 }
 

@@ -24,8 +24,7 @@ struct Shard {
   std::uint32_t number = 1;  // from 1
   std::uint32_t of = 1;
 
-  std::string text() const;                                       // "2/4"
-  std::filesystem::path folder_in(const std::string& out) const;  // OUT/shard-2-of-4
+  std::string text() const;  // "2/4"
   bool operator==(const Shard&) const = default;
 };
 
@@ -96,8 +95,8 @@ int in_between_digits(const ShardRecord& record);
 // differ.
 std::optional<std::string> difference(const ShardRecord& a, const ShardRecord& b);
 
-// The options of a shard: the same, but into the shard's own folder. Throws UsageError for words
-// that name no shard, and for an output that is no folder.
+// The options of a shard: the same, but into the shard's own folder, OUT/shard-2-of-4. Throws
+// UsageError for words that name no shard, and for an output that is no folder.
 RenderOptions options_of_shard(const RenderOptions& options);
 
 // The folder that the frames' folders stand in: the user's own, or the shard's within it. Made

@@ -13,9 +13,9 @@
 namespace lantern::app {
 
 void StagedSink::frame(const Frame& frame) {
+  constexpr std::size_t kMostFrames = 1000, kMostBytes = std::size_t{64} << 20;
   const std::size_t bytes = estimated_bytes(frame);
-  if (!waiting_.empty() && (waiting_.size() >= bound_.frames || bytes_ + bytes > bound_.bytes))
-    flush();
+  if (!waiting_.empty() && (waiting_.size() >= kMostFrames || bytes_ + bytes > kMostBytes)) flush();
   waiting_.push_back(frame);
   ++undrawn_;
   bytes_ += bytes;

@@ -19,19 +19,12 @@
 
 namespace lantern::app {
 
-// Keeps the frames of a sequence, at most `Bound` of them, and then gives each with what its group
+// Keeps the frames of a sequence, up to a bound, and then gives each with what its group
 // shares; the axes of charts are those of all that were kept. A frame's picture depends on the
 // scenario alone: the bound is counted in frames and in bytes estimated from what a frame lists.
 // When a run is stopped before its end, frames that were waiting are not drawn.
 class StagedSink : public FrameSink {
  public:
-  struct Bound {
-    std::size_t frames = 1000;
-    std::size_t bytes = std::size_t{64} << 20;
-  };
-  StagedSink() = default;
-  explicit StagedSink(const Bound& bound) : bound_(bound) {}
-
   void frame(const Frame& frame) final;
   void finish(const DirectorReport& report) final;
   std::uint64_t waiting() const final { return undrawn_; }
@@ -45,7 +38,6 @@ class StagedSink : public FrameSink {
  private:
   void flush();
 
-  Bound bound_;
   std::vector<Frame> waiting_;
   std::size_t bytes_ = 0;  // of those
   std::atomic<std::uint64_t> undrawn_{0};
