@@ -83,22 +83,16 @@ class ShardSet {
     return run().settings.at("frames").empty() && run().settings.at("at").empty();
   }
 
-  // For each shard that is missing or not finished a sentence that says so, and what to run.
-  std::vector<std::string> missing() const {
+  // That the shard of this number is missing or not finished, and what to run.
+  std::string missing(std::uint32_t number) const {
     const auto& inputs = run().inputs;
     std::string names = inputs.front().name.text();
     if (inputs.size() > 1) names += fmt::format(" and {} more", inputs.size() - 1);
-    std::vector<std::string> sentences;
-    for (std::uint32_t i = 0; i < shards.size(); ++i) {
-      if (shards[i] != nullptr) continue;
-      const Shard shard{i + 1, run().shard.of};
-      const FoundShard* begun = any(shard);
-      sentences.push_back(
-          fmt::format("shard {} of {} {}: {}", shard.text(), names,
-                      begun ? fmt::format("in '{}' is not finished", begun->path()) : "is missing",
-                      advice(shard)));
-    }
-    return sentences;
+    const Shard shard{number, run().shard.of};
+    const FoundShard* begun = any(shard);
+    return fmt::format("shard {} of {} {}: {}", shard.text(), names,
+                       begun ? fmt::format("in '{}' is not finished", begun->path()) : "is missing",
+                       advice(shard));
   }
   // "run lantern render x.toml --shard 2/4": its own words, if it has begun, whose output may be
   // another one.
@@ -338,12 +332,9 @@ void require_equal(const ShardSet& set, const FoundShard& a, const FoundShard& b
   }
 }
 
-struct Counted {
-  std::size_t written = 0, kept = 0;
-};
-
-// As a run does it: a manifest of nothing first, that of all frames last.
-Counted write_whole(const ShardSet& set, const Folder& output, const MergedSequence& whole) {
+// As a run does it: a manifest of nothing first, that of all frames last. How many of its files
+// were there already.
+std::size_t write_whole(const ShardSet& set, const Folder& output, const MergedSequence& whole) {
   Manifest begun = whole.manifest;
   begun.frames.clear();
   begun.finished = false;
@@ -353,24 +344,23 @@ Counted write_whole(const ShardSet& set, const Folder& output, const MergedSeque
     write_file({folder.folder(), name}, bytes);
   };
   write(kManifest, to_json(begun));
-  Counted counted;
+  std::size_t kept = 0;
   std::set<std::string> written = {kManifest};
   for (const ShardFile& file : whole.files) {
     stop_if_asked();
     if (folder.stands(file.name)) {
-      ++counted.kept;
+      ++kept;
       continue;
     }
     const auto bytes = whole_bytes(folder_in_part(set, *file.shard, begun.scenario), file);
     if (!bytes) throw IoError(fmt::format("'{}' has changed meanwhile", file.name));
     write(file.name, *bytes);
     written.insert(file.name);
-    ++counted.written;
   }
   folder.tell_of_strange(written);
   write(kManifest, to_json(whole.manifest));
   folder.folder().settle();
-  return counted;
+  return kept;
 }
 
 // Makes in the folder `into` what one run without --shard would have made, and gives the exit code
@@ -389,14 +379,13 @@ int merge_frames(const ShardSet& set, const std::string& into, JsonWriter& json)
     const std::size_t frames = whole.manifest.frames.size();
     const std::string& name = whole.manifest.scenario.text();
     const std::string path = output.path(name).string();
-    const Counted counted = write_whole(set, output, whole);
+    const std::size_t kept = write_whole(set, output, whole);
     unmet += whole.manifest.unmet;
     json.line().begin_object().members("scenario", name, "folder", path, "frames", frames,
-                                       "written", counted.written, "kept", counted.kept);
+                                       "written", whole.files.size() - kept, "kept", kept);
     json.end_object();
-    say(fmt::format(
-        "{}: {} frames of {} shards in {}{}", name, frames, set.run().shard.of, path,
-        counted.kept > 0 ? fmt::format(", {} files of them there already", counted.kept) : ""));
+    say(fmt::format("{}: {} frames of {} shards in {}{}", name, frames, set.run().shard.of, path,
+                    kept > 0 ? fmt::format(", {} files of them there already", kept) : ""));
   }
   json.line().end_array();
   if (unmet > 0) complain(fmt::format("{} expectations did not hold", unmet));
@@ -416,7 +405,7 @@ int merge_parts(const MergeOptions& options) {
       throw UsageError(fmt::format("'{}' is the folder of shard {}; give another one for the whole",
                                    options.output, shard->record.shard.text()));
   }
-  for (const std::string& sentence : set.missing()) complain(sentence);
+  for (const std::uint32_t number : numbers) complain(set.missing(number));
   JsonWriter json = answer_of("merge");
   json.lines("command", "render", "shards", set.run().shard.of, "merged", numbers.empty());
   json.line().member("missing", numbers);
