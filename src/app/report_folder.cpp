@@ -47,8 +47,7 @@ ReportFolder::ReportFolder(const std::string& path, std::string_view report)
   for (const char* ending : {".html", ".csv", ".json", ".txt"})
     if (const fs::path file = path_ / (report_ + ending); is_input(file))
       throw UsageError(
-          fmt::format("'{}' is read by this run and would be written over; give another "
-                      "folder",
+          fmt::format("'{}' is read by this run and would be written over; give another folder",
                       file.string()));
   std::error_code ignored;
   for (fs::path folder = path_; !folder.empty() && !fs::exists(folder, ignored);

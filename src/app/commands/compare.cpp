@@ -157,8 +157,7 @@ int compare_paths(const CompareOptions& options) {
     if (!fs::exists(input, error)) throw IoError(fmt::format("there is no '{}'", input));
     if (!options.output.empty() && fs::equivalent(input, options.output, error))
       throw UsageError(
-          fmt::format("-o {}: that is what is compared; name another place for the "
-                      "difference",
+          fmt::format("-o {}: that is what is compared; name another place for the difference",
                       options.output));
   }
   const bool folders = fs::is_directory(options.expected, error);

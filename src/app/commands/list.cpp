@@ -19,12 +19,10 @@ namespace lantern::app {
 namespace {
 
 constexpr std::string_view kHead =
-    "# The course\n\n"
-    "All sequences in the order in which one would teach them. Each says what should be seen "
-    "before "
-    "it, and asks the\nstudents something afterwards. The answers are filled in by the run, and "
-    "its "
-    "expectations prove them; this page is\nprinted by `lantern list --course`.\n";
+    "# The course\n\nAll sequences in the order in which one would teach them. Each says what "
+    "should be seen before it, and asks the\nstudents something afterwards. The answers are filled "
+    "in by the run, and its expectations prove them; this page is\nprinted by `lantern list "
+    "--course`.\n";
 
 // The questions of a run, each with the frame that has its answer.
 class QuestionSink : public FrameSink {

@@ -111,10 +111,9 @@ std::string exit_status() {
 std::string surroundings() {
   return ".SH FILES\n.TP\n.I share/lantern/scenarios\n" +
          paragraph(
-             "Scenarios that come with Lantern, beside the folder of the program. Where a "
-             "scenario file is wanted, their names are enough: lantern render "
-             "ghost_quadtree. The language is described in REFERENCE.md there, and by "
-             "lantern reference.") +
+             "Scenarios that come with Lantern, beside the folder of the program. Where a scenario "
+             "file is wanted, their names are enough: lantern render ghost_quadtree. The language "
+             "is described in REFERENCE.md there, and by lantern reference.") +
          ".SH ENVIRONMENT\n.TP\n.B NO_COLOR\n" + paragraph("If set, messages have no colours.") +
          ".TP\n.B XDG_DATA_DIRS\n" +
          paragraph(

@@ -45,9 +45,8 @@ Options drawing_options(RenderOptions& o) {
        "from frame 7 on; a film shows so many in the same time, and cuts at 0",
        OptionTraits{.value = "N", .most = 0x1p53}},
       {"--fps", &o.fps,
-       "as many in-betweens as a film of so many pictures a second has while something "
-       "changes: half a second each, or the world's own time; of a film, its rate: 30, "
-       "25 for a .gif",
+       "as many in-betweens as a film of so many pictures a second has while something changes: "
+       "half a second each, or the world's own time; of a film, its rate: 30, 25 for a .gif",
        OptionTraits{.value = "F", .least = 1, .most = 240}},
       {"--hold", &o.hold,
        "how long a film stands still where nothing moves, seconds; the default is as long "

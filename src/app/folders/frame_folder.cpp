@@ -204,7 +204,7 @@ void FrameFolder::look_at(const std::string& name, bool same_build, bool whole) 
   if (!found && !is_of_the_first_version(kind, bytes)) {
     strange_.push_back(name);
   } else if (found && same_build && is_wanted(name, kind, *found, whole)) {
-    standing_[name] = *found;
+    standing_.insert(name);
   } else {
     old_.push_back(name);
   }
@@ -256,7 +256,7 @@ bool FrameFolder::is_wanted(const std::string& name, FileKind kind, const MadeFr
 std::uint64_t FrameFolder::in_betweens_standing(std::uint32_t index) const {
   const std::string start = fmt::format("{}_{:04}_", wanted_.scenario.text(), index);
   return static_cast<std::uint64_t>(std::ranges::count_if(
-      standing_, [&](const auto& file) { return file.first.starts_with(start); }));
+      standing_, [&](const std::string& file) { return file.starts_with(start); }));
 }
 
 bool FrameFolder::stands(std::uint32_t index, FileKind kind) const {
