@@ -1,7 +1,6 @@
 // `check` and `explain`: runs of scenarios of which nothing is drawn.
 #include <algorithm>
 #include <iterator>
-#include <utility>
 
 #include <fmt/format.h>
 
