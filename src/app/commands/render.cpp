@@ -103,7 +103,7 @@ std::vector<Scenario> load_all(const std::vector<std::string>& files, int& code)
 }
 
 // What came of the frames of one scenario, for a program and for a person.
-void tell_of(const FolderSink::Made& made, const Scenario& scenario, const DirectorReport& report,
+void tell_of(const FolderMade& made, const Scenario& scenario, const DirectorReport& report,
              JsonWriter& json) {
   const std::string folder = made.path.string();
   json.line().begin_object().members("scenario", scenario.name, "folder", folder, "drawn",
@@ -165,11 +165,11 @@ int render_one(const RenderJob& job, const Destination& to, const Scenario& scen
   job.in_betweens.require_few(most);
   const Part& part = shard.part(index);
   if (part.is_none()) return kGood;
-  const auto sink = make_folder_sink(sequence, part);
+  FolderMade made;
+  const auto sink = make_folder_sink(sequence, part, made);
   const auto of_part = part.is_all() || !most ? selection.most() : std::optional(part.count(*most));
   const RunResult result =
       run_scenario(scenario, pace, *sink, work, of_part, job.in_betweens.most());
-  const FolderSink::Made& made = sink->made();
   shard.drawn(index, made.drawn + made.kept, made.chosen, made.has_atlas);
   const int code = tell(result, options.strict);
   tell_of(made, scenario, result.report, json);

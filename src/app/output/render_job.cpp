@@ -89,17 +89,17 @@ OutputKind kind_of(const std::string& words, const std::string& ending) {
       ending, names, names.size()));
 }
 
-// f(text) for what stands between placeholders, g(name) for each of them.
-template <class F, class G>
-void for_each_part(std::string_view words, const F& f, const G& g) {
+// part(text, false) for what stands between placeholders, part(name, true) for each of them.
+template <class F>
+void for_each_part(std::string_view words, const F& part) {
   for (std::size_t at = 0; at < words.size();) {
     const std::size_t open = std::min(words.find('{', at), words.size());
-    f(words.substr(at, open - at));
+    part(words.substr(at, open - at), false);
     if (open == words.size()) return;
     const std::size_t close = words.find('}', open);
     if (close == std::string_view::npos)
       throw UsageError(fmt::format("-o {}: a {{ without its }}", words));
-    g(words.substr(open + 1, close - open - 1));
+    part(words.substr(open + 1, close - open - 1), true);
     at = close + 1;
   }
 }
@@ -258,17 +258,15 @@ DrawList FrameWalk::in_between(double t) {
 
 Destination::Destination(const std::string& words, bool sheet)
     : words_(words), ending_(words == "-" ? "" : ending_of(words)), kind_(kind_of(words, ending_)) {
-  for_each_part(
-      words_, [](std::string_view) {},
-      [&](std::string_view name) {
-        if (std::find(kPlaceholders.begin(), kPlaceholders.end(), name) == kPlaceholders.end())
-          throw UsageError(
-              with_suggestion(fmt::format("-o {}: there is no placeholder {{{}}}", words_, name),
-                              name, {kPlaceholders.begin(), kPlaceholders.end()}));
-        if (kind_ == OutputKind::folder)
-          throw UsageError(fmt::format(
-              "-o {}: a placeholder stands in the name of a file, such as {{frame}}.png", words_));
-      });
+  for_each_part(words_, [&](std::string_view name, bool is_placeholder) {
+    if (!is_placeholder) return;
+    if (std::ranges::find(kPlaceholders, name) == kPlaceholders.end())
+      throw UsageError(with_suggestion(
+          fmt::format("-o {}: there is no placeholder {{{}}}", words_, name), name, kPlaceholders));
+    if (kind_ == OutputKind::folder)
+      throw UsageError(fmt::format(
+          "-o {}: a placeholder stands in the name of a file, such as {{frame}}.png", words_));
+  });
   if (!sheet) return;
   if (ending_ != "pdf" && ending_ != "png")
     throw UsageError("--sheet makes a .pdf or a .png: name one after -o, such as sheet.pdf");
@@ -283,14 +281,14 @@ fs::path Destination::users_folder() const { return folder_of(words_.substr(0, w
 
 fs::path Destination::file(const NameParts& parts) const {
   std::string name;
-  for_each_part(
-      words_, [&](std::string_view text) { name += text; },
-      [&](std::string_view part) {
-        if (part == "scenario")
-          name += parts.scenario;
-        else
-          name += fmt::format("{:04}", part == "step" ? parts.step : parts.frame);
-      });
+  for_each_part(words_, [&](std::string_view part, bool is_placeholder) {
+    if (!is_placeholder)
+      name += part;
+    else if (part == "scenario")
+      name += parts.scenario;
+    else
+      name += fmt::format("{:04}", part == "step" ? parts.step : parts.frame);
+  });
   return name;
 }
 

@@ -136,7 +136,7 @@ class PictureSink : public FileSink {
 // The picture of the one chosen frame.
 class StdoutSink : public FileSink {
  public:
-  explicit StdoutSink(const Sequence& sequence) : FileSink(sequence) {}
+  using FileSink::FileSink;
 
  protected:
   void take(const Frame& frame, const Staging& staging) override {
@@ -190,10 +190,11 @@ std::string atlas_facts(const Manifest& manifest, const Frame& frame, const Draw
   return json.text() + "\n";
 }
 
-class FramesInFolder : public FolderSink {
+class FolderSink : public StagedSink {
  public:
-  FramesInFolder(const Sequence& sequence, const Part& part)
-      : of_(sequence),
+  FolderSink(const Sequence& sequence, const Part& part, FolderMade& made)
+      : made_(made),
+        of_(sequence),
         job_(of_.job),
         manifest_(job_.manifest(of_.scenario, of_.pace)),
         part_(part),
@@ -343,6 +344,7 @@ class FramesInFolder : public FolderSink {
     written_.insert(kManifest);
   }
 
+  FolderMade& made_;
   const Sequence of_;
   const RenderJob& job_;
   Manifest manifest_;
@@ -379,8 +381,9 @@ std::unique_ptr<FileSink> make_file_sink(const Sequence& sequence) {
   sequence.refuse("no file");
 }
 
-std::unique_ptr<FolderSink> make_folder_sink(const Sequence& sequence, const Part& part) {
-  return std::make_unique<FramesInFolder>(sequence, part);
+std::unique_ptr<StagedSink> make_folder_sink(const Sequence& sequence, const Part& part,
+                                             FolderMade& made) {
+  return std::make_unique<FolderSink>(sequence, part, made);
 }
 
 }  // namespace lantern::app

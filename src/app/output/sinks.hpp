@@ -64,22 +64,16 @@ struct Sequence {
 // only that part's, and the atlas with the last frame. The disk is left as it was until the first
 // one. Its run throws IoError, BackendError, and UsageError for a picture that is too large and if
 // no frame was chosen.
-class FolderSink : public StagedSink {
- public:
-  struct Made {
-    std::filesystem::path path;
-    std::size_t drawn = 0, kept = 0;
-    std::uint64_t chosen = 0;     // of the whole run, whoever draws them
-    std::size_t in_betweens = 0;  // there now
-    bool has_atlas = false;       // it stands there, whole
-  };
-  // After finish().
-  const Made& made() const { return made_; }
-
- protected:
-  Made made_;
+struct FolderMade {
+  std::filesystem::path path;
+  std::size_t drawn = 0, kept = 0;
+  std::uint64_t chosen = 0;     // of the whole run, whoever draws them
+  std::size_t in_betweens = 0;  // there now
+  bool has_atlas = false;       // it stands there, whole
 };
-std::unique_ptr<FolderSink> make_folder_sink(const Sequence& sequence, const Part& part);
+// What it has made is told to `made`, which must outlive it.
+std::unique_ptr<StagedSink> make_folder_sink(const Sequence& sequence, const Part& part,
+                                             FolderMade& made);
 
 // Frames into files that the user names, or onto standard output. A file has its name only when it
 // is whole: when a run fails or is interrupted, what stood there before still does. Each kind
@@ -92,12 +86,11 @@ class FileSink : public StagedSink {
     std::optional<double> seconds = std::nullopt;  // that films take in all,
     double rate = 0;                               // at so many pictures a second
   };
+  explicit FileSink(const Sequence& sequence) : of_(sequence) {}
   // After finish().
   const Made& made() const { return made_; }
 
  protected:
-  explicit FileSink(const Sequence& sequence) : of_(sequence) {}
-
   // Every chosen frame, in order.
   virtual void take(const Frame& frame, const Staging& staging) = 0;
   // After the last one; there was one.
