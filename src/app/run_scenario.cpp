@@ -71,6 +71,31 @@ std::string nearest_of(const std::string& name, const std::vector<std::string>& 
   return near.empty() ? "'lantern list' names those that there are" : near;
 }
 
+// In the order of a lecture; those that have no place in it come last.
+void add_folder(const fs::path& folder, std::vector<std::string>& files) {
+  std::error_code error, unknown;
+  std::vector<fs::path> there = toml_files(folder, error);
+  if (error) throw IoError(fmt::format("cannot list '{}': {}", folder.string(), error.message()));
+  std::erase_if(there, [&](const fs::path& path) { return fs::is_directory(path, unknown); });
+  std::ranges::sort(there);
+  std::vector<std::pair<std::uint64_t, std::string>> lessons;
+  for (const fs::path& path : there) {
+    const Glance glance = glance_at(path.string());
+    if (glance.is_scenario)
+      lessons.emplace_back(glance.lecture.value_or(std::numeric_limits<std::uint64_t>::max()),
+                           path.string());
+    else
+      warn(fmt::format("'{}' is no scenario: it is left out", path.string()));
+  }
+  if (lessons.empty())
+    throw UsageError(
+        fmt::format("there is no scenario in the folder '{}'; a scenario is a .toml "
+                    "file right in it",
+                    folder.string()));
+  std::ranges::sort(lessons);
+  for (auto& [place, file] : lessons) files.push_back(std::move(file));
+}
+
 }  // namespace
 
 std::vector<fs::path> scenario_folders() {
@@ -99,35 +124,6 @@ std::string scenario_file(const std::string& words) {
   throw IoError(fmt::format("there is no file '{}' and no scenario of that name; {}", words,
                             nearest_of(words, names)));
 }
-
-namespace {
-
-// In the order of a lecture; those that have no place in it come last.
-void add_folder(const fs::path& folder, std::vector<std::string>& files) {
-  std::error_code error, unknown;
-  std::vector<fs::path> there = toml_files(folder, error);
-  if (error) throw IoError(fmt::format("cannot list '{}': {}", folder.string(), error.message()));
-  std::erase_if(there, [&](const fs::path& path) { return fs::is_directory(path, unknown); });
-  std::ranges::sort(there);
-  std::vector<std::pair<std::uint64_t, std::string>> lessons;
-  for (const fs::path& path : there) {
-    const Glance glance = glance_at(path.string());
-    if (glance.is_scenario)
-      lessons.emplace_back(glance.lecture.value_or(std::numeric_limits<std::uint64_t>::max()),
-                           path.string());
-    else
-      warn(fmt::format("'{}' is no scenario: it is left out", path.string()));
-  }
-  if (lessons.empty())
-    throw UsageError(
-        fmt::format("there is no scenario in the folder '{}'; a scenario is a .toml "
-                    "file right in it",
-                    folder.string()));
-  std::ranges::sort(lessons);
-  for (auto& [place, file] : lessons) files.push_back(std::move(file));
-}
-
-}  // namespace
 
 std::vector<std::string> input_files(const std::vector<std::string>& words) {
   if (std::count(words.begin(), words.end(), "-") > 1)
