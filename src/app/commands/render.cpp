@@ -15,8 +15,8 @@
 namespace lantern::app {
 namespace {
 
-// Of `render` and of `watch`.
-Options drawing_options(RenderOptions& o) {
+// `render` has one more.
+Options watch_options(RenderOptions& o) {
   return {
       {"FILE", &o.files, kFilesHelp, {.required = true}},
       {"-o,--output", &o.output,
@@ -65,14 +65,8 @@ Options drawing_options(RenderOptions& o) {
       {"--strict", &o.strict, "turn warnings into errors (exit code 3)"},
       {"-j,--threads", &o.threads, "encoding threads; the default is one per core",
        OptionTraits{.value = "N", .least = 1, .most = 256}},
-  };
-}
-
-Options watch_options(RenderOptions& o) {
-  Options options = drawing_options(o);
-  options.push_back(memory_option());
-  options.push_back(json_option(o.json));
-  return options;
+      memory_option(),
+      json_option(o.json)};
 }
 
 Options render_options(RenderOptions& o) {

@@ -149,14 +149,14 @@ class SheetSink : public FileSink {
  private:
   void begin_pictures() {
     const Vec<2> pixels = paper_ * (of_.job.options.dpi / kMillimetres);
-    width_ = static_cast<int>(std::lround(pixels.x));
-    height_ = static_cast<int>(std::lround(pixels.y));
-    if (std::max(width_, height_) > Renderer::kMostPixels)
+    const int width = static_cast<int>(std::lround(pixels.x));
+    const int height = static_cast<int>(std::lround(pixels.y));
+    if (std::max(width, height) > Renderer::kMostPixels)
       throw UsageError(
           fmt::format("a sheet of {} x {} pixels is more than {}; ask for fewer dots "
                       "(--dpi), or make it a .pdf",
-                      width_, height_, Renderer::kMostPixels));
-    renderer_ = of_.job.make_renderer(width_, height_, of_.work);
+                      width, height, Renderer::kMostPixels));
+    renderer_ = of_.job.make_renderer(width, height, of_.work);
   }
   // The panels alone: what is said of them stands on the sheet.
   publish::SheetPicture bare_picture(const Frame& frame, const Staging& staging) const {
@@ -212,7 +212,6 @@ class SheetSink : public FileSink {
   std::optional<publish::PdfDocument> document_;  // one of these two
   std::unique_ptr<Renderer> renderer_;
   Image image_;
-  int width_ = 0, height_ = 0;  // pixels
   std::uint64_t pages_ = 0, page_ = 0, in_document_ = 0;
   // Of the page that is being filled.
   std::vector<publish::SheetPicture> waiting_;
