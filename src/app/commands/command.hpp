@@ -98,6 +98,8 @@ Command help_command();
 Words& command_line_words();
 // Such words as they would be typed: "lantern bench step --pile boxes2d:500".
 std::string command_text(const Words& words);
+// In single quotes, as shells read them.
+std::string in_quotes(std::string_view text);
 
 // The program itself, with every command in the order of the help.
 const Command& whole_program();

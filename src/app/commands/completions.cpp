@@ -9,13 +9,6 @@
 namespace lantern::app {
 namespace {
 
-// In single quotes, as all three shells read them.
-std::string in_quotes(std::string_view text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
-
 std::string spaced(const Words& words) { return fmt::format("{}", fmt::join(words, " ")); }
 
 std::string names_of_commands(const CommandPath& path) {

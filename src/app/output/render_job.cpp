@@ -106,13 +106,8 @@ void for_each_part(std::string_view words, const F& part) {
 
 }  // namespace
 
-InBetweens::InBetweens(std::optional<std::uint64_t> tween, std::optional<double> fps) {
-  number_ = tween.value_or(0);
-  if (fps) {
-    fps_ = *fps;
-    number_ = within(kChange, fps_);
-  }
-}
+InBetweens::InBetweens(std::optional<std::uint64_t> tween, std::optional<double> fps)
+    : number_(fps ? within(kChange, *fps) : tween.value_or(0)), fps_(fps.value_or(0)) {}
 
 std::string InBetweens::setting() const {
   if (!wanted()) return "";
