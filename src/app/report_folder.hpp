@@ -13,6 +13,9 @@
 
 namespace lantern::app {
 
+// What `measure` keeps for later runs, and what marks its folder.
+inline constexpr const char* kMeasurement = "measure.json";
+
 struct ReportPage {
   std::string name;  // of its files, without an ending
   DrawList list;

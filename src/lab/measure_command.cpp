@@ -224,7 +224,7 @@ bool same(const Circumstances& a, const Circumstances& b) {
 std::vector<Row> finished_rows(const ReportFolder& folder, const Circumstances& circumstances) {
   std::string why;
   try {
-    const auto text = folder.earlier("measure.json", kMostMeasureBytes);
+    const auto text = folder.earlier(kMeasurement, kMostMeasureBytes);
     if (!text) return {};
     auto earlier = read_measurement(*text, &why);
     if (earlier && same(earlier->circumstances, circumstances)) return std::move(earlier->rows);
@@ -232,8 +232,8 @@ std::vector<Row> finished_rows(const ReportFolder& folder, const Circumstances& 
     why = e.what();
   }
   if (!why.empty())
-    warn(fmt::format("nothing is taken over from '{}': {}",
-                     (folder.path() / "measure.json").string(), why));
+    warn(fmt::format("nothing is taken over from '{}': {}", (folder.path() / kMeasurement).string(),
+                     why));
   return {};
 }
 
@@ -273,7 +273,7 @@ class Measuring {
  private:
   void save() {
     if (std::ranges::any_of(measurement_.rows, &Row::was_run))
-      folder_.write("measure.json", report::to_json(measurement_));
+      folder_.write(kMeasurement, report::to_json(measurement_));
   }
 
   const Row* known(const Job& job) const {
@@ -403,7 +403,7 @@ int measure_problems(const MeasureOptions& options) {
 int page_of_earlier(const MeasureOptions& options) {
   std::vector<Measurement> measurements;
   for (const std::string& word : options.from) {
-    const fs::path path = fs::is_directory(word) ? fs::path(word) / "measure.json" : fs::path(word);
+    const fs::path path = fs::is_directory(word) ? fs::path(word) / kMeasurement : fs::path(word);
     std::string why;
     auto read = read_measurement(read_input(path, kMostMeasureBytes), &why);
     if (!read)

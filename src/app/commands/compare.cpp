@@ -98,7 +98,7 @@ std::set<std::string> files_in(const fs::path& folder) {
   std::set<std::string> names;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const std::string kind = entry.path().extension().string();
-    if (entry.path().filename() == "manifest.json") continue;
+    if (entry.path().filename() == kManifest) continue;
     if (kind == ".png" || kind == ".svg" || kind == ".json")
       names.insert(entry.path().lexically_relative(folder).string());
   }

@@ -11,6 +11,7 @@
 
 #include "app/folders/goldens.hpp"
 #include "app/folders/shard.hpp"
+#include "app/report_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/printable.hpp"
 #include "render/renderer.hpp"
@@ -33,7 +34,6 @@ constexpr std::array kKept = {
     Kept{kGoldenList, "lantern.golden_frames/", KeptFor::goldens, "the golden frames"},
     Kept{kShardFile, "\"lantern.shard/", KeptFor::shard, "the frames of a part"},
 };
-constexpr const char* kMeasurement = "measure.json";
 
 // What stands at the list's name: `unknown` is a link, a folder, a device, an empty file, or one
 // that cannot be read, and may be the list all the same.
