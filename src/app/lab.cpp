@@ -42,16 +42,6 @@ std::pair<const Lab*, std::string> loaded_lab() {
   return {nullptr, why};
 }
 
-}  // namespace
-
-const Lab* find_lab(std::string* why) {
-  static const auto found = loaded_lab();
-  if (why != nullptr) *why = found.second;
-  return found.first;
-}
-
-namespace {
-
 // `path` leads to it: "bench pairs", "pairs".
 Command lab_command(const char* path, const char* name, const char* help) {
   return {name,
@@ -68,6 +58,12 @@ Command lab_command(const char* path, const char* name, const char* help) {
 }
 
 }  // namespace
+
+const Lab* find_lab(std::string* why) {
+  static const auto found = loaded_lab();
+  if (why != nullptr) *why = found.second;
+  return found.first;
+}
 
 std::vector<Command> lab_commands() {
   return {

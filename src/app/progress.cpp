@@ -17,10 +17,8 @@ namespace lantern::app {
 
 namespace {
 
-std::string grouped_plainly(std::uint64_t number) { return lantern::grouped(number, " "); }
-
 std::string counted_plainly(std::uint64_t number, std::string_view noun) {
-  return fmt::format("{} {}{}", grouped_plainly(number), noun, number == 1 ? "" : "s");
+  return fmt::format("{} {}{}", lantern::grouped(number, " "), noun, number == 1 ? "" : "s");
 }
 
 std::string left_text(const std::optional<TimeLeft>& left) {
@@ -28,17 +26,6 @@ std::string left_text(const std::optional<TimeLeft>& left) {
   return fmt::format(", {} {} left", left->at_least ? "more than" : "about",
                      duration_text(left->seconds));
 }
-
-}  // namespace
-
-RunExtent extent_of(const Scenario& scenario, Pace pace) {
-  const bool by_event =
-      pace == Pace::event || std::any_of(scenario.steps.begin(), scenario.steps.end(),
-                                         [](const Step& s) { return s.pace == Pace::event; });
-  return {by_event ? std::nullopt : std::optional(scenario.most_frames), scenario.world_steps};
-}
-
-namespace {
 
 double share_left(std::uint64_t all, std::uint64_t done, double seconds) {
   return static_cast<double>(all - std::min(all, done)) * seconds / static_cast<double>(done);
@@ -58,7 +45,29 @@ std::optional<TimeLeft> run_left(const RunExtent& extent, const RunState& state)
   return TimeLeft{share_left(*extent.frames, state.frames, state.seconds), false};
 }
 
+constexpr double kRedraw = 0.1;     // seconds between two drawings on a terminal
+constexpr double kPlainLine = 5.0;  // and between two plain lines elsewhere
+constexpr double kForecast = 0.5;   // seconds of work after which it is told what is to come,
+constexpr double kMoment = 2.0;     // unless it ends so soon
+
+bool has_listener() { return ::fcntl(STDERR_FILENO, F_GETFD) != -1; }
+
+// The second number of statm counts pages that are in memory.
+std::optional<std::size_t> memory_in_use() {
+  std::ifstream file("/proc/self/statm");
+  std::size_t all = 0, resident = 0;
+  if (!(file >> all >> resident)) return std::nullopt;
+  return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
 }  // namespace
+
+RunExtent extent_of(const Scenario& scenario, Pace pace) {
+  const bool by_event =
+      pace == Pace::event || std::any_of(scenario.steps.begin(), scenario.steps.end(),
+                                         [](const Step& s) { return s.pace == Pace::event; });
+  return {by_event ? std::nullopt : std::optional(scenario.most_frames), scenario.world_steps};
+}
 
 // Frames that wait are drawn after the run, or a part of it: how long that takes, only those show
 // that are drawn.
@@ -107,7 +116,7 @@ std::string progress_text(const RunExtent& extent, const RunState& state) {
                          : counted_plainly(frames, "frame");
   if (extent.in_betweens > 0) text += ", " + counted_plainly(state.in_betweens, "in-between");
   if (extent.world_steps > 0)
-    text += fmt::format(", {} of {}", grouped_plainly(state.world_steps),
+    text += fmt::format(", {} of {}", lantern::grouped(state.world_steps, " "),
                         counted_plainly(extent.world_steps, "world step"));
   if (state.files > 0) text += fmt::format(", {} on the disk", memory_text(state.bytes));
   if (extent.frames && frames >= *extent.frames && state.drawn > 0)
@@ -121,25 +130,6 @@ std::string duration_text(double seconds) {
   if (seconds < 100 * 3600) return fmt::format("{:.0f} h", seconds / 3600);
   return fmt::format("{:.0f} days", seconds / 86400);
 }
-
-namespace {
-
-constexpr double kRedraw = 0.1;     // seconds between two drawings on a terminal
-constexpr double kPlainLine = 5.0;  // and between two plain lines elsewhere
-constexpr double kForecast = 0.5;   // seconds of work after which it is told what is to come,
-constexpr double kMoment = 2.0;     // unless it ends so soon
-
-bool has_listener() { return ::fcntl(STDERR_FILENO, F_GETFD) != -1; }
-
-// The second number of statm counts pages that are in memory.
-std::optional<std::size_t> memory_in_use() {
-  std::ifstream file("/proc/self/statm");
-  std::size_t all = 0, resident = 0;
-  if (!(file >> all >> resident)) return std::nullopt;
-  return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
-}
-
-}  // namespace
 
 Progress::Progress(std::string name, const RunExtent& extent, const Work& work,
                    std::optional<std::size_t> memory_budget, std::function<std::uint64_t()> waiting)

@@ -8,10 +8,18 @@
 #include <string_view>
 #include <vector>
 
-#include "app/report_pictures.hpp"
 #include "base/file.hpp"
+#include "draw/draw_list.hpp"
 
 namespace lantern::app {
+
+// What `measure` keeps for later runs, and what marks its folder.
+inline constexpr const char* kMeasurement = "measure.json";
+
+struct ReportPage {
+  std::string name;  // of its files, without an ending
+  DrawList list;
+};
 
 // Without a path everything is dropped.
 class ReportFolder {
@@ -34,7 +42,8 @@ class ReportFolder {
   // With the first file of a new report, the pages of an older one of its kind go: they would tell
   // of other numbers.
   void write(std::string_view name, std::string_view bytes);
-  // As SVG and PNG; throws BackendError, when the SVG files are there, if there is no OpenGL.
+  // NAME.svg and NAME.png for each page, a pixel a page unit; each says of which report it is a
+  // page. Throws BackendError, when the SVG files are there, if there is no OpenGL.
   void draw(const std::vector<ReportPage>& pages, const std::string& theme,
             const std::string& backend = "auto") const;
   // The report is whole: on return it would outlast a power cut. Throws IoError.

@@ -1,11 +1,10 @@
 #include "app/run_scenario.hpp"
 
 #include <algorithm>
-#include <cstddef>
-#include <filesystem>
-#include <string>
-#include <string_view>
-#include <utility>
+#include <cstdlib>
+#include <iterator>
+#include <limits>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -13,7 +12,6 @@
 #include "app/folders/frame_folder.hpp"
 #include "app/lab.hpp"
 #include "app/progress.hpp"
-#include "app/scenario_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/memory.hpp"
 #include "base/printable.hpp"
@@ -26,36 +24,146 @@
 
 namespace lantern::app {
 
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* kInstalled = "lantern/scenarios";  // below share/
+
+// Every place to look, there or not.
+std::vector<fs::path> places() {
+  std::error_code error;
+  const fs::path here = fs::read_symlink("/proc/self/exe", error).parent_path();
+  // build/lantern, build/debug/lantern
+  std::vector<fs::path> all = {"scenarios", here.parent_path() / "share" / kInstalled,
+                               here.parent_path() / "scenarios",
+                               here.parent_path().parent_path() / "scenarios"};
+  const char* set = std::getenv("XDG_DATA_DIRS");
+  std::istringstream folders(set && *set ? set : "/usr/local/share:/usr/share");
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (folder.starts_with('/')) all.push_back(fs::path(folder) / kInstalled);
+  return all;
+}
+
+// In a folder itself, then among its problems.
+constexpr const char* kSubfolders[] = {"", "problems"};
+
+std::optional<fs::path> find_named(const std::string& name, const std::vector<fs::path>& folders) {
+  std::error_code error;
+  for (const fs::path& folder : folders)
+    for (const char* sub : kSubfolders)
+      if (fs::path file = folder / sub / (name + ".toml"); fs::is_regular_file(file, error))
+        return file.lexically_normal();
+  return std::nullopt;
+}
+
+// As far as the folder can be listed; `error` tells what was in the way.
+std::vector<fs::path> toml_files(const fs::path& folder, std::error_code& error) {
+  std::vector<fs::path> files;
+  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
+    if (it->path().extension() == ".toml") files.push_back(it->path());
+  return files;
+}
+
+std::string nearest_of(const std::string& name, const std::vector<std::string>& names) {
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  const std::string near = suggestion(name, known, 0);
+  return near.empty() ? "'lantern list' names those that there are" : near;
+}
+
+// In the order of a lecture; those that have no place in it come last.
+void add_folder(const fs::path& folder, std::vector<std::string>& files) {
+  std::error_code error, unknown;
+  std::vector<fs::path> there = toml_files(folder, error);
+  if (error) throw IoError(fmt::format("cannot list '{}': {}", folder.string(), error.message()));
+  std::erase_if(there, [&](const fs::path& path) { return fs::is_directory(path, unknown); });
+  std::ranges::sort(there);
+  std::vector<std::pair<std::uint64_t, std::string>> lessons;
+  for (const fs::path& path : there) {
+    const Glance glance = glance_at(path.string());
+    if (glance.is_scenario)
+      lessons.emplace_back(glance.lecture.value_or(std::numeric_limits<std::uint64_t>::max()),
+                           path.string());
+    else
+      warn(fmt::format("'{}' is no scenario: it is left out", path.string()));
+  }
+  if (lessons.empty())
+    throw UsageError(
+        fmt::format("there is no scenario in the folder '{}'; a scenario is a .toml "
+                    "file right in it",
+                    folder.string()));
+  std::ranges::sort(lessons);
+  for (auto& [place, file] : lessons) files.push_back(std::move(file));
+}
+
+}  // namespace
+
+std::vector<fs::path> scenario_folders() {
+  std::vector<fs::path> there;
+  std::error_code error;
+  for (const fs::path& folder : places())
+    if (fs::is_directory(folder, error)) there.push_back(folder.lexically_normal());
+  return there;
+}
+
+std::string scenario_file(const std::string& words) {
+  std::error_code error;
+  const bool is_path = words.find('/') != std::string::npos || words.ends_with(".toml");
+  if (words.empty() || words == "-" || is_path || fs::exists(words, error)) return words;
+  const std::vector<fs::path> folders = scenario_folders();
+  if (const auto file = find_named(words, folders)) {
+    say(fmt::format("'{}' is {}", words, file->string()));
+    return file->string();
+  }
+  std::vector<std::string> names;
+  for (const fs::path& folder : folders)
+    for (const char* sub : kSubfolders)
+      for (const fs::path& file : toml_files(folder / sub, error))
+        names.push_back(file.stem().string());
+  std::ranges::sort(names);
+  throw IoError(fmt::format("there is no file '{}' and no scenario of that name; {}", words,
+                            nearest_of(words, names)));
+}
+
+std::vector<std::string> input_files(const std::vector<std::string>& words) {
+  if (std::count(words.begin(), words.end(), "-") > 1)
+    throw UsageError("- is standard input, which can be read once only");
+  std::vector<std::string> files;
+  for (const std::string& word : words) {
+    std::error_code error;
+    if (word != "-" && fs::is_directory(word, error))
+      add_folder(word, files);
+    else
+      files.push_back(word);
+  }
+  return files;
+}
+
+// ---- What is said of a scenario that is run
+
 namespace {
 
 // Of all texts that come onto a page, each letter once, in order.
-class Missing {
- public:
-  void look_at(std::string_view text) {
+void find_missing(const Scenario& scenario, std::u32string& letters) {
+  const auto look_at = [&](std::string_view text) {
     while (!text.empty()) {
       const Letter letter = first_letter(text);
       text.remove_prefix(letter.bytes);
-      if (letter.code && !has_glyph(*letter.code) && letters_.find(*letter.code) == letters_.npos)
-        letters_ += *letter.code;
+      if (letter.code && !has_glyph(*letter.code) && letters.find(*letter.code) == letters.npos)
+        letters += *letter.code;
     }
+  };
+  look_at(scenario.title);
+  look_at(scenario.side_title);
+  for (const BodySpec& body : scenario.bodies) look_at(body.name);
+  for (const TextureSpec& texture : scenario.textures) look_at(texture.name);
+  for (const Step& step : scenario.steps) {
+    look_at(step.part);
+    look_at(step.caption);
+    for (const NoteSpec& note : step.notes) look_at(note.text);
   }
-  void look_at(const Scenario& scenario) {
-    look_at(scenario.title);
-    look_at(scenario.side_title);
-    for (const BodySpec& body : scenario.bodies) look_at(body.name);
-    for (const TextureSpec& texture : scenario.textures) look_at(texture.name);
-    for (const Step& step : scenario.steps) {
-      look_at(step.part);
-      look_at(step.caption);
-      for (const NoteSpec& note : step.notes) look_at(note.text);
-    }
-    for (const auto& side : scenario.sides) look_at(*side);
-  }
-  const std::u32string& letters() const { return letters_; }
-
- private:
-  std::u32string letters_;
-};
+  for (const auto& side : scenario.sides) find_missing(*side, letters);
+}
 
 // Where the file first writes it, comments aside; as a whole if it writes it as \u....
 SourcePosition place_in(const Scenario& scenario, std::string_view letter) {
@@ -69,14 +177,18 @@ SourcePosition place_in(const Scenario& scenario, std::string_view letter) {
   return {scenario.file, 0, 0};
 }
 
-}  // namespace
+Diagnostic warning(const Scenario& scenario, const SourcePosition& where, std::string message,
+                   const std::string& suggestion) {
+  Diagnostic found = diagnose(scenario, where, std::move(message), suggestion);
+  found.severity = Severity::warning;
+  return found;
+}
 
-std::vector<Diagnostic> missing_letters(const Scenario& scenario) {
+void add_missing_letters(const Scenario& scenario, std::vector<Diagnostic>& found) {
   constexpr std::size_t kMost = 5;
-  Missing missing;
-  missing.look_at(scenario);
-  const std::u32string& letters = missing.letters();
-  if (letters.empty()) return {};
+  std::u32string letters;
+  find_missing(scenario, letters);
+  if (letters.empty()) return;
   std::string list, first;
   for (std::size_t i = 0; i < std::min(letters.size(), kMost); ++i) {
     std::string letter;
@@ -85,31 +197,10 @@ std::vector<Diagnostic> missing_letters(const Scenario& scenario) {
     list += (i > 0 ? ", '" : "'") + letter + "'";
   }
   if (letters.size() > kMost) list += fmt::format(" and {} more", letters.size() - kMost);
-  Diagnostic found = diagnose(
+  found.push_back(warning(
       scenario, place_in(scenario, first),
       fmt::format("the bundled typeface has no {}: a picture shows a box in its place", list),
-      "Inter has Latin, Greek and Cyrillic letters");
-  found.severity = Severity::warning;
-  return {found};
-}
-
-namespace {
-
-namespace fs = std::filesystem;
-
-// Of all scenarios there, as far as they can be read.
-void add_names(const fs::path& folder, std::vector<std::string>& names) {
-  std::error_code error;
-  for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error))
-    if (it->path().extension() == ".toml") names.push_back(glance_at(it->path().string()).name);
-}
-
-Diagnostic warning(const Scenario& scenario, Warning kind, const SourcePosition& where,
-                   std::string message, const std::string& suggestion) {
-  Diagnostic found =
-      diagnose(scenario, where, std::move(message), suggestion + if_meant(scenario, kind));
-  found.severity = Severity::warning;
-  return found;
+      "Inter has Latin, Greek and Cyrillic letters"));
 }
 
 void add_needs(const Scenario& scenario, std::vector<Diagnostic>& found) {
@@ -122,28 +213,28 @@ void add_needs(const Scenario& scenario, std::vector<Diagnostic>& found) {
     return std::ranges::any_of(
         folders, [&](const fs::path& in) { return fs::exists(in / (name + ".toml"), error); });
   };
-  std::vector<std::string> names;
+  std::vector<std::string> names;  // of all scenarios there, as far as they can be read
   for (std::size_t i = 0; i < scenario.needs.size(); ++i) {
     const std::string& need = scenario.needs[i];
+    const auto add = [&](const std::string& message, const std::string& suggestion) {
+      found.push_back(warning(scenario, scenario.needs_at[i], message,
+                              suggestion + if_meant(scenario, Warning::needs)));
+    };
     const auto earlier = scenario.needs.begin() + static_cast<std::ptrdiff_t>(i);
-    const bool is_itself = need == scenario.name;
-    if (is_itself || std::find(scenario.needs.begin(), earlier, need) != earlier) {
-      found.push_back(
-          warning(scenario, Warning::needs, scenario.needs_at[i],
-                  is_itself ? fmt::format("'{}' cannot be seen before itself", need)
-                            : fmt::format("'{}' is to be seen before, and is named twice", need),
-                  "leave it out"));
-      continue;
+    if (need == scenario.name) {
+      add(fmt::format("'{}' cannot be seen before itself", need), "leave it out");
+    } else if (std::find(scenario.needs.begin(), earlier, need) != earlier) {
+      add(fmt::format("'{}' is to be seen before, and is named twice", need), "leave it out");
+    } else if (!is_there(need)) {
+      std::error_code error;
+      if (names.empty())
+        for (const fs::path& folder : folders)
+          for (const fs::path& file : toml_files(folder, error))
+            names.push_back(glance_at(file.string()).name);
+      if (std::ranges::find(names, need) == names.end())
+        add(fmt::format("there is no scenario '{}' to be seen before", need),
+            nearest_of(need, names));
     }
-    if (is_there(need)) continue;
-    if (names.empty())
-      for (const fs::path& folder : folders) add_names(folder, names);
-    if (std::ranges::find(names, need) != names.end()) continue;
-    const std::vector<std::string_view> known(names.begin(), names.end());
-    const std::string near = suggestion(need, known, 0);
-    found.push_back(warning(scenario, Warning::needs, scenario.needs_at[i],
-                            fmt::format("there is no scenario '{}' to be seen before", need),
-                            near.empty() ? "'lantern list' names those that there are" : near));
   }
 }
 
@@ -154,20 +245,14 @@ void add_problem(const Scenario& scenario, std::vector<Diagnostic>& found) {
   try {
     lab->require_problem(scenario);
   } catch (const Refused& refused) {
-    found.push_back(warning(scenario, Warning::problem, scenario.problem->where, refused.what(),
+    found.push_back(warning(scenario, scenario.problem->where, refused.what(),
                             "'lantern measure' would refuse it: give it the solution that it "
-                            "has, or leave out [problem]"));
+                            "has, or leave out [problem]" +
+                                if_meant(scenario, Warning::problem)));
   }
 }
 
 }  // namespace
-
-std::vector<Diagnostic> false_references(const Scenario& scenario) {
-  std::vector<Diagnostic> found;
-  add_needs(scenario, found);
-  add_problem(scenario, found);
-  return found;
-}
 
 Pace pace_of(std::string_view word, const Scenario& scenario) {
   if (word.empty()) return scenario.pace;
@@ -214,9 +299,10 @@ RunResult run_scenario(const Scenario& scenario, Pace pace, FrameSink& sink, Wor
       &watch);
   sink.finish(result.report);
   result.warnings = warnings_of_file(scenario);
-  for (Diagnostic& found : false_references(scenario)) result.warnings.push_back(std::move(found));
-  for (Diagnostic& found : watch.warnings()) result.warnings.push_back(std::move(found));
-  for (Diagnostic& found : missing_letters(scenario)) result.warnings.push_back(std::move(found));
+  add_needs(scenario, result.warnings);
+  add_problem(scenario, result.warnings);
+  std::ranges::move(watch.warnings(), std::back_inserter(result.warnings));
+  add_missing_letters(scenario, result.warnings);
   result.facts = watch.facts();
   return result;
 }

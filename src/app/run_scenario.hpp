@@ -1,7 +1,9 @@
-// One run of a scenario, in one pass: each frame goes to a sink when it comes by.
+// Where scenarios are and how they are named, and one run of one, in one pass: each frame goes to a
+// sink when it comes by.
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,17 +16,35 @@
 
 namespace lantern::app {
 
-// Where the frames of a run go: to files, to standard output, nowhere.
+// Where the frames of a run go: to files, to standard output, and as this itself is, nowhere.
 class FrameSink {
  public:
   virtual ~FrameSink() = default;
   // Every frame of the run, in order.
-  virtual void frame(const Frame& frame) = 0;
+  virtual void frame(const Frame& /*frame*/) {}
   // After the last one. What is to be whole stands whole from here on.
-  virtual void finish(const DirectorReport& report) = 0;
+  virtual void finish(const DirectorReport& /*report*/) {}
   // How many of the frames that it was given it has still to deal with; from any thread.
   virtual std::uint64_t waiting() const { return 0; }
 };
+
+// The folders that hold Lantern's scenarios, the nearest first: scenarios/ here, beside the program
+// (where it is installed: share/lantern/scenarios; where it was built: the repository's), and those
+// of $XDG_DATA_DIRS. Only what is there.
+std::vector<std::filesystem::path> scenario_folders();
+
+// The file that the user means. A path, a file that is there and "-" are themselves; a bare word
+// ("ghost_quadtree") is the scenario of that name in the first of these folders that has it, or a
+// problem of that name in problems/ there, and which file that is is said. Throws IoError, with the
+// nearest name, if there is none.
+std::string scenario_file(const std::string& words);
+
+// The files of all words, in their order: a file as it is, "-" for standard input, and of a folder
+// every .toml in it, not those of folders below, in the order of a lecture: by `lecture`, those
+// without one behind the others, by name. A .toml that is no scenario is left out, with a warning.
+// Throws UsageError for standard input named twice and for a folder without scenarios, IoError for
+// one that cannot be listed.
+std::vector<std::string> input_files(const std::vector<std::string>& words);
 
 // "step", "event", or nothing for the scenario's own.
 Pace pace_of(std::string_view word, const Scenario& scenario);

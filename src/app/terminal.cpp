@@ -2,13 +2,15 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstdlib>
 #include <mutex>
 
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "app/commands/command.hpp"
+#include "base/check.hpp"
 #include "base/file.hpp"
+#include "base/json_writer.hpp"
 #include "base/printable.hpp"
 
 namespace lantern::app {
@@ -29,18 +31,21 @@ bool is_set(const char* variable) {
   return value != nullptr && *value != '\0';
 }
 
+// Do messages have colour? Told nothing: not if NO_COLOR is set, surely if CLICOLOR_FORCE is set to
+// anything but 0, and otherwise if standard error is a terminal. See no-color.org and
+// bixense.com/clicolors; an empty variable counts as none.
+bool colourful() {
+  if (colour != ColourMode::automatic) return colour == ColourMode::always;
+  if (is_set("NO_COLOR")) return false;
+  if (is_set("CLICOLOR_FORCE") && std::string_view(std::getenv("CLICOLOR_FORCE")) != "0")
+    return true;
+  return animated();
+}
+
 void keep(const Diagnostic& diagnostic) noexcept try {
   const std::lock_guard guard(writing);
   if (keeps) kept.push_back(diagnostic);
 } catch (const std::exception&) {  // no room for it: it is still said
-}
-
-void keep(Severity severity, std::string_view message) noexcept try {
-  Diagnostic diagnostic;
-  diagnostic.message = message;
-  diagnostic.severity = severity;
-  keep(diagnostic);
-} catch (const std::exception&) {
 }
 
 // What there is no memory to say, or nobody to hear, is lost: the work goes on.
@@ -63,8 +68,15 @@ std::string coloured(Severity severity) {
   return fmt::format("\033[1;{}m{}\033[0m", severity == Severity::error ? 31 : 33, word);
 }
 
-std::string with_prefix(Severity severity, std::string_view printable_text) {
-  return fmt::format("lantern: {} {}", coloured(severity), printable_text);
+// Keeps it, and says it with its severity before it.
+void tell_and_keep(Severity severity, std::string_view message,
+                   std::string (*made_printable)(std::string_view) = printable) noexcept {
+  try {
+    keep({{}, std::string(message), "", "", severity});
+  } catch (const std::exception&) {
+  }
+  write_line(
+      [&] { return fmt::format("lantern: {} {}", coloured(severity), made_printable(message)); });
 }
 
 }  // namespace
@@ -76,33 +88,15 @@ bool is_quiet() noexcept { return quiet; }
 
 void set_colour(ColourMode mode) noexcept { colour = mode; }
 
-bool colourful() {
-  if (colour != ColourMode::automatic) return colour == ColourMode::always;
-  if (is_set("NO_COLOR")) return false;
-  if (is_set("CLICOLOR_FORCE") && std::string_view(std::getenv("CLICOLOR_FORCE")) != "0")
-    return true;
-  return animated();
-}
-
 void say(std::string_view message) noexcept {
   if (!quiet) write_line([&] { return printable(message); });
 }
 
-void warn(std::string_view message) noexcept {
-  keep(Severity::warning, message);
-  write_line([&] { return with_prefix(Severity::warning, printable(message)); });
-}
-
-void complain(std::string_view message) noexcept {
-  keep(Severity::error, message);
-  write_line([&] { return with_prefix(Severity::error, printable(message)); });
-}
-
+void warn(std::string_view message) noexcept { tell_and_keep(Severity::warning, message); }
+void complain(std::string_view message) noexcept { tell_and_keep(Severity::error, message); }
 void complain(const BackendError& error) noexcept {
-  keep(Severity::error, error.what());
-  write_line([&] { return with_prefix(Severity::error, printable_lines(error.what())); });
+  tell_and_keep(Severity::error, error.what(), printable_lines);
 }
-
 void complain(const ScenarioError& error) noexcept { complain(error.diagnostics()); }
 
 void complain(const std::vector<Diagnostic>& diagnostics) noexcept {
@@ -116,16 +110,6 @@ void complain(const std::vector<Diagnostic>& diagnostics) noexcept {
       return text;
     });
   }
-}
-
-void keep_diagnostics() noexcept {
-  const std::lock_guard guard(writing);
-  keeps = true;
-}
-
-std::vector<Diagnostic> kept_diagnostics() {
-  const std::lock_guard guard(writing);
-  return kept;
 }
 
 void print(std::string_view text) { write_stdout(printable_lines(text)); }
@@ -164,6 +148,85 @@ void clear_status() noexcept {
   const std::lock_guard guard(writing);
   if (status_shown) write_stderr(kClear);
   status_shown = false;
+}
+
+// ---- What a program is answered
+
+namespace {
+
+bool owed = false;
+std::string given;       // by the command, or an object with nothing but the format
+std::string last_words;  // whole, made while there is memory
+
+template <class Value>
+void write_or_null(JsonWriter& json, const char* key, const Value& value) {
+  json.member(key, value == Value() ? std::nullopt : std::optional(value));
+}
+
+// Every member in any case, null where there is nothing to say.
+void write(JsonWriter& json, const Diagnostic& d) {
+  json.line().begin_object();
+  json.member("severity", d.severity == Severity::error ? "error" : "warning");
+  write_or_null(json, "file", d.where.file);
+  write_or_null(json, "line", d.where.line);
+  write_or_null(json, "column", d.where.column);
+  json.member("message", d.message);
+  write_or_null(json, "source_line", d.source_line);
+  write_or_null(json, "suggestion", d.suggestion);
+  json.end_object();
+}
+
+// The object with the members that it ends with.
+std::string ended(std::string object, const std::vector<Diagnostic>& diagnostics, int exit_code) {
+  const std::size_t end = object.find_last_of('}');
+  LANTERN_CHECK(end, !=, std::string::npos);
+  object.resize(object.find_last_not_of(" \n", end - 1) + 1);
+  JsonWriter json;
+  json.begin_object().line().key("diagnostics").begin_array();
+  for (const Diagnostic& d : diagnostics) write(json, d);
+  if (!diagnostics.empty()) json.line();
+  json.end_array().line().member("exit_code", exit_code).line().end_object();
+  return object + "," + json.text().substr(1) + "\n";
+}
+
+}  // namespace
+
+JsonWriter answer_of(std::string_view command) {
+  JsonWriter json;
+  json.begin_object().line().member("format", fmt::format("lantern.{}/1", command));
+  return json;
+}
+
+void answer(std::string object) { given = std::move(object); }
+
+void owe_answer(std::string_view command) {
+  given = answer_of(command).end_object().text();
+  Diagnostic no_memory;
+  no_memory.message = "out of memory";
+  last_words = ended(given, {no_memory}, kFailed);
+  owed = true;
+  const std::lock_guard guard(writing);
+  keeps = true;
+}
+
+void owe_no_answer() noexcept { owed = false; }
+
+void write_answer(int exit_code) {
+  const bool is_told = exit_code != 0;
+  if (!owed || (output_is_input() && is_told)) return;
+  std::unique_lock guard(writing);
+  const std::string text = ended(given, kept, exit_code);
+  guard.unlock();
+  owed = false;
+  write_stdout(text);
+}
+
+void write_answer_without_memory() noexcept {
+  if (!std::exchange(owed, false)) return;
+  try {
+    write_stdout(last_words);
+  } catch (const std::exception&) {  // it has been told that there is no memory
+  }
 }
 
 }  // namespace lantern::app

@@ -1,7 +1,7 @@
 // Messages to a person, on standard error. None of them throws: one that cannot be said is lost,
 // and the work goes on. Whatever stands in them, a terminal gets printable text
 // (base/printable.hpp). What is in the way or was surely not meant is kept, too, for the program
-// that reads a command's JSON (app/answer.hpp).
+// that reads a command's JSON.
 #pragma once
 
 #include <stdexcept>
@@ -10,6 +10,10 @@
 #include <vector>
 
 #include "base/error.hpp"
+
+namespace lantern {
+class JsonWriter;
+}
 
 namespace lantern::app {
 
@@ -21,10 +25,6 @@ bool is_quiet() noexcept;
 enum class ColourMode { automatic, always, never };
 void set_colour(ColourMode mode) noexcept;
 
-// Do messages have colour? Told nothing: not if NO_COLOR is set, surely if CLICOLOR_FORCE is set to
-// anything but 0, and otherwise if standard error is a terminal. See no-color.org and
-// bixense.com/clicolors; an empty variable counts as none.
-bool colourful();
 // Standard error is a terminal that a person looks at: progress is drawn in place.
 bool animated();
 
@@ -34,10 +34,6 @@ void complain(std::string_view message) noexcept;    // a line "lantern: error: 
 void complain(const BackendError& error) noexcept;   // the same, and a line a backend
 void complain(const ScenarioError& error) noexcept;  // each of its diagnostics
 void complain(const std::vector<Diagnostic>& diagnostics) noexcept;  // errors and warnings
-
-// From here on, errors and warnings are kept as they are told.
-void keep_diagnostics() noexcept;
-std::vector<Diagnostic> kept_diagnostics();
 
 // Lines for a person on standard output, printable, too. Throws IoError as write_stdout does.
 void print(std::string_view text);
@@ -55,5 +51,28 @@ class UsageError : public std::runtime_error {
 // elsewhere nothing happens. Messages and this may come from several threads.
 void show_status(std::string_view line) noexcept;
 void clear_status() noexcept;
+
+// ---- What a command answers a program that said --json: one JSON object on standard output,
+// whatever happens. Its first member is `format`, "lantern.check/1"; then comes what the command
+// found, as far as it came; then `diagnostics`, all errors and warnings, and `exit_code`. Every
+// member is told of in scenarios/JSON.md.
+
+// Begins an object with the format of version 1 of a command ("check", "bench.step").
+JsonWriter answer_of(std::string_view command);
+
+// What the command found: a whole JSON object whose first member is `format`. It is kept until the
+// exit code is known; a later one replaces it.
+void answer(std::string object);
+
+// From here on an answer is owed, of this command if it never gives one of its own. Errors and
+// warnings are kept as they are told, and room for the words that there is no memory.
+void owe_answer(std::string_view command);
+// Standard output is for something else, such as help.
+void owe_no_answer() noexcept;
+
+// Writes what is owed, if anything is, and owes nothing any more. Throws as write_stdout does.
+void write_answer(int exit_code);
+// The same when there is no memory: only that there was none. Needs none; throws nothing.
+void write_answer_without_memory() noexcept;
 
 }  // namespace lantern::app

@@ -1,41 +1,30 @@
-// The lab's commands: what each is told, and its exit code.
+// The lab's commands, and how every experiment of the lab is run, reported and ended.
 #pragma once
 
-#include <cstdint>
-#include <optional>
 #include <string>
-#include <vector>
 
 #include "app/commands/command.hpp"
+#include "report/experiment.hpp"
 
 namespace lantern::lab {
 
-struct MeasureOptions {
-  std::vector<std::string> problems;  // names, families or files; empty for all
-  std::string output = "output/measure";
-  std::vector<std::string> methods;  // empty for those of each problem
-  std::vector<double> steps;         // seconds; empty for those of each problem
-  std::vector<std::string> from;     // earlier measurements: only their page is made
-  bool quick = false;
-  bool full = false;
-  std::optional<double> longest;  // processor seconds of one run; longer ones are left out
-  bool peers = true;
-  std::string theme = "light";
-  std::string backend = "auto";
-  bool list = false;
-  bool json = false;
-};
-int measure_command(const MeasureOptions& options);
+// As Command::begin: they give their options, and what runs with their values.
+app::Run begin_measure(Options& rows);
+app::Run begin_stress(Options& rows);
 
-struct StressOptions {
-  std::vector<std::string> cases;  // names; empty for all that are not slow
-  std::string output;              // folder; empty for none
-  std::string theme = "light";
-  std::string backend = "auto";  // auto, osmesa, egl
-  bool list = false;
-  bool full = false;  // the slow ones, too
+Option folder_option(std::string& folder, const char* help);
+
+struct ExperimentRun {
+  std::string command;      // "bench atlas"
+  std::string file;         // of its files, without an ending: "bench_atlas"
+  std::string typed = "";   // its options, each with a space before it
+  std::string output = "";  // folder; empty for none
   bool json = false;
+  std::string theme = "light";  // of its pictures
+  bool text = false;            // the table as a file, too
 };
-int stress_command(const StressOptions& options);
+
+// Gives the exit code. After an interruption what was done is reported.
+int run_experiment(Experiment& experiment, const ExperimentRun& as);
 
 }  // namespace lantern::lab

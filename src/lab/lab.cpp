@@ -1,69 +1,66 @@
 // The module build/lantern_lab.so: what the program asks of it.
 #include "app/lab.hpp"
 
-#include <memory>
-#include <string>
-#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include "app/scenario_folder.hpp"
+#include "app/progress.hpp"
+#include "app/report_folder.hpp"
+#include "app/run_scenario.hpp"
+#include "app/terminal.hpp"
 #include "base/check.hpp"
+#include "base/stop.hpp"
 #include "embedded/version.hpp"
 #include "lab/commands.hpp"
-#include "lab/experiment_run.hpp"
 #include "measure/error_metric.hpp"
 #include "measure/peers.hpp"
 #include "report/benches.hpp"
 
 namespace lantern::lab {
-namespace {
 
 Option folder_option(std::string& folder, const char* help) {
   return {"-o,--output", &folder, help, {.value = "DIR"}};
 }
 
-Options measure_options(MeasureOptions& o) {
-  return {
-      {"PROBLEM", &o.problems,
-       "problems or families by name, or scenario files; the default is all problems; "
-       "'broad_phase' measures the trees' settings"},
-      folder_option(o.output, "folder for tables, plots and the overview page"),
-      {"--method",
-       &o.methods,
-       "only these: velocity_verlet, soft:16, impulse:100, ...",
-       {.value = "NAME", .one_each = true}},
-      {"--step", &o.steps, "only these time steps, seconds", {.value = "H", .one_each = true}},
-      {"--quick", &o.quick, "about a minute: plain problems, few repeats"},
-      {"--full", &o.full, "every run, however long it takes", {.without = "--quick"}},
-      longest_option("leave out runs that would take more seconds than this", o.longest),
-      peers_option("without other engines", o.peers),
-      {"--theme", &o.theme, "colours of the plots", {.words = kThemes}},
-      backend_option(o.backend, "off-screen OpenGL, for the PNG files"),
-      {"--list", &o.list, "name the problems, measure nothing"},
-      {"--from",
-       &o.from,
-       "measure nothing: report.html of these folders or measure.json files, one a "
-       "machine, side by side",
-       {.value = "PATH"}},
-      memory_option(),
-      json_option(o.json),
-  };
+int run_experiment(Experiment& experiment, const ExperimentRun& as) {
+  try {
+    experiment.set_circumstances(here(), "lantern " + as.command + as.typed);
+    experiment.prepare();
+    ReportFolder folder(as.output, as.file);
+    if (const std::string words = experiment.announcement(); !words.empty()) say(words);
+    try {
+      Progress progress(as.command, experiment.stages(), experiment.unit());
+      experiment.run([&](const std::string& words) { progress.tell(words); });
+    } catch (const Stopped&) {
+      give_time_to_save();  // stages that are done are reported
+    }
+    for (const std::string& missing : experiment.missing()) say(missing);
+    const Texts texts = experiment.texts();
+    folder.write(as.file + ".html", texts.html);
+    folder.write(as.file + ".csv", texts.csv);
+    if (as.text) folder.write(as.file + ".txt", texts.table);
+    folder.write(as.file + ".json", texts.json);
+    as.json ? answer(texts.json) : print(texts.table);
+    if (stop_asked()) {
+      complain(
+          fmt::format("interrupted; the {} that were done have been reported", experiment.unit()));
+      return kInterrupted;
+    }
+    if (folder.wanted()) {
+      std::vector<ReportPage> pages;
+      for (auto& [name, list] : experiment.pages()) pages.push_back({name, std::move(list)});
+      folder.draw(pages, as.theme);
+    }
+    folder.finish();
+    if (!experiment.complaint().empty()) complain(experiment.complaint());
+    return experiment.is_good() ? kGood : kFailed;
+  } catch (const Refused& refused) {
+    throw UsageError(refused.what());
+  }
 }
 
-Options stress_options(StressOptions& o) {
-  return {
-      {"CASE", &o.cases, "names of cases; the default is all that are not slow"},
-      folder_option(o.output, "folder for stress.csv, stress.json, stability_map.png and .svg"),
-      {"--theme", &o.theme, "colours of the stability map", {.words = kThemes}},
-      backend_option(o.backend),
-      {"--list", &o.list, "list the cases and exit"},
-      {"--full", &o.full, "run the slow cases, too"},
-      memory_option(),
-      json_option(o.json),
-  };
-}
+namespace {
 
 // A bench registers its own options; all are run, reported and ended alike.
 app::Run begin_bench(const std::string& name, std::unique_ptr<Experiment> experiment,
@@ -80,8 +77,8 @@ app::Run begin_bench(const std::string& name, std::unique_ptr<Experiment> experi
   bench->folder_help = fmt::format("folder for {0}.html, {0}.csv and {0}.json", bench->run.file);
   rows = bench->options = bench->experiment->options();
   rows.push_back(folder_option(bench->run.output, bench->folder_help.c_str()));
-  rows.push_back(app::memory_option());
-  rows.push_back(app::json_option(bench->run.json));
+  rows.push_back(memory_option());
+  rows.push_back(json_option(bench->run.json));
   return [bench] {
     bench->run.typed = as_typed(bench->options);
     return run_experiment(*bench->experiment, bench->run);
@@ -94,8 +91,8 @@ app::Run begin(std::string_view name, Options& rows) {
   if (name == "bench pairs") return begin_bench("pairs", pairs_bench(), rows);
   if (name == "bench atlas") return begin_bench("atlas", atlas_bench(), rows);
   if (name == "bench step") return begin_bench("step", step_bench(), rows);
-  if (name == "measure") return command("", "", measure_command, measure_options).begin(rows);
-  if (name == "stress") return command("", "", stress_command, stress_options).begin(rows);
+  if (name == "measure") return begin_measure(rows);
+  if (name == "stress") return begin_stress(rows);
   LANTERN_CHECK(name, ==, std::string_view("a command of the lab"));
   return nullptr;
 }

@@ -1,64 +1,169 @@
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
-#include <span>
 
 #include <fmt/format.h>
 
-#include "app/answer.hpp"
-#include "app/interrupts.hpp"
 #include "app/progress.hpp"
 #include "app/report_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
+#include "base/counted.hpp"
 #include "base/json_writer.hpp"
 #include "base/number.hpp"
 #include "base/stop.hpp"
 #include "base/suggest.hpp"
 #include "lab/commands.hpp"
-#include "lab/experiment_run.hpp"
-#include "lab/measure_unsuited.hpp"
 #include "language/method.hpp"
+#include "measure/peers.hpp"
 #include "measure/plan.hpp"
 #include "measure/problems.hpp"
 #include "report/benches.hpp"
 #include "report/measure_document.hpp"
 #include "report/measure_files.hpp"
 #include "report/pages.hpp"
+#include "report/words.hpp"
 
 namespace lantern::lab {
 namespace {
 
 namespace fs = std::filesystem;
 
+struct MeasureOptions {
+  std::vector<std::string> problems;  // names, families or files; empty for all
+  std::string output = "output/measure";
+  std::vector<std::string> methods;  // empty for those of each problem
+  std::vector<double> steps;         // seconds; empty for those of each problem
+  std::vector<std::string> from;     // earlier measurements: only their page is made
+  bool quick = false;
+  bool full = false;
+  std::optional<double> longest;  // processor seconds of one run; longer ones are left out
+  bool peers = true;
+  std::string theme = "light";
+  std::string backend = "auto";
+  bool list = false;
+  bool json = false;
+};
+
+Options measure_options(MeasureOptions& o) {
+  return {{"PROBLEM", &o.problems,
+           "problems or families by name, or scenario files; the default is all problems; "
+           "'broad_phase' measures the trees' settings"},
+          folder_option(o.output, "folder for tables, plots and the overview page"),
+          {"--method", &o.methods, "only these: velocity_verlet, soft:16, impulse:100, ...",
+           OptionTraits{.value = "NAME", .one_each = true}},
+          {"--step", &o.steps, "only these time steps, seconds", {.value = "H", .one_each = true}},
+          {"--quick", &o.quick, "about a minute: plain problems, few repeats"},
+          {"--full", &o.full, "every run, however long it takes", {.without = "--quick"}},
+          longest_option("leave out runs that would take more seconds than this", o.longest),
+          peers_option("without other engines", o.peers),
+          {"--theme", &o.theme, "colours of the plots", {.words = kThemes}},
+          backend_option(o.backend, "off-screen OpenGL, for the PNG files"),
+          {"--list", &o.list, "name the problems, measure nothing"},
+          {"--from", &o.from,
+           "measure nothing: report.html of these folders or measure.json files, one a "
+           "machine, side by side",
+           OptionTraits{.value = "PATH"}},
+          memory_option(),
+          json_option(o.json)};
+}
+
 constexpr double kSaveEvery = 5;                                   // seconds
 constexpr std::size_t kMostMeasureBytes = std::size_t{256} << 20;  // of an earlier measure.json
 
-bool is_file(const std::string& word) {
-  return word.ends_with(".toml") || word.find('/') != std::string::npos;
+// ---- Who was asked for and is not run, and why: nobody is left out in silence
+
+using Names = std::vector<std::string>;
+
+// Those who do not run some problems, for one and the same reason.
+struct Group {
+  Names problems, solvers;
+  std::string reason;
+};
+
+// Adds it to the group that has the same reason and the same `same`: that takes its `others`, too.
+void add(std::vector<Group>& groups, Group one, Names Group::*same, Names Group::*others) {
+  const auto found = std::ranges::find_if(groups, [&](const Group& group) {
+    return group.*same == one.*same && group.reason == one.reason;
+  });
+  if (found == groups.end())
+    groups.push_back(std::move(one));
+  else
+    ((*found).*others).push_back((one.*others)[0]);
 }
+
+// First solvers with one reason for a problem, then problems with the same solvers and reason.
+std::vector<Group> grouped(std::span<const Unsuited> unsuited) {
+  std::vector<Group> of_one, all;
+  for (const Unsuited& one : unsuited)
+    add(of_one, {{one.problem}, {one.solver}, one.reason}, &Group::problems, &Group::solvers);
+  for (Group& one : of_one) add(all, std::move(one), &Group::solvers, &Group::problems);
+  return all;
+}
+
+std::string words_of(const Group& group) {
+  return fmt::format("{} {} not run by {}: {}", listed(group.problems),
+                     group.problems.size() > 1 ? "are" : "is", listed(group.solvers), group.reason);
+}
+
+// What a name is before its colon, in small letters: "bullet" of "Bullet:10".
+std::string engine_of(const std::string& name) {
+  std::string engine = name.substr(0, name.find(':'));
+  for (char& c : engine)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return engine;
+}
+
+// A line for each reason: "kepler is not run by MuJoCo:Euler and MuJoCo:RK4: MuJoCo has no forces
+// between two bodies but tendons". Of other engines only if `with_peers`.
+std::vector<std::string> unsuited_words(std::span<const Unsuited> unsuited, bool with_peers) {
+  std::vector<Unsuited> told(unsuited.begin(), unsuited.end());
+  if (!with_peers) std::erase_if(told, [](const Unsuited& one) { return one.is_peer; });
+  Names lines;
+  for (const Group& group : grouped(told)) lines.push_back(words_of(group));
+  return lines;
+}
+
+// If `name` is that of another engine, in whatever letters: that it is no method, and which of the
+// scenarios it does not run.
+std::optional<std::string> about_peer(const std::string& name,
+                                      const std::vector<Scenario>& scenarios) {
+  Names missing;
+  std::vector<std::unique_ptr<Solver>> same = load_peers(missing);
+  std::erase_if(same, [&](const auto& peer) { return engine_of(peer->name()) != engine_of(name); });
+  for (const std::string& line : missing)
+    if (engine_of(line) == engine_of(name))
+      return fmt::format("'{}' is no method but another engine. {}", name, line);
+  if (same.empty()) return std::nullopt;
+  std::vector<Unsuited> unsuited;
+  for (const Scenario& scenario : scenarios)
+    for (const auto& peer : same)
+      if (const auto reason = why_not(*peer, scenario))
+        unsuited.push_back({scenario.name, peer->name(), *reason, true});
+  std::string text = fmt::format(
+      "'{}' is no method but another engine: it is run beside the methods where it can", name);
+  for (const Group& group : grouped(unsuited)) text += "; " + words_of(group);
+  return text;
+}
+
+// ---- What is asked for
 
 // A problem by name, all problems of a family, or a scenario file.
 void add_scenarios(const std::string& word, std::vector<Scenario>& scenarios) {
-  if (is_file(word)) {
-    scenarios.push_back(load_scenario(word));
-    return;
-  }
   const std::vector<std::string_view> names = problem_names();
-  if (std::ranges::find(names, word) != names.end()) {
-    scenarios.push_back(known_problem(word));
-    return;
-  }
   const std::size_t before = scenarios.size();
-  for (const std::string_view name : names)
-    if (Scenario s = known_problem(name); s.problem && to_string(s.problem->solution) == word)
-      scenarios.push_back(std::move(s));
-  if (scenarios.size() == before)
-    throw UsageError(fmt::format("there is no problem '{}'; {}", word,
-                                 suggestion(word, names, 0).empty()
-                                     ? "'lantern measure --list' names them all"
-                                     : suggestion(word, names, 0)));
+  if (word.ends_with(".toml") || word.find('/') != std::string::npos)
+    scenarios.push_back(load_scenario(word));
+  else if (std::ranges::find(names, word) != names.end())
+    scenarios.push_back(known_problem(word));
+  else
+    for (const std::string_view name : names)
+      if (Scenario s = known_problem(name); s.problem && to_string(s.problem->solution) == word)
+        scenarios.push_back(std::move(s));
+  if (scenarios.size() > before) return;
+  const std::string near = suggestion(word, names, 0);
+  throw UsageError(fmt::format("there is no problem '{}'; {}", word,
+                               near.empty() ? "'lantern measure --list' names them all" : near));
 }
 
 std::vector<Scenario> scenarios_of(const MeasureOptions& options) {
@@ -79,19 +184,17 @@ PlanOptions plan_options(const MeasureOptions& options) {
   plan.effort = options.quick ? Effort::quick : options.full ? Effort::full : Effort::normal;
   plan.peers = options.peers;
   plan.longest = options.longest;
-  for (const std::string& name : options.methods) {
-    if (!can_be_measured_by(name)) {
-      if (const auto words = about_peer(name, plan.scenarios)) throw UsageError(*words);
-      throw UsageError(
-          with_suggestion(fmt::format("there is no method '{}'", name), name, method_names()));
-    }
-    plan.methods.push_back(name);
+  plan.methods = options.methods;
+  plan.steps = options.steps;
+  for (const std::string& name : plan.methods) {
+    if (can_be_measured_by(name)) continue;
+    if (const auto words = about_peer(name, plan.scenarios)) throw UsageError(*words);
+    throw UsageError(
+        with_suggestion(fmt::format("there is no method '{}'", name), name, method_names()));
   }
-  for (const double step : options.steps) {
+  for (const double step : plan.steps)
     if (!std::isfinite(step) || step <= 0)
       throw UsageError(fmt::format("a time step of {} s is not allowed; it must be above 0", step));
-    plan.steps.push_back(step);
-  }
   return plan;
 }
 
@@ -101,8 +204,8 @@ int list_problems(bool as_json) {
   json.line().key("problems").begin_array();
   for (const std::string_view name : problem_names()) {
     const Scenario s = known_problem(name);
-    const std::string_view family = to_string(s.problem->solution);
-    const std::string_view variant = to_string(s.problem->variant);
+    const std::string_view family = to_string(s.problem->solution),
+                           variant = to_string(s.problem->variant);
     rows.push_back({s.name, std::string(family), std::string(variant), s.title});
     json.line().begin_object().members("name", s.name, "family", family, "variant", variant,
                                        "title", s.title);
@@ -123,7 +226,7 @@ bool same(const Circumstances& a, const Circumstances& b) {
 std::vector<Row> finished_rows(const ReportFolder& folder, const Circumstances& circumstances) {
   std::string why;
   try {
-    const auto text = folder.earlier("measure.json", kMostMeasureBytes);
+    const auto text = folder.earlier(kMeasurement, kMostMeasureBytes);
     if (!text) return {};
     auto earlier = read_measurement(*text, &why);
     if (earlier && same(earlier->circumstances, circumstances)) return std::move(earlier->rows);
@@ -131,8 +234,8 @@ std::vector<Row> finished_rows(const ReportFolder& folder, const Circumstances& 
     why = e.what();
   }
   if (!why.empty())
-    warn(fmt::format("nothing is taken over from '{}': {}",
-                     (folder.path() / "measure.json").string(), why));
+    warn(fmt::format("nothing is taken over from '{}': {}", (folder.path() / kMeasurement).string(),
+                     why));
   return {};
 }
 
@@ -160,7 +263,9 @@ class Measuring {
       }
     } catch (const Stopped&) {
       give_time_to_save();
-      keep_what_was_known();
+      // Rows of an earlier run that this one did not come to are kept.
+      for (const Job& job : std::span(plan_.jobs()).subspan(done_))
+        if (const Row* old = known(job)) measurement_.rows.push_back(*old);
     }
     save();
   }
@@ -170,13 +275,7 @@ class Measuring {
  private:
   void save() {
     if (std::ranges::any_of(measurement_.rows, &Row::was_run))
-      folder_.write("measure.json", report::to_json(measurement_));
-  }
-
-  // Rows of an earlier run that this one did not come to.
-  void keep_what_was_known() {
-    for (std::size_t i = done_; i < plan_.jobs().size(); ++i)
-      if (const Row* old = known(plan_.jobs()[i])) measurement_.rows.push_back(*old);
+      folder_.write(kMeasurement, report::to_json(measurement_));
   }
 
   const Row* known(const Job& job) const {
@@ -229,11 +328,9 @@ class Measuring {
     std::size_t kept = 0, long_ones = 0;
     const Job* longest = nullptr;
     for (const Job& job : plan_.jobs()) {
-      if (finished(job)) {
-        ++kept;
-        continue;
-      }
-      if (!plan_.is_too_long(job)) continue;
+      const bool is_kept = finished(job) != nullptr;
+      kept += is_kept;
+      if (is_kept || !plan_.is_too_long(job)) continue;
       ++long_ones;
       if (!longest || plan_.seconds(job) > plan_.seconds(*longest)) longest = &job;
     }
@@ -266,10 +363,9 @@ void save_pages(ReportFolder& folder, const Measurement& m, const MeasureOptions
   folder.write("drift.csv", drift_csv(m));
   folder.write("circumstances.csv", to_csv(m.circumstances));
   folder.write("peers.csv", to_csv(m.peers));
-  std::vector<ReportPage> pages;
   const std::vector<Bar> bars = options.problems.empty() ? measured_bars() : std::vector<Bar>();
   folder.write("report.html", to_html(document_of(std::span(&m, 1), bars)));
-  pages.push_back({"overview", draw_overview(m, bars)});
+  std::vector<ReportPage> pages = {{"overview", draw_overview(m, bars)}};
   for (const ProblemRows& problem : by_problem(m.rows)) {
     pages.push_back({problem.problem, draw_problem(problem, m)});
     if (std::ranges::any_of(problem.rows, [](const Row& row) { return !row.samples.empty(); }))
@@ -290,12 +386,12 @@ int measure_problems(const MeasureOptions& options) {
   const Measurement& m = measuring.measurement();
   measuring.run();
   const bool is_nothing = std::ranges::none_of(m.rows, &Row::was_run);
-  if (is_nothing && !interrupted()) {
+  if (is_nothing && !stop_asked()) {
     complain("nothing was measured: no method applies, or every run is too long (--full)");
     return kFailed;
   }
   options.json ? answer(report::to_json(m)) : print(to_table(m));
-  if (interrupted()) {
+  if (stop_asked()) {
     complain("interrupted; the same command goes on from here");
     return kInterrupted;
   }
@@ -309,7 +405,7 @@ int measure_problems(const MeasureOptions& options) {
 int page_of_earlier(const MeasureOptions& options) {
   std::vector<Measurement> measurements;
   for (const std::string& word : options.from) {
-    const fs::path path = fs::is_directory(word) ? fs::path(word) / "measure.json" : fs::path(word);
+    const fs::path path = fs::is_directory(word) ? fs::path(word) / kMeasurement : fs::path(word);
     std::string why;
     auto read = read_measurement(read_input(path, kMostMeasureBytes), &why);
     if (!read)
@@ -327,9 +423,7 @@ int page_of_earlier(const MeasureOptions& options) {
   return kGood;
 }
 
-}  // namespace
-
-int measure_command(const MeasureOptions& options) {
+int measure(const MeasureOptions& options) {
   if (options.list) return list_problems(options.json);
   if (!options.from.empty()) return page_of_earlier(options);
   const std::vector<std::string>& words = options.problems;
@@ -338,6 +432,12 @@ int measure_command(const MeasureOptions& options) {
   return run_experiment(*experiment,
                         {"measure broad_phase", "broad_phase", as_typed(experiment->options()),
                          options.output, options.json, options.theme, true});
+}
+
+}  // namespace
+
+app::Run begin_measure(Options& rows) {
+  return command("", "", measure, measure_options).begin(rows);
 }
 
 }  // namespace lantern::lab

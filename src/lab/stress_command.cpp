@@ -1,11 +1,7 @@
 #include <algorithm>
-#include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include "app/answer.hpp"
-#include "app/interrupts.hpp"
 #include "app/progress.hpp"
 #include "app/report_folder.hpp"
 #include "app/terminal.hpp"
@@ -20,22 +16,42 @@
 namespace lantern::lab {
 namespace {
 
+struct StressOptions {
+  std::vector<std::string> cases;  // names; empty for all that are not slow
+  std::string output;              // folder; empty for none
+  std::string theme = "light";
+  std::string backend = "auto";  // auto, osmesa, egl
+  bool list = false;
+  bool full = false;  // the slow ones, too
+  bool json = false;
+};
+
+Options stress_options(StressOptions& o) {
+  return {{"CASE", &o.cases, "names of cases; the default is all that are not slow"},
+          folder_option(o.output, "folder for stress.csv, stress.json, stability_map.png and .svg"),
+          {"--theme", &o.theme, "colours of the stability map", {.words = kThemes}},
+          backend_option(o.backend),
+          {"--list", &o.list, "list the cases and exit"},
+          {"--full", &o.full, "run the slow cases, too"},
+          memory_option(),
+          json_option(o.json)};
+}
+
 // The cases named, in the order of the table; without names all that are not slow, with --full all.
 std::vector<StressCase> chosen_cases(const StressOptions& options) {
   std::vector<std::string_view> names;
   for (const StressCase& one : stress_cases()) names.push_back(one.name);
   for (const std::string& name : options.cases)
-    if (std::find(names.begin(), names.end(), name) == names.end()) {
+    if (std::ranges::find(names, name) == names.end()) {
       const std::string hint = suggestion(name, names);
       throw UsageError(fmt::format("there is no case '{}'; {}", name,
                                    hint.empty() ? "see 'lantern stress --list'" : hint));
     }
-  std::vector<StressCase> chosen;
-  for (const StressCase& one : stress_cases()) {
-    const bool named =
-        std::find(options.cases.begin(), options.cases.end(), one.name) != options.cases.end();
-    if (options.cases.empty() ? options.full || !one.slow : named) chosen.push_back(one);
-  }
+  std::vector<StressCase> chosen(stress_cases().begin(), stress_cases().end());
+  std::erase_if(chosen, [&](const StressCase& one) {
+    if (options.cases.empty()) return one.slow && !options.full;
+    return std::ranges::find(options.cases, one.name) == options.cases.end();
+  });
   return chosen;
 }
 
@@ -70,21 +86,7 @@ StressReport run_all(const std::vector<StressCase>& cases) {
   return report;
 }
 
-// The stability map, of a finished run.
-void draw_stress_map(const ReportFolder& folder, const StressReport& report,
-                     const StressOptions& options) {
-  if (!folder.wanted() || !report.finished) return;
-  const StabilityMap map = make_stability_map();
-  folder.draw({{"stability_map", draw_stability_map(map)}}, options.theme, options.backend);
-}
-
-bool is_good(const StressReport& report) {
-  return std::ranges::all_of(report.outcomes, [](const StressOutcome& o) { return o.result.good; });
-}
-
-}  // namespace
-
-int stress_command(const StressOptions& options) {
+int stress(const StressOptions& options) {
   if (options.list) {
     list_cases(options.json);
     return kGood;
@@ -94,13 +96,21 @@ int stress_command(const StressOptions& options) {
   folder.write("stress.csv", to_csv(report));
   folder.write("stress.json", to_json(report));
   options.json ? answer(to_json(report)) : print(to_table(report));
-  draw_stress_map(folder, report, options);
-  if (interrupted()) {
+  if (folder.wanted() && report.finished)
+    folder.draw({{"stability_map", draw_stability_map(make_stability_map())}}, options.theme,
+                options.backend);
+  if (stop_asked()) {
     complain("interrupted; what is finished has been reported");
     return kInterrupted;
   }
   folder.finish();
-  return is_good(report) ? kGood : kFailed;
+  const bool good =
+      std::ranges::all_of(report.outcomes, [](const StressOutcome& o) { return o.result.good; });
+  return good ? kGood : kFailed;
 }
+
+}  // namespace
+
+app::Run begin_stress(Options& rows) { return command("", "", stress, stress_options).begin(rows); }
 
 }  // namespace lantern::lab

@@ -1,10 +1,9 @@
 // What stands after -o decides what a run becomes.
-#include "app/output/destination.hpp"
-
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "app/output/render_job.hpp"
 #include "app/terminal.hpp"
 #include "fresh_folder.hpp"
 

@@ -1,9 +1,8 @@
 // The speed of a film.
-#include "app/output/film_clock.hpp"
-
 #include <gtest/gtest.h>
 
 #include "app/output/render_job.hpp"
+#include "app/output/sinks.hpp"
 #include "rooms.hpp"
 
 namespace lantern::app {

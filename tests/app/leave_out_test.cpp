@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <unistd.h>
 
-#include "app/commands/command_line.hpp"
+#include "app/commands/command.hpp"
 #include "app/process.hpp"
 #include "app/program.hpp"
 #include "draw/font.hpp"

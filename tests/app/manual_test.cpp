@@ -1,6 +1,4 @@
 // Manual pages and completions say what --help says.
-#include "app/commands/manual.hpp"
-
 #include <regex>
 #include <set>
 #include <sstream>
@@ -10,7 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "app/commands/command_line.hpp"
+#include "app/commands/command.hpp"
 #include "app/process.hpp"
 #include "base/child.hpp"
 

@@ -154,7 +154,7 @@ TEST(Rooms, NameNoStructureButWhereItIsMeant) {
       {"draw/panels/comparison.cpp", 1},        // others are compared with brute force
       {"draw/legend.cpp", 1},                   // its example
       {"draw/world/world2d_parts.cpp", 1},      // quarters that a quadtree has not made
-      {"app/commands/structure_bench.cpp", 2},  // others are timed beside brute force
+      {"app/commands/structure.cpp", 2},        // others are timed beside brute force
       {"language/counts.cpp", 1},               // a compiled level is a BSP
       {"run/level_stage.cpp", 1},               // as well
       {"language/tables/structure.cpp", 2},     // a guess of a bad one, octrees in flat worlds

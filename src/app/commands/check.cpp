@@ -1,14 +1,19 @@
+// `check` and `explain`: runs of scenarios of which nothing is drawn.
 #include <algorithm>
+#include <iterator>
 
 #include <fmt/format.h>
 
-#include "app/answer.hpp"
 #include "app/commands/command.hpp"
+#include "app/progress.hpp"
 #include "app/run_scenario.hpp"
-#include "app/scenario_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/json_writer.hpp"
 #include "base/number.hpp"
+#include "base/counted.hpp"
+#include "base/grouped.hpp"
+#include "base/memory.hpp"
+#include "run/tally.hpp"
 
 namespace lantern::app {
 namespace {
@@ -27,21 +32,12 @@ Options check_options(CheckOptions& o) {
           json_option(o.json)};
 }
 
-// Frames that nobody looks at.
-class NoSink : public FrameSink {
- public:
-  void frame(const Frame&) override {}
-  void finish(const DirectorReport&) override {}
-};
-
 struct Verdict {
   std::string file;
   std::string name;  // empty if it could not be read
   int code = kGood;
-  DirectorReport report;
+  RunResult result;
   std::vector<Diagnostic> problems;
-  std::vector<Diagnostic> warnings;
-  std::vector<std::string> facts;
 };
 
 // Runs one scenario; what is wrong with it goes to standard error.
@@ -51,14 +47,13 @@ Verdict check_one(const std::string& file, const CheckOptions& options, Work& wo
   try {
     const Scenario scenario = load_scenario(scenario_file(file));
     verdict.name = scenario.name;
-    NoSink sink;
-    const RunResult result = run_scenario(scenario, pace_of(options.pace, scenario), sink, work);
-    verdict.code = tell(result, options.strict);
-    verdict.report = result.report;
-    verdict.facts = result.facts;
-    verdict.problems = unmet_of(result);
-    auto& list = options.strict ? verdict.problems : verdict.warnings;
-    list.insert(list.end(), result.warnings.begin(), result.warnings.end());
+    FrameSink nobody;
+    verdict.result = run_scenario(scenario, pace_of(options.pace, scenario), nobody, work);
+    verdict.code = tell(verdict.result, options.strict);
+    verdict.problems = unmet_of(verdict.result);
+    if (options.strict)
+      std::ranges::move(std::exchange(verdict.result.warnings, {}),
+                        std::back_inserter(verdict.problems));
   } catch (const ScenarioError& e) {
     verdict.code = exit_code_of(e);
     complain(e);
@@ -85,25 +80,21 @@ void write(JsonWriter& json, const Verdict& v) {
   json.line().begin_object().member("file", v.file).key("name");
   v.name.empty() ? json.null() : json.value(v.name);
   json.member("good", v.code == kGood);
-  json.member("frames", v.report.frames).member("expectations", v.report.expectations);
+  json.member("frames", v.result.report.frames)
+      .member("expectations", v.result.report.expectations);
   write(json, "problems", v.problems);
-  write(json, "warnings", v.warnings);
-  json.member("facts", v.facts).end_object();
-}
-
-std::string joined_facts(const std::vector<std::string>& facts) {
-  std::string all;
-  for (const std::string& fact : facts) all += "; " + fact;
-  return all;
+  write(json, "warnings", v.result.warnings);
+  json.member("facts", v.result.facts).end_object();
 }
 
 // "x.toml: good; 8 frames, 1 expectation holds; 2 warnings"
 std::string summary_of(const Verdict& v) {
-  const std::uint64_t expectations = v.report.expectations;
-  std::string text = fmt::format("{}: good; {}, {} {}{}", v.file, counted(v.report.frames, "frame"),
-                                 counted(expectations, "expectation"),
-                                 expectations == 1 ? "holds" : "hold", joined_facts(v.facts));
-  if (!v.warnings.empty()) text += "; " + counted(v.warnings.size(), "warning");
+  const std::uint64_t expectations = v.result.report.expectations;
+  std::string text =
+      fmt::format("{}: good; {}, {} {}", v.file, counted(v.result.report.frames, "frame"),
+                  counted(expectations, "expectation"), expectations == 1 ? "holds" : "hold");
+  for (const std::string& fact : v.result.facts) text += "; " + fact;
+  if (!v.result.warnings.empty()) text += "; " + counted(v.result.warnings.size(), "warning");
   return text;
 }
 
@@ -125,11 +116,81 @@ int check_scenarios(const CheckOptions& options) {
   return code;
 }
 
+struct ExplainOptions {
+  std::string file;
+  bool json = false;
+};
+
+Options explain_options(ExplainOptions& o) {
+  return {{"FILE", &o.file, "scenario file; - is standard input", {.required = true}},
+          memory_option(),
+          json_option(o.json)};
+}
+
+// "60 searches, 1 candidate pair; 10.3 s passed": of amounts behind the first only what there is.
+std::string told(const StageTally& stage) {
+  std::string text;
+  for (const Amount& a : stage.amounts)
+    if (a.n > 0 || &a == &stage.amounts.front())
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", lantern::grouped(a.n, " "),
+                          a.n == 1 ? a.name : a.many);
+  return text + (stage.note.empty() ? "" : "; ") + stage.note;
+}
+
+std::string json_of(const Scenario& scenario, const std::vector<StageTally>& stages,
+                    std::uint64_t frames, double seconds) {
+  JsonWriter json = answer_of("explain");
+  json.line().member("scenario", scenario.name).member("frames", frames);
+  json.member("seconds", seconds).line().key("stages").begin_array();
+  for (const StageTally& stage : stages) {
+    json.line().begin_object().member("stage", stage.stage).member("used", stage.used());
+    json.key("counts").begin_object();
+    for (const Amount& a : stage.amounts) json.member(a.many, a.n);
+    json.end_object().member("note", stage.note).end_object();
+  }
+  json.line().end_array().line().end_object();
+  return json.text();
+}
+
+int explain_scenario(const ExplainOptions& options) {
+  const Scenario scenario = load_scenario(scenario_file(options.file));
+  Work work;
+  Tally tally(scenario, work);
+  const Stopwatch watch;
+  std::optional<Progress> progress;
+  progress.emplace(scenario.name, extent_of(scenario, scenario.pace), work, memory_budget());
+  std::uint64_t frames = 0;
+  const DirectorReport report = direct(scenario, scenario.pace, work, [&](const Frame& frame) {
+    tally.see(frame);
+    progress->done(++frames);
+    return true;
+  });
+  progress.reset();
+  const double seconds = watch.seconds();
+  const std::vector<StageTally> stages = tally.stages(report);
+  if (options.json) {
+    answer(json_of(scenario, stages, report.frames, seconds));
+    return kGood;
+  }
+  std::vector<std::vector<std::string>> rows;
+  for (const StageTally& stage : stages)
+    rows.push_back({stage.used() ? "uses" : "leaves out", std::string(stage.stage), told(stage)});
+  print(fmt::format("{}: {}\n\n{}\nCounted in a run without pixels: {} in {:.2g} s.\n",
+                    scenario.name, scenario.title, table(rows), counted(report.frames, "frame"),
+                    seconds));
+  return kGood;
+}
+
 }  // namespace
 
 Command check_command() {
   return command("check", "Run scenarios without drawing, verify expectations", check_scenarios,
                  check_options);
+}
+
+Command explain_command() {
+  return command("explain", "Run a scenario without pixels, tell what each stage did",
+                 explain_scenario, explain_options);
 }
 
 }  // namespace lantern::app

@@ -109,14 +109,7 @@ std::string for_a_shell(const std::string& word) {
   constexpr std::string_view kPlain =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=./:,@%";
   if (!word.empty() && word.find_first_not_of(kPlain) == word.npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);
-  return quoted + "'";
-}
-
-Words& remembered_words() {
-  static Words words;
-  return words;
+  return in_quotes(word);
 }
 
 }  // namespace
@@ -136,10 +129,9 @@ Option pace_option(std::string& pace, const char* help) {
 }
 
 Option memory_option() {
-  return {"--memory",
-          &read_memory,
+  return {"--memory", &read_memory,
           "memory to take at most, such as 800M or 4G; the default is half of the machine's",
-          {.value = "SIZE"}};
+          OptionTraits{.value = "SIZE"}};
 }
 
 Option tolerance_option(int& tolerance) {
@@ -152,16 +144,20 @@ Option fraction_option(double& fraction) {
 
 Options manners() {
   return {{"--quiet", &be_quiet, "say nothing but errors and warnings"},
-          {"--color",
-           &read_colour,
+          {"--color", &read_colour,
            "colour in messages; auto asks the terminal, NO_COLOR and CLICOLOR_FORCE",
-           {.value = "WHEN", .words = {"auto", "always", "never"}}}};
+           OptionTraits{.value = "WHEN", .words = {"auto", "always", "never"}}}};
 }
 
-const Words& command_line_words() { return remembered_words(); }
+Words& command_line_words() {
+  static Words words;
+  return words;
+}
 
-void remember_command_line(int argc, const char* const* argv) {
-  if (argc > 1) remembered_words().assign(argv + 1, argv + argc);
+std::string in_quotes(std::string_view text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
 }
 
 std::string command_text(const Words& words) {

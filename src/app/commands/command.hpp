@@ -5,12 +5,15 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/option.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace lantern::app {
 
@@ -55,6 +58,11 @@ inline constexpr const char* kFilesHelp =
     "scenario files, folders of them (by 'lecture', then by name), or - for standard input";
 
 Option json_option(bool& json);
+// Of a command that has no other.
+struct JsonOnly {
+  bool json = false;
+};
+inline Options json_only(JsonOnly& o) { return {json_option(o.json)}; }
 Option seed_option(std::uint64_t& seed, const char* help);
 Option backend_option(std::string& backend, const char* help = "off-screen OpenGL");
 Option pace_option(std::string& pace, const char* help = "as for render");
@@ -87,10 +95,11 @@ Command completions_command();
 Command help_command();
 
 // The words of this process's command line, without the program's name.
-const Words& command_line_words();
-void remember_command_line(int argc, const char* const* argv);
+Words& command_line_words();
 // Such words as they would be typed: "lantern bench step --pile boxes2d:500".
 std::string command_text(const Words& words);
+// In single quotes, as shells read them.
+std::string in_quotes(std::string_view text);
 
 // The program itself, with every command in the order of the help.
 const Command& whole_program();
@@ -131,6 +140,28 @@ struct CommandPath {
 };
 // The program itself and all its commands, each before its own.
 std::vector<CommandPath> all_commands();
+
+// ---- Manual pages, in the macros of man(7), and completions for shells: they say what --help says
+
+// "lantern.1", "lantern-bench-step.1"
+std::string manual_file(const CommandPath& path);
+// The page of one of all commands, or of the program itself, the first of them.
+std::string manual_page(const CommandPath& path, const std::vector<CommandPath>& all);
+// A script for "bash", "zsh" or "fish" that completes commands, options, and what may stand behind
+// them; another word is a broken invariant.
+std::string completions(std::string_view shell, const std::vector<CommandPath>& all);
+
+// ---- Reading the command line (command_line.cpp: only there CLI11 is known)
+
+// What the words ask for; nothing if they ask for help or the version, which is then printed. If
+// they ask for JSON, an answer is owed from here on (app/terminal.hpp). Throws UsageError.
+Run read_command_line(int argc, const char* const* argv);
+// The help of the command that these words name, of the program for none: as its --help prints it.
+// Throws UsageError if there is none.
+std::string help_text(const Words& names);
+// Every command, for CLI11. Parsing adds the options of the commands that it comes by, and sets
+// `run`; both must outlive it.
+void add_commands(CLI::App& app, Run& run);
 
 // What the program ends with, and what it means.
 struct ExitMeaning {

@@ -1,15 +1,12 @@
-#include "app/commands/command_line.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <type_traits>
-#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include "app/answer.hpp"
+#include "app/commands/command.hpp"
 #include "app/terminal.hpp"
 #include "base/suggest.hpp"
 #include "embedded/version.hpp"

@@ -1,23 +1,16 @@
 #include "render/compare.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <functional>
 #include <set>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include "app/answer.hpp"
 #include "app/commands/command.hpp"
 #include "app/folders/kept_files.hpp"
 #include "app/output/sinks.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
+#include "base/counted.hpp"
 #include "base/json_writer.hpp"
 #include "base/number.hpp"
 #include "render/png.hpp"
@@ -28,20 +21,18 @@ namespace {
 struct CompareOptions {
   std::string expected, actual;
   std::string output;  // where the difference picture goes; empty for nowhere
-  int tolerance = 0;
-  double fraction = 0;  // of the pixels that may differ
+  Allowance allowance;
   bool json = false;
 };
 
 Options compare_options(CompareOptions& o) {
   return {{"EXPECTED", &o.expected, "picture, facts or folder", {.required = true}},
           {"ACTUAL", &o.actual, "picture, facts or folder", {.required = true}},
-          {"-o,--output",
-           &o.output,
+          {"-o,--output", &o.output,
            "where the difference picture goes (a folder when folders are compared)",
-           {.value = "PATH"}},
-          tolerance_option(o.tolerance),
-          fraction_option(o.fraction),
+           OptionTraits{.value = "PATH"}},
+          tolerance_option(o.allowance.tolerance),
+          fraction_option(o.allowance.fraction),
           json_option(o.json)};
 }
 
@@ -70,64 +61,45 @@ std::string first_line(std::string_view expected, std::string_view actual) {
   return fmt::format("line {} differs first", 1 + std::count(expected.begin(), differ.in1, '\n'));
 }
 
-class FileComparison {
- public:
-  FileComparison(const fs::path& expected, const fs::path& actual, const CompareOptions& options)
-      : expected_(expected),
-        actual_(actual),
-        options_(options),
-        before_(bytes_of(expected)),
-        now_(bytes_of(actual)) {}
+// Where a difference picture goes; asked only where there is one. Empty: it goes nowhere.
+using Picture = std::function<FilePlace()>;
 
-  // A difference picture goes where `picture` says, unless that is empty.
-  Result result(const std::function<FilePlace()>& picture) const {
-    const std::string kind = actual_.extension().string();
-    Result result{actual_.string(), true, "same bytes"};
-    if (before_ == now_ && (kind == ".svg" || kind == ".json")) return result;
-    if (kind == ".svg") {
-      const auto before = before_seal(FileKind::svg, before_);
-      const auto now = before_seal(FileKind::svg, now_);
-      result.equal = before == now;
-      result.finding = result.equal ? "made from something else" : first_line(before, now);
-    } else if (kind == ".json") {
-      compare_json(result);
-    } else {
-      compare_pictures(result, picture);
-    }
-    return result;
-  }
-
- private:
-  void compare_json(Result& result) const {
-    const auto compared = compare_facts(before_, now_);
-    for (const auto& [path, bytes] : {std::pair{&expected_, &before_}, std::pair{&actual_, &now_}})
+// Of two files of one kind, which the second one's name tells.
+Result compare_files(const fs::path& expected, const fs::path& actual, const CompareOptions& o,
+                     const Picture& picture) {
+  const std::string before = bytes_of(expected), now = bytes_of(actual);
+  const std::string kind = actual.extension().string();
+  Result result{actual.string(), true, "same bytes"};
+  if (before == now && (kind == ".svg" || kind == ".json")) return result;
+  if (kind == ".svg") {
+    const auto a = before_seal(FileKind::svg, before), b = before_seal(FileKind::svg, now);
+    result.equal = a == b;
+    result.finding = result.equal ? "made from something else" : first_line(a, b);
+  } else if (kind == ".json") {
+    const auto compared = compare_facts(before, now);
+    for (const auto& [path, bytes] : {std::pair{&expected, &before}, std::pair{&actual, &now}})
       if (!compared && !are_facts(*bytes))
         throw IoError(fmt::format("'{}' is no JSON object, or it is damaged", path->string()));
     result.equal = compared->total == 0;
     result.finding = result.equal ? "the same facts" : finding(*compared);
-  }
-
-  void compare_pictures(Result& result, const std::function<FilePlace()>& picture) const {
-    const Image a = image_of(expected_, before_), b = image_of(actual_, now_);
-    const Comparison compared = compare(a, b, options_.tolerance);
-    result.equal = passes(compared, a, {options_.tolerance, options_.fraction});
+  } else {
+    const Image a = image_of(expected, before), b = image_of(actual, now);
+    const Comparison compared = compare(a, b, o.allowance.tolerance);
+    result.equal = passes(compared, a, o.allowance);
     result.finding = finding(compared);
-    if (result.equal || !picture) return;
-    write_file(picture(),
-               encode_png(difference_picture(a, b, options_.tolerance), PngEffort::fast, {}, 0));
+    if (!result.equal && picture)
+      write_file(picture(), encode_png(difference_picture(a, b, o.allowance.tolerance),
+                                       PngEffort::fast, {}, 0));
   }
-
-  const fs::path &expected_, &actual_;
-  const CompareOptions& options_;
-  std::string before_, now_;
-};
+  return result;
+}
 
 // Pictures and facts; not the lists of how a folder was made.
 std::set<std::string> files_in(const fs::path& folder) {
   std::set<std::string> names;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
     const std::string kind = entry.path().extension().string();
-    if (entry.path().filename() == "manifest.json") continue;
+    if (entry.path().filename() == kManifest) continue;
     if (kind == ".png" || kind == ".svg" || kind == ".json")
       names.insert(entry.path().lexically_relative(folder).string());
   }
@@ -158,11 +130,10 @@ std::vector<Result> compare_folders(const CompareOptions& o) {
     } else if (!expected.contains(name)) {
       results.push_back({name, false, "was not expected"});
     } else {
-      const fs::path a = expected_folder / name, b = actual_folder / name;
-      std::function<FilePlace()> picture;
+      Picture picture;
       if (!o.output.empty())
         picture = [&] { return make_place(fs::path(o.output) / name, o.output); };
-      results.push_back(FileComparison(a, b, o).result(picture));
+      results.push_back(compare_files(expected_folder / name, actual_folder / name, o, picture));
       results.back().name = name;
     }
   }
@@ -176,9 +147,9 @@ std::vector<Result> compare_two_files(const CompareOptions& o) {
   };
   if ((is_text(a) || is_text(b)) && a.extension() != b.extension())
     throw UsageError(fmt::format("'{}' and '{}' are files of two kinds", o.expected, o.actual));
-  std::function<FilePlace()> picture;
+  Picture picture;
   if (!o.output.empty()) picture = [&] { return make_place(o.output, folder_of(o.output)); };
-  return {FileComparison(a, b, o).result(picture)};
+  return {compare_files(a, b, o, picture)};
 }
 
 int compare_paths(const CompareOptions& options) {
@@ -187,8 +158,7 @@ int compare_paths(const CompareOptions& options) {
     if (!fs::exists(input, error)) throw IoError(fmt::format("there is no '{}'", input));
     if (!options.output.empty() && fs::equivalent(input, options.output, error))
       throw UsageError(
-          fmt::format("-o {}: that is what is compared; name another place for the "
-                      "difference",
+          fmt::format("-o {}: that is what is compared; name another place for the difference",
                       options.output));
   }
   const bool folders = fs::is_directory(options.expected, error);

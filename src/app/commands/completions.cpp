@@ -1,22 +1,13 @@
 #include <algorithm>
 #include <iterator>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include "app/commands/manual.hpp"
+#include "app/commands/command.hpp"
 #include "base/check.hpp"
 
 namespace lantern::app {
 namespace {
-
-// In single quotes, as all three shells read them.
-std::string in_quotes(std::string_view text) {
-  std::string out = "'";
-  for (const char c : text) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return out + "'";
-}
 
 std::string spaced(const Words& words) { return fmt::format("{}", fmt::join(words, " ")); }
 
@@ -31,24 +22,31 @@ std::string below_root(const CommandPath& path) {
   return spaced({path.names.begin() + 1, path.names.end()});
 }
 
+// What an option, or a word by itself, may be, as the shells offer it: bash calls a function, zsh
+// has an action, fish has flags. {} are the words.
+struct Offer {
+  ValueKind kind;
+  const char *bash, *zsh, *fish;
+};
+constexpr Offer kOffers[] = {
+    {ValueKind::none, "return", " ", ""},
+    {ValueKind::free, "return", " ", ""},
+    {ValueKind::words, "_lantern_words {}", "({})", " -a {}"},
+    {ValueKind::scenario, "_lantern_scenarios", "_files -g \"*.toml\"",
+     " -k -a '(__fish_complete_suffix .toml)'"},
+    {ValueKind::folder, "_lantern_folders", "_files -/", " -a '(__fish_complete_directories)'"},
+    {ValueKind::file, "_lantern_files", "_files", " -F"},
+};
+
+std::string offer(const char* Offer::*shell, const OptionWords& o, const std::string& words) {
+  const auto row = std::ranges::find(kOffers, o.kind, &Offer::kind);
+  return fmt::format(fmt::runtime(row->*shell), words);
+}
+
 // ---- bash
 
-// The call that offers what an option, or a word by itself, may be.
 std::string bash_offer(const OptionWords& o) {
-  switch (o.kind) {
-    case ValueKind::words:
-      return "_lantern_words " + in_quotes(spaced(o.words));
-    case ValueKind::scenario:
-      return "_lantern_scenarios";
-    case ValueKind::folder:
-      return "_lantern_folders";
-    case ValueKind::file:
-      return "_lantern_files";
-    case ValueKind::none:
-    case ValueKind::free:
-      break;
-  }
-  return "return";
+  return offer(&Offer::bash, o, in_quotes(spaced(o.words)));
 }
 
 std::string bash_values(const CommandPath& path) {
@@ -130,27 +128,11 @@ std::string zsh_text(std::string_view text) {
   return out;
 }
 
-std::string zsh_action(const OptionWords& o) {
-  switch (o.kind) {
-    case ValueKind::words:
-      return "(" + spaced(o.words) + ")";
-    case ValueKind::scenario:
-      return "_files -g \"*.toml\"";
-    case ValueKind::folder:
-      return "_files -/";
-    case ValueKind::file:
-      return "_files";
-    case ValueKind::none:
-    case ValueKind::free:
-      break;
-  }
-  return " ";
-}
-
 std::string zsh_option(const OptionWords& o) {
   std::string text;
-  const std::string value =
-      o.kind == ValueKind::none ? "" : ":" + zsh_text(o.value) + ":" + zsh_action(o);
+  const std::string value = o.kind == ValueKind::none ? ""
+                                                      : ":" + zsh_text(o.value) + ":" +
+                                                            offer(&Offer::zsh, o, spaced(o.words));
   for (const std::string& name : o.names) {
     const std::string others = o.repeats ? "*" : fmt::format("({})", fmt::join(o.names, " "));
     const bool takes_equals = !value.empty() && name.starts_with("--");  // --theme=dark
@@ -167,8 +149,9 @@ std::string zsh_arguments(const CommandPath& path, const char* flags) {
     if (!o.is_positional()) text += zsh_option(o);
   for (const OptionWords& o : path.options)
     if (o.is_positional())
-      text += " \\\n    " + in_quotes(fmt::format("{}:{}:{}", o.repeats ? "*" : "",
-                                                  zsh_text(o.value), zsh_action(o)));
+      text +=
+          " \\\n    " + in_quotes(fmt::format("{}:{}:{}", o.repeats ? "*" : "", zsh_text(o.value),
+                                              offer(&Offer::zsh, o, spaced(o.words))));
   return text;
 }
 
@@ -209,31 +192,14 @@ std::string fish_condition(const CommandPath& path) {
   return in_quotes(fmt::format("{}", fmt::join(parts, "; and ")));
 }
 
-std::string fish_values(const OptionWords& o) {
-  switch (o.kind) {
-    case ValueKind::words:
-      return fmt::format(" -a {}", in_quotes(spaced(o.words)));
-    case ValueKind::scenario:
-      return " -k -a '(__fish_complete_suffix .toml)'";
-    case ValueKind::folder:
-      return " -a '(__fish_complete_directories)'";
-    case ValueKind::file:
-      return " -F";
-    case ValueKind::none:
-    case ValueKind::free:
-      break;
-  }
-  return "";
-}
-
 std::string fish_line(const CommandPath& path, const OptionWords& o) {
   std::string names;
   for (const std::string& name : o.names)
     names += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
   const bool takes = !o.is_positional() && o.kind != ValueKind::none;
   return fmt::format("complete -c lantern -n {}{}{}{} -d {}\n", fish_condition(path), names,
-                     takes ? (o.kind == ValueKind::file ? " -r" : " -x") : "", fish_values(o),
-                     in_quotes(o.help));
+                     takes ? (o.kind == ValueKind::file ? " -r" : " -x") : "",
+                     offer(&Offer::fish, o, in_quotes(spaced(o.words))), in_quotes(o.help));
 }
 
 std::string for_fish(const std::vector<CommandPath>& all) {

@@ -1,89 +1,57 @@
 #include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <map>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include "app/answer.hpp"
 #include "app/commands/command.hpp"
-#include "app/commands/golden_sinks.hpp"
+#include "app/folders/goldens.hpp"
 #include "app/folders/kept_files.hpp"
-#include "app/output/destination.hpp"
-#include "app/output/render_job.hpp"
 #include "app/progress.hpp"
-#include "app/run_scenario.hpp"
-#include "app/scenario_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/counted.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
 #include "embedded/version.hpp"
-#include "language/scenario.hpp"
-#include "publish/golden_report.hpp"
 
 namespace lantern::app {
 namespace {
 
 struct GoldenOptions {
-  std::vector<std::string> files;
+  GoldenOptions() { as.size = "640x360", as.png = "small"; }
+
+  RenderOptions as;               // how frames are drawn, and which
   std::string folder = "golden";  // the golden frames are in folder/<scenario>
   bool update = false;            // today's frames become the golden ones
   std::string report;             // an HTML file, or a folder for golden.html; empty: the usual one
   std::string junit;              // an XML file; empty for none
-  int tolerance = 0;
-  double fraction = 0;  // of the pixels that may differ
-  std::string size = "640x360";
-  std::string theme = "light";
-  std::string pace;        // step, event; empty for the scenario's own
-  std::string frames, at;  // as for render
-  std::string backend = "auto";
-  bool json = false;
+  Allowance allowance;            // by how much they may differ
 };
 
 Options golden_options(GoldenOptions& o) {
-  return {{"FILE", &o.files, "scenario files", {.required = true}},
+  return {{"FILE", &o.as.files, "scenario files", {.required = true}},
           {"--update", &o.update, "make today's frames the golden ones: writes what changed"},
           {"--dir", &o.folder, "the golden frames are in DIR/<scenario>", {.value = "DIR"}},
-          {"--report",
-           &o.report,
+          {"--report", &o.report,
            "page of what differs, with pictures side by side: a file, or a folder for "
            "golden.html; without it output/golden.html, made only if something differs",
-           {.value = "PATH", .without = "--update"}},
-          {"--junit",
-           &o.junit,
-           "findings as JUnit's XML, for whatever builds and tests",
-           {.value = "FILE", .without = "--update"}},
-          tolerance_option(o.tolerance),
-          fraction_option(o.fraction),
-          {"--size", &o.size, "pixels", {.value = "WxH"}},
-          {"--theme", &o.theme, "colours", {.words = kThemes}},
-          pace_option(o.pace),
-          {"--frames", &o.frames, "as for render", {.value = "A-B"}},
-          {"--at", &o.at, "as for render", {.value = "EVENT|TIME"}},
-          backend_option(o.backend),
+           OptionTraits{.value = "PATH", .without = "--update"}},
+          {"--junit", &o.junit, "findings as JUnit's XML, for whatever builds and tests",
+           OptionTraits{.value = "FILE", .without = "--update"}},
+          tolerance_option(o.allowance.tolerance),
+          fraction_option(o.allowance.fraction),
+          {"--size", &o.as.size, "pixels", {.value = "WxH"}},
+          {"--theme", &o.as.theme, "colours", {.words = kThemes}},
+          pace_option(o.as.pace),
+          {"--frames", &o.as.frames, "as for render", {.value = "A-B"}},
+          {"--at", &o.as.at, "as for render", {.value = "EVENT|TIME"}},
+          backend_option(o.as.backend),
           memory_option(),
-          json_option(o.json)};
+          json_option(o.as.json)};
 }
 
 namespace fs = std::filesystem;
 
 constexpr std::size_t kMostShown = 30;  // frames whose pictures the page holds
 constexpr const char* kUsualReport = "output/golden.html";
-
-RenderOptions drawn_as(const GoldenOptions& o) {
-  RenderOptions as;
-  as.size = o.size;
-  as.theme = o.theme;
-  as.pace = o.pace;
-  as.backend = o.backend;
-  as.png = "small";
-  return as;
-}
 
 // What the options must say so that frames are made as the goldens were; empty if they are.
 std::string other_words(const GoldenList::MadeWith& golden, const GoldenList::MadeWith& now) {
@@ -97,8 +65,7 @@ std::string other_words(const GoldenList::MadeWith& golden, const GoldenList::Ma
 // One run of the command.
 class GoldenRun {
  public:
-  explicit GoldenRun(const GoldenOptions& options)
-      : options_(options), as_(drawn_as(options)), job_(as_) {}
+  explicit GoldenRun(const GoldenOptions& options) : options_(options), job_(options.as) {}
 
   int run() {
     make_ready();
@@ -121,7 +88,7 @@ class GoldenRun {
     json_.line().key("work");
     app::write(json_, work_);
     json_.line().end_object();
-    if (options_.json) answer(json_.text());
+    if (options_.as.json) answer(json_.text());
     return code_;
   }
 
@@ -147,7 +114,7 @@ class GoldenRun {
 
   void load() {
     std::map<std::string, std::string> files;
-    for (const std::string& file : input_files(options_.files)) {
+    for (const std::string& file : input_files(options_.as.files)) {
       GoldenSuite suite;
       suite.scenario = suite.file = file;
       auto scenario = load_or_complain(file, code_, &suite.error);
@@ -186,8 +153,8 @@ class GoldenRun {
     const auto folder =
         fs::is_directory(output, none) ? Folder(output).find(name.text()) : std::nullopt;
     if (folder) require_kept_for(KeptFor::goldens, *folder);
-    const Pace pace = pace_of(options_.pace, scenario);
-    Selection selection(options_.frames, options_.at, extent_of(scenario, pace).frames);
+    const Pace pace = pace_of(options_.as.pace, scenario);
+    Selection selection(options_.as.frames, options_.as.at, extent_of(scenario, pace).frames);
     const auto list = folder ? read_list(*folder, selection) : std::nullopt;
     const Goldens goldens{
         job_, scenario, pace, selection, work_, name, output, folder, list.value_or(GoldenList())};
@@ -219,8 +186,8 @@ class GoldenRun {
       suite.findings.push_back(fmt::format(
           "the golden facts are {}, those of today {}; look at the pictures, then --update",
           then.facts, now.facts));
-    GoldenComparison sink(goldens, {options_.tolerance, options_.fraction}, suite, shown_left_);
-    run_it(suite, goldens, sink);
+    run_it(suite, goldens,
+           *make_golden_comparison(goldens, options_.allowance, suite, shown_left_));
     if (suite.first() != nullptr && then.version != now.version)
       suite.findings.push_back(fmt::format("the golden frames are of Lantern {}, this is {}",
                                            then.version, now.version));
@@ -230,9 +197,9 @@ class GoldenRun {
     if (!words.empty() && !goldens.selection.takes_all())
       throw UsageError(fmt::format("{}: the golden frames were made with{}; --update all frames",
                                    goldens.scenario.name, words));
-    GoldenUpdate sink(goldens);
-    run_it(suite, goldens, sink);
-    changes_ = sink.changes();
+    GoldenChanges changes;
+    run_it(suite, goldens, *make_golden_update(goldens, changes));
+    changes_ = std::move(changes);
     for (const auto& [what, names] :
          {std::pair{"written", changes_.written}, std::pair{"removed", changes_.removed},
           std::pair{"left alone, since it is not as Lantern made it", changes_.strange}})
@@ -303,34 +270,28 @@ class GoldenRun {
     for (const GoldenSuite& s : suites_) frames += s.cases.size();
     const auto bad = std::ranges::count_if(suites_, [](const auto& s) { return !s.good(); });
     const std::string place = report.empty() ? "" : fmt::format("; see {}", report);
-    const std::string of =
-        suites_.size() == 1 ? "1 scenario" : fmt::format("{} scenarios", suites_.size());
-    if (bad == 0)
-      say(fmt::format("{} of {} as expected{}", counted(frames, "frame"), of, place));
-    else
-      say(fmt::format("{} of {} not as expected{}", bad, of, place));
+    say(fmt::format("{} of {} {}as expected{}",
+                    bad == 0 ? counted(frames, "frame") : fmt::format("{}", bad),
+                    counted(suites_.size(), "scenario"), bad == 0 ? "" : "not ", place));
   }
 
   const GoldenOptions& options_;
-  RenderOptions as_;
   RenderJob job_;
   std::vector<std::pair<GoldenSuite, std::optional<Scenario>>> loaded_;
   std::vector<GoldenSuite> suites_;
   std::size_t shown_left_ = kMostShown;
-  GoldenUpdate::Changes changes_;  // of the scenario that was updated last
+  GoldenChanges changes_;  // of the scenario that was updated last
   Work work_;
   JsonWriter json_ = answer_of("golden");
   int code_ = kGood;
 };
 
-int hold_against_goldens(const GoldenOptions& options) { return GoldenRun(options).run(); }
-
 }  // namespace
 
 Command golden_command() {
-  return command("golden",
-                 "Compare scenarios' pictures and facts with golden ones, or update those",
-                 hold_against_goldens, golden_options);
+  return command(
+      "golden", "Compare scenarios' pictures and facts with golden ones, or update those",
+      +[](const GoldenOptions& options) { return GoldenRun(options).run(); }, golden_options);
 }
 
 }  // namespace lantern::app

@@ -1,43 +1,41 @@
+// What there is: `list`, the scenarios and the course that they make, and `doctor`, what they can
+// be drawn and measured with.
 #include <algorithm>
-#include <cstdint>
 #include <map>
-#include <optional>
 
 #include <fmt/format.h>
 
-#include "app/answer.hpp"
 #include "app/commands/command.hpp"
+#include "app/lab.hpp"
 #include "app/run_scenario.hpp"
-#include "app/scenario_folder.hpp"
 #include "app/terminal.hpp"
-#include "base/json_writer.hpp"
+#include "base/child.hpp"
+#include "base/printable.hpp"
+#include "embedded/version.hpp"
+#include "render/context.hpp"
 
 namespace lantern::app {
 
 namespace {
 
 constexpr std::string_view kHead =
-    "# The course\n\n"
-    "All sequences in the order in which one would teach them. Each says what should be seen "
-    "before "
-    "it, and asks the\nstudents something afterwards. The answers are filled in by the run, and "
-    "its "
-    "expectations prove them; this page is\nprinted by `lantern list --course`.\n";
+    "# The course\n\nAll sequences in the order in which one would teach them. Each says what "
+    "should be seen before it, and asks the\nstudents something afterwards. The answers are filled "
+    "in by the run, and its expectations prove them; this page is\nprinted by `lantern list "
+    "--course`.\n";
 
-struct Asked {
-  FrameQuestion question;
-  std::uint32_t step = 0;
-  std::uint32_t frame = 0;
-};
-
+// The questions of a run, each with the frame that has its answer.
 class QuestionSink : public FrameSink {
  public:
   void frame(const Frame& frame) override {
-    if (frame.find<FrameQuestion>())
-      asked.push_back({*frame.find<FrameQuestion>(), frame.step, frame.index});
+    if (const auto* question = frame.find<FrameQuestion>())
+      asked.push_back({*question, frame.step, frame.index});
   }
-  void finish(const DirectorReport&) override {}
 
+  struct Asked {
+    FrameQuestion question;
+    std::uint32_t step = 0, frame = 0;
+  };
   std::vector<Asked> asked;
 };
 
@@ -56,11 +54,11 @@ std::string needs_of(const Scenario& s, const std::map<std::string, std::string>
   return text.empty() ? "" : text + ".\n\n";
 }
 
-std::string entry_of(const Scenario& s, const std::vector<Asked>& asked,
+std::string entry_of(const Scenario& s, const std::vector<QuestionSink::Asked>& asked,
                      const std::map<std::string, std::string>& headings) {
   std::string text = fmt::format("\n## <a id=\"{1}\"></a>{0}\n\n`{1}`: {2}\n\n{3}", heading_of(s),
                                  s.name, s.idea.empty() ? s.title : s.idea, needs_of(s, headings));
-  for (const Asked& a : asked) {
+  for (const auto& a : asked) {
     const std::string& step = s.steps.at(a.step).name;
     text += fmt::format(
         "**{}**\n\n<details><summary>Answer</summary>\n\n{} Look at {}, frame {}.\n\n"
@@ -71,8 +69,6 @@ std::string entry_of(const Scenario& s, const std::vector<Asked>& asked,
   }
   return text;
 }
-
-}  // namespace
 
 int print_course(const std::vector<std::string>& files) {
   int code = kGood;
@@ -100,8 +96,6 @@ int print_course(const std::vector<std::string>& files) {
   return code;
 }
 
-namespace {
-
 struct ListOptions {
   std::vector<std::string> folders;
   bool course = false, json = false;
@@ -110,11 +104,10 @@ struct ListOptions {
 Options list_options(ListOptions& o) {
   return {{"DIR", &o.folders, "folders or files; the default is scenarios"},
           json_option(o.json),
-          {"--course",
-           &o.course,
+          {"--course", &o.course,
            "run them, and print the course as Markdown: ideas, what comes before, questions "
            "with their answers",
-           {.without = "--json"}}};
+           OptionTraits{.without = "--json"}}};
 }
 
 std::vector<std::string> row_of(const Scenario& s) {
@@ -157,11 +150,64 @@ int list_scenarios(const ListOptions& options) {
   return code;
 }
 
+// What Lantern can be measured beside: "Box2D 2.4.1 (single)", or that there is no lab.
+std::vector<std::string> found_peers(
+    std::vector<std::string> (*Lab::*peers)(std::vector<std::string>&),
+    std::vector<std::string>& missing) {
+  std::string why;
+  if (const Lab* lab = find_lab(&why)) return (lab->*peers)(missing);
+  missing.push_back(why);
+  return {};
+}
+
+// An indented line each.
+std::string lines_of(const std::vector<std::string>& found,
+                     const std::vector<std::string>& missing) {
+  std::string text;
+  for (const auto* peers : {&found, &missing})
+    for (const std::string& peer : *peers) text += fmt::format("         {}\n", peer);
+  return text;
+}
+
+int examine(const JsonOnly& options) {
+  const auto found = find_program("ffmpeg");
+  const std::string ffmpeg = found ? found->string() : "";
+  std::vector<std::string> missing, missing_boxes;
+  const std::vector<std::string> peers = found_peers(&Lab::engines, missing);
+  const std::vector<std::string> boxes = found_peers(&Lab::box_libraries, missing_boxes);
+  bool any = false;
+  std::string text = fmt::format("Lantern {} ({})\n", kVersion, kSourceHash);
+  JsonWriter json = answer_of("doctor");
+  json.line().member("version", kVersion).line().key("backends").begin_array();
+  for (const BackendReport& r : examine_backends()) {
+    any |= r.works;
+    text += fmt::format("{:<8} {}\n         {}\n", r.name, r.works ? "works" : "does not work",
+                        r.works ? r.library + ", " + r.renderer : r.problem);
+    json.line().begin_object().members("name", r.name, "works", r.works, "library", r.library,
+                                       "renderer", r.renderer, "problem", r.problem);
+    json.end_object();
+  }
+  text += fmt::format("{:<8} {}\n", "ffmpeg",
+                      found ? printable(ffmpeg) : "not found; only needed to make films (ffmpeg)");
+  text += "peers    other engines, only needed to measure beside them\n" + lines_of(peers, missing);
+  text += "boxes    other libraries of boxes, only needed by bench pairs\n" +
+          lines_of(boxes, missing_boxes);
+  json.line().end_array().lines("ffmpeg", ffmpeg, "peers", peers, "missing_peers", missing,
+                                "box_peers", boxes, "missing_box_peers", missing_boxes);
+  json.line().end_object();
+  options.json ? answer(json.text()) : print(text);
+  return any ? kGood : kNoBackend;
+}
+
 }  // namespace
 
 Command list_command() {
   return command("list", "List the scenarios in a folder in the order of a lecture", list_scenarios,
                  list_options);
+}
+
+Command doctor_command() {
+  return command("doctor", "Graphics backends found, and what to install", examine, json_only);
 }
 
 }  // namespace lantern::app

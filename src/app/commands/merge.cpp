@@ -1,26 +1,17 @@
 // `merge`: the shards that folders hold, whether they are parts of one run, and their frames as one
 // run's folder.
 #include <algorithm>
-#include <filesystem>
-#include <optional>
-#include <set>
-#include <stdexcept>
-#include <string>
-#include <string_view>
 #include <system_error>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include "app/answer.hpp"
 #include "app/commands/command.hpp"
-#include "app/folders/frame_folder.hpp"
 #include "app/folders/kept_files.hpp"
 #include "app/folders/shard.hpp"
 #include "app/terminal.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "base/counted.hpp"
 #include "base/json_writer.hpp"
 #include "base/number.hpp"
 #include "base/stop.hpp"
@@ -46,13 +37,14 @@ Options merge_options(MergeOptions& o) {
 
 // "shard-2-of-4", and not what somebody has written down beside it.
 bool is_named_as_a_shard(std::string_view name) {
-  constexpr std::string_view kStart = "shard-", kMiddle = "-of-", kDigits = "0123456789";
-  if (!name.starts_with(kStart)) return false;
-  name.remove_prefix(kStart.size());
-  const std::size_t middle = std::min(name.find_first_not_of(kDigits), name.size());
-  const std::string_view rest = name.substr(middle);
-  return middle > 0 && rest.starts_with(kMiddle) && rest.size() > kMiddle.size() &&
-         rest.find_first_not_of(kDigits, kMiddle.size()) == rest.npos;
+  for (const std::string_view part : {"shard-", "-of-"}) {
+    if (!name.starts_with(part)) return false;
+    name.remove_prefix(part.size());
+    const std::size_t digits = std::min(name.find_first_not_of("0123456789"), name.size());
+    if (digits == 0) return false;
+    name.remove_prefix(digits);
+  }
+  return name.empty();
 }
 
 struct FoundShard {
@@ -60,12 +52,6 @@ struct FoundShard {
   ShardRecord record;
 
   std::string path() const { return folder.path().string(); }
-};
-
-// Two finished shards of one number, to be held against each other.
-struct Twins {
-  const FoundShard* first = nullptr;
-  const FoundShard* second = nullptr;
 };
 
 class ShardSet {
@@ -77,16 +63,21 @@ class ShardSet {
   explicit ShardSet(const std::vector<std::string>& folders) {
     for (const std::string& folder : folders) look_into(folder);
     require_one_run();
-    shards_.resize(run().shard.of);
+    shards.resize(run().shard.of);
     for (const FoundShard& one : found_) {
       if (!one.record.finished) continue;
-      const FoundShard*& place = shards_[one.record.shard.number - 1];
+      const FoundShard*& place = shards[one.record.shard.number - 1];
       if (place != nullptr)
-        twins_.push_back({place, &one});
+        twins.emplace_back(place, &one);
       else
         place = &one;
     }
   }
+
+  // By number - 1; none where it is missing or not finished. Of several equal ones the first.
+  std::vector<const FoundShard*> shards;
+  // Finished ones whose number was there before, behind that one: to be held against each other.
+  std::vector<std::pair<const FoundShard*, const FoundShard*>> twins;
 
   // A record of the run, of some shard.
   const ShardRecord& run() const { return found_.front().record; }
@@ -94,27 +85,17 @@ class ShardSet {
   bool takes_all() const {
     return run().settings.at("frames").empty() && run().settings.at("at").empty();
   }
-  // By number - 1; none where it is missing or not finished. Of several equal ones the first.
-  const std::vector<const FoundShard*>& shards() const { return shards_; }
-  // Finished ones whose number was there before, beside that one.
-  const std::vector<Twins>& twins() const { return twins_; }
 
-  // For each shard that is missing or not finished a sentence that says so, and what to run.
-  std::vector<std::string> missing() const {
+  // That the shard of this number is missing or not finished, and what to run.
+  std::string missing(std::uint32_t number) const {
     const auto& inputs = run().inputs;
     std::string names = inputs.front().name.text();
     if (inputs.size() > 1) names += fmt::format(" and {} more", inputs.size() - 1);
-    std::vector<std::string> sentences;
-    for (std::uint32_t i = 0; i < shards_.size(); ++i) {
-      if (shards_[i] != nullptr) continue;
-      const Shard shard{i + 1, run().shard.of};
-      const FoundShard* begun = any(shard);
-      sentences.push_back(
-          fmt::format("shard {} of {} {}: {}", shard.text(), names,
-                      begun ? fmt::format("in '{}' is not finished", begun->path()) : "is missing",
-                      advice(shard)));
-    }
-    return sentences;
+    const Shard shard{number, run().shard.of};
+    const FoundShard* begun = any(shard);
+    return fmt::format("shard {} of {} {}: {}", shard.text(), names,
+                       begun ? fmt::format("in '{}' is not finished", begun->path()) : "is missing",
+                       advice(shard));
   }
   // "run lantern render x.toml --shard 2/4": its own words, if it has begun, whose output may be
   // another one.
@@ -179,8 +160,6 @@ class ShardSet {
   }
 
   std::vector<FoundShard> found_;
-  std::vector<const FoundShard*> shards_;
-  std::vector<Twins> twins_;
 };
 
 // A file of a shard that the whole has, too.
@@ -234,11 +213,9 @@ Manifest manifest_of(const ShardSet& set, const FoundShard& shard, const ShardIn
     if (fmt::format("{:016x}", m.scenario_hash) != input.text)
       throw RefusedFile(fmt::format("scenario_hash is another than {}", input.text));
     if (const auto words = contradiction(m, shard.record)) throw RefusedFile(*words);
-    m.in_between_digits = *in_between_digits(set.run());
+    m.in_between_digits = in_between_digits(set.run());
     return m;
-  } catch (const IoError& e) {
-    why = e.what();
-  } catch (const RefusedFile& e) {
+  } catch (const std::runtime_error& e) {  // an IoError or a RefusedFile
     why = e.what();
   }
   refuse(set, shard,
@@ -311,7 +288,7 @@ std::string head_of(Manifest m) {
 // Nothing if no frame of it was chosen by anybody.
 std::optional<MergedSequence> gather(const ShardSet& set, std::size_t index) {
   std::optional<MergedSequence> whole;
-  for (const FoundShard* shard : set.shards()) {
+  for (const FoundShard* shard : set.shards) {
     const ShardInput& input = shard->record.inputs[index];
     if (input.here == 0) continue;
     Manifest part = manifest_of(set, *shard, input);
@@ -329,7 +306,7 @@ std::optional<MergedSequence> gather(const ShardSet& set, std::size_t index) {
   }
   // As the parts that stepped it say, none of those that were chosen is missing.
   const std::size_t frames = whole ? whole->manifest.frames.size() : 0;
-  for (const FoundShard* shard : set.shards()) {
+  for (const FoundShard* shard : set.shards) {
     const ShardInput& input = shard->record.inputs[index];
     if (input.chosen != 0 ? input.chosen == frames : frames > 0 || !set.takes_all()) continue;
     refuse(set, *shard,
@@ -340,32 +317,27 @@ std::optional<MergedSequence> gather(const ShardSet& set, std::size_t index) {
 }
 
 // Where both have a shard, they must have the same.
-void require_equal(const ShardSet& set, const Twins& twins) {
+void require_equal(const ShardSet& set, const FoundShard& a, const FoundShard& b) {
   for (std::size_t i = 0; i < set.run().inputs.size(); ++i) {
-    const ShardInput& first = twins.first->record.inputs[i];
-    const ShardInput& second = twins.second->record.inputs[i];
+    const ShardInput &first = a.record.inputs[i], &second = b.record.inputs[i];
     bool same = first.here == second.here && first.atlas == second.atlas;
     if (same && first.here > 0) {
-      const Manifest m = manifest_of(set, *twins.first, first);
-      same = to_json(m) == to_json(manifest_of(set, *twins.second, second));
-      const Folder one = folder_in_part(set, *twins.first, first.name);
-      const Folder other = folder_in_part(set, *twins.second, first.name);
-      for (const ShardFile& file : files_of(*twins.first, m, first.atlas))
+      const Manifest m = manifest_of(set, a, first);
+      same = to_json(m) == to_json(manifest_of(set, b, second));
+      const Folder one = folder_in_part(set, a, first.name);
+      const Folder other = folder_in_part(set, b, first.name);
+      for (const ShardFile& file : files_of(a, m, first.atlas))
         same = same && whole_bytes(one, file) == whole_bytes(other, file);
     }
     if (!same)
-      throw UsageError(fmt::format("'{}' and '{}' are both shard {}, but differ in '{}'",
-                                   twins.first->path(), twins.second->path(),
-                                   twins.first->record.shard.text(), first.name.text()));
+      throw UsageError(fmt::format("'{}' and '{}' are both shard {}, but differ in '{}'", a.path(),
+                                   b.path(), a.record.shard.text(), first.name.text()));
   }
 }
 
-struct Counted {
-  std::size_t written = 0, kept = 0;
-};
-
-// As a run does it: a manifest of nothing first, that of all frames last.
-Counted write_whole(const ShardSet& set, const Folder& output, const MergedSequence& whole) {
+// As a run does it: a manifest of nothing first, that of all frames last. How many of its files
+// were there already.
+std::size_t write_whole(const ShardSet& set, const Folder& output, const MergedSequence& whole) {
   Manifest begun = whole.manifest;
   begun.frames.clear();
   begun.finished = false;
@@ -375,31 +347,30 @@ Counted write_whole(const ShardSet& set, const Folder& output, const MergedSeque
     write_file({folder.folder(), name}, bytes);
   };
   write(kManifest, to_json(begun));
-  Counted counted;
+  std::size_t kept = 0;
   std::set<std::string> written = {kManifest};
   for (const ShardFile& file : whole.files) {
     stop_if_asked();
     if (folder.stands(file.name)) {
-      ++counted.kept;
+      ++kept;
       continue;
     }
     const auto bytes = whole_bytes(folder_in_part(set, *file.shard, begun.scenario), file);
     if (!bytes) throw IoError(fmt::format("'{}' has changed meanwhile", file.name));
     write(file.name, *bytes);
     written.insert(file.name);
-    ++counted.written;
   }
   folder.tell_of_strange(written);
   write(kManifest, to_json(whole.manifest));
   folder.folder().settle();
-  return counted;
+  return kept;
 }
 
 // Makes in the folder `into` what one run without --shard would have made, and gives the exit code
 // of that run; `json` gets members of what was done. Nothing is written before all that the shards
 // say of themselves was found right.
 int merge_frames(const ShardSet& set, const std::string& into, JsonWriter& json) {
-  for (const Twins& twins : set.twins()) require_equal(set, twins);
+  for (const auto& [first, second] : set.twins) require_equal(set, *first, *second);
   std::vector<MergedSequence> sequences;
   for (std::size_t i = 0; i < set.run().inputs.size(); ++i)
     if (auto whole = gather(set, i)) sequences.push_back(std::move(*whole));
@@ -411,14 +382,13 @@ int merge_frames(const ShardSet& set, const std::string& into, JsonWriter& json)
     const std::size_t frames = whole.manifest.frames.size();
     const std::string& name = whole.manifest.scenario.text();
     const std::string path = output.path(name).string();
-    const Counted counted = write_whole(set, output, whole);
+    const std::size_t kept = write_whole(set, output, whole);
     unmet += whole.manifest.unmet;
     json.line().begin_object().members("scenario", name, "folder", path, "frames", frames,
-                                       "written", counted.written, "kept", counted.kept);
+                                       "written", whole.files.size() - kept, "kept", kept);
     json.end_object();
-    say(fmt::format(
-        "{}: {} frames of {} shards in {}{}", name, frames, set.run().shard.of, path,
-        counted.kept > 0 ? fmt::format(", {} files of them there already", counted.kept) : ""));
+    say(fmt::format("{}: {} frames of {} shards in {}{}", name, frames, set.run().shard.of, path,
+                    kept > 0 ? fmt::format(", {} files of them there already", kept) : ""));
   }
   json.line().end_array();
   if (unmet > 0) complain(fmt::format("{} expectations did not hold", unmet));
@@ -430,15 +400,15 @@ int merge_parts(const MergeOptions& options) {
   std::vector<std::uint32_t> numbers;  // of those that are missing
   std::error_code none;
   const bool is_there = std::filesystem::is_directory(options.output, none);
-  for (std::uint32_t i = 0; i < set.shards().size(); ++i) {
-    const FoundShard* shard = set.shards()[i];
+  for (std::uint32_t i = 0; i < set.shards.size(); ++i) {
+    const FoundShard* shard = set.shards[i];
     if (shard == nullptr) numbers.push_back(i + 1);
     // The whole would stand where a part of it does.
     if (shard != nullptr && is_there && shard->folder.is(Folder(options.output)))
       throw UsageError(fmt::format("'{}' is the folder of shard {}; give another one for the whole",
                                    options.output, shard->record.shard.text()));
   }
-  for (const std::string& sentence : set.missing()) complain(sentence);
+  for (const std::uint32_t number : numbers) complain(set.missing(number));
   JsonWriter json = answer_of("merge");
   json.lines("command", "render", "shards", set.run().shard.of, "merged", numbers.empty());
   json.line().member("missing", numbers);

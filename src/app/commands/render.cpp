@@ -1,92 +1,63 @@
 #include <algorithm>
-#include <memory>
-#include <optional>
-#include <set>
-#include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include "app/answer.hpp"
 #include "app/commands/command.hpp"
 #include "app/folders/kept_files.hpp"
-#include "app/folders/shard.hpp"
-#include "app/output/destination.hpp"
-#include "app/output/render_job.hpp"
 #include "app/output/sinks.hpp"
 #include "app/progress.hpp"
-#include "app/run_scenario.hpp"
-#include "app/scenario_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
+#include "base/counted.hpp"
 #include "base/json_writer.hpp"
 #include "base/number.hpp"
 #include "base/stop.hpp"
-#include "draw/page.hpp"
 #include "publish/lesson.hpp"
 
 namespace lantern::app {
 namespace {
 
-// Of `render` and of `watch`.
-Options drawing_options(RenderOptions& o) {
+// `render` has one more.
+Options watch_options(RenderOptions& o) {
   return {
       {"FILE", &o.files, kFilesHelp, {.required = true}},
-      {"-o,--output",
-       &o.output,
+      {"-o,--output", &o.output,
        "a folder, for DIR/<scenario>/<scenario>_0000.png ...; or a file, whose ending says "
        "what it becomes: .png .svg pictures, .mp4 .webm .gif .apng .webp a film, .pdf a "
        "document, .html a lesson page; {scenario}, {step} and {frame} in its name make "
        "several, of a film with {step} a clip a step; - writes one picture to standard output",
-       {.value = "PATH"}},
-      {"--sheet",
-       &o.sheet,
-       "so many frames across and down a page, with -o x.pdf or x.png",
-       {.value = "CxR"}},
+       OptionTraits{.value = "PATH"}},
+      {"--sheet", &o.sheet, "so many frames across and down a page, with -o x.pdf or x.png",
+       OptionTraits{.value = "CxR"}},
       {"--frames", &o.frames, "only these frames: 7, 3-9, 3- or -9", {.value = "A-B"}},
-      {"--at",
-       &o.at,
+      {"--at", &o.at,
        "only the frames of this event (a step's name, split, store, ...), or the first "
        "frame at or after this time in seconds",
-       {.value = "EVENT|TIME"}},
-      {"--size",
-       &o.size,
-       "pixels; the default is 1600x900, of a sheet A4 across",
-       {.value = "WxH"}},
-      {"--dpi",
-       &o.dpi,
-       "pixels to the inch: how large a PDF's page is, and a PNG on paper",
-       {.value = "N", .least = 72, .most = 1200}},
-      {"--format",
-       &o.format,
-       "file format in a folder",
-       {.words = {"png", "svg"}, .given = &o.format_given}},
-      {"--text",
-       &o.text,
-       "an SVG's letters: outlines, or text in the reader's Inter",
-       {.words = {"outlines", "text"}}},
-      {"--tween",
-       &o.tween,
+       OptionTraits{.value = "EVENT|TIME"}},
+      {"--size", &o.size, "pixels; the default is 1600x900, of a sheet A4 across",
+       OptionTraits{.value = "WxH"}},
+      {"--dpi", &o.dpi, "pixels to the inch: how large a PDF's page is, and a PNG on paper",
+       OptionTraits{.value = "N", .least = 72, .most = 1200}},
+      {"--format", &o.format, "file format in a folder",
+       OptionTraits{.words = {"png", "svg"}, .given = &o.format_given}},
+      {"--text", &o.text, "an SVG's letters: outlines, or text in the reader's Inter",
+       OptionTraits{.words = {"outlines", "text"}}},
+      {"--tween", &o.tween,
        "in-betweens after each frame but the last: <scenario>_0007_03.png is the third "
        "from frame 7 on; a film shows so many in the same time, and cuts at 0",
-       {.value = "N", .most = 0x1p53}},
-      {"--fps",
-       &o.fps,
-       "as many in-betweens as a film of so many pictures a second has while something "
-       "changes: half a second each, or the world's own time; of a film, its rate: 30, "
-       "25 for a .gif",
-       {.value = "F", .least = 1, .most = 240}},
-      {"--hold",
-       &o.hold,
+       OptionTraits{.value = "N", .most = 0x1p53}},
+      {"--fps", &o.fps,
+       "as many in-betweens as a film of so many pictures a second has while something changes: "
+       "half a second each, or the world's own time; of a film, its rate: 30, 25 for a .gif",
+       OptionTraits{.value = "F", .least = 1, .most = 240}},
+      {"--hold", &o.hold,
        "how long a film stands still where nothing moves, seconds; the default is as long "
        "as it takes to read the caption",
-       {.value = "S", .most = 3600}},
+       OptionTraits{.value = "S", .most = 3600}},
       {"--theme", &o.theme, "colours", {.words = kThemes}},
       pace_option(o.pace, "one frame per step, or one for each thing the algorithm does"),
-      {"--png",
-       &o.png,
-       "fast to write, or small",
-       {.words = {"fast", "small"}, .given = &o.png_given}},
+      {"--png", &o.png, "fast to write, or small",
+       OptionTraits{.words = {"fast", "small"}, .given = &o.png_given}},
       backend_option(o.backend),
       {"--transparent", &o.transparent, "draw no background"},
       {"--no-title", &o.no_title, "leave out the line above"},
@@ -94,28 +65,19 @@ Options drawing_options(RenderOptions& o) {
       {"--no-counters", &o.no_counters, "leave out the numbers beside the caption"},
       {"--legend", &o.legend, "say what the marks on each frame mean"},
       {"--strict", &o.strict, "turn warnings into errors (exit code 3)"},
-      {"-j,--threads",
-       &o.threads,
-       "encoding threads; the default is one per core",
-       {.value = "N", .least = 1, .most = 256}},
-  };
-}
-
-Options watch_options(RenderOptions& o) {
-  Options options = drawing_options(o);
-  options.push_back(memory_option());
-  options.push_back(json_option(o.json));
-  return options;
+      {"-j,--threads", &o.threads, "encoding threads; the default is one per core",
+       OptionTraits{.value = "N", .least = 1, .most = 256}},
+      memory_option(),
+      json_option(o.json)};
 }
 
 Options render_options(RenderOptions& o) {
   Options options = watch_options(o);
   options.insert(options.end() - 2,
-                 {"--shard",
-                  &o.shard,
+                 {"--shard", &o.shard,
                   "only the I-th of N parts, into DIR/shard-I-of-N; 'lantern merge' makes one of "
                   "them",
-                  {.value = "I/N"}});
+                  OptionTraits{.value = "I/N"}});
   return options;
 }
 
@@ -137,7 +99,7 @@ std::vector<Scenario> load_all(const std::vector<std::string>& files, int& code)
 }
 
 // What came of the frames of one scenario, for a program and for a person.
-void tell_of(const FolderSink::Made& made, const Scenario& scenario, const DirectorReport& report,
+void tell_of(const FolderMade& made, const Scenario& scenario, const DirectorReport& report,
              JsonWriter& json) {
   const std::string folder = made.path.string();
   json.line().begin_object().members("scenario", scenario.name, "folder", folder, "drawn",
@@ -187,8 +149,9 @@ int render_one(const RenderJob& job, const Destination& to, const Scenario& scen
   const RenderOptions& options = job.options;
   const Pace pace = pace_of(options.pace, scenario);
   Selection selection(options.frames, options.at, extent_of(scenario, pace).frames);
+  const Sequence sequence{job, to, scenario, pace, selection, work};
   if (to.kind() != OutputKind::folder) {
-    const auto sink = make_file_sink({job, to, scenario, pace, selection, work});
+    const auto sink = make_file_sink(sequence);
     const RunResult result = run_scenario(scenario, pace, *sink, work, selection.most());
     const int code = tell(result, options.strict);
     if (to.is_file()) tell_of(sink->made(), scenario, result.report, json);
@@ -198,11 +161,11 @@ int render_one(const RenderJob& job, const Destination& to, const Scenario& scen
   job.in_betweens.require_few(most);
   const Part& part = shard.part(index);
   if (part.is_none()) return kGood;
-  const auto sink = make_folder_sink(job, scenario, pace, selection, work, part);
+  FolderMade made;
+  const auto sink = make_folder_sink(sequence, part, made);
   const auto of_part = part.is_all() || !most ? selection.most() : std::optional(part.count(*most));
   const RunResult result =
       run_scenario(scenario, pace, *sink, work, of_part, job.in_betweens.most());
-  const FolderSink::Made& made = sink->made();
   shard.drawn(index, made.drawn + made.kept, made.chosen, made.has_atlas);
   const int code = tell(result, options.strict);
   tell_of(made, scenario, result.report, json);

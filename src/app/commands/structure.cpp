@@ -1,30 +1,25 @@
-// `structure list` and `structure check`: the structures that this program knows, and whether they
-// find what brute force finds.
+// `structure`: the structures that this program knows, whether they find what brute force finds,
+// and how soon, beside each other.
 #include <algorithm>
-#include <filesystem>
 
 #include <fmt/format.h>
 
-#include "app/answer.hpp"
 #include "app/commands/command.hpp"
-#include "app/structure_names.hpp"
+#include "app/progress.hpp"
+#include "app/report_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
+#include "base/counted.hpp"
 #include "base/json_writer.hpp"
 #include "base/number.hpp"
 #include "base/suggest.hpp"
+#include "spatial/structure_bench.hpp"
 #include "spatial/structure_trial.hpp"
 
 namespace lantern::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct StructureListOptions {
-  bool json = false;
-};
-
-Options structure_list_options(StructureListOptions& o) { return {json_option(o.json)}; }
 
 struct StructureCheckOptions {
   std::vector<std::string> names;  // empty for all
@@ -43,9 +38,30 @@ Options structure_check_options(StructureCheckOptions& o) {
       json_option(o.json)};
 }
 
-std::string point(const Vec<2>& p) { return fmt::format("[{}, {}]", p.x, p.y); }
+// Those that any flat world may have: not an octree, and no bsp, whose planes belong to one level.
+// All of them if no name is given. Throws UsageError for a name that is none of theirs.
+std::vector<StructureKind> structures_called(const std::vector<std::string>& names) {
+  std::vector<StructureKind> kinds = known_structures();
+  std::erase_if(kinds, [](StructureKind kind) {
+    return !is_possible(kind, 2) || traits_of(kind).has(Setting::planes);
+  });
+  if (names.empty()) return kinds;
+  std::vector<std::string_view> known;
+  for (const StructureKind kind : kinds) known.push_back(to_string(kind));
+  std::vector<StructureKind> chosen;
+  for (const std::string& name : names) {
+    const auto kind = structure_named(name);
+    if (!kind || *kind == StructureKind::none)
+      throw UsageError(with_suggestion(fmt::format("no structure '{}'", name), name, known));
+    if (std::ranges::find(kinds, *kind) == kinds.end())
+      throw UsageError(fmt::format("{}: random flat worlds are not for it; take one of {}", name,
+                                   fmt::join(known, ", ")));
+    chosen.push_back(*kind);
+  }
+  return chosen;
+}
 
-void write_step(std::string& text, const std::string& what) { text += "\n[[step]]\n" + what; }
+std::string point(const Vec<2>& p) { return fmt::format("[{}, {}]", p.x, p.y); }
 
 // A scenario that shows what goes wrong; its first lines say it in words.
 std::string scenario_of(const Trial& trial) {
@@ -65,10 +81,10 @@ std::string scenario_of(const Trial& trial) {
         "\n[[body]]\nname = \"{}\"\nhalf_size = {}\nposition = {}\nmass = 1\ncolor = {}\n", name,
         point(w.bodies[i].half), point(w.bodies[i].center), i % 8 + 1);
   }
-  if (!names.empty()) write_step(text, fmt::format("do = \"insert\"\nbodies = [{}]\n", names));
+  if (!names.empty()) text += fmt::format("\n[[step]]\ndo = \"insert\"\nbodies = [{}]\n", names);
   for (std::size_t i = 0; i < w.moved.size(); ++i)
-    write_step(text, fmt::format("do = \"move\"\nbody = \"b{}\"\nto = {}\n", i + 1,
-                                 point(w.moved[i].center)));
+    text += fmt::format("\n[[step]]\ndo = \"move\"\nbody = \"b{}\"\nto = {}\n", i + 1,
+                        point(w.moved[i].center));
   return text;
 }
 
@@ -121,7 +137,7 @@ void write(JsonWriter& json, const Trial& trial, const std::string& file) {
   json.end_object();
 }
 
-int list_structures(const StructureListOptions& options) {
+int list_structures(const JsonOnly& options) {
   std::vector<std::vector<std::string>> rows;
   JsonWriter json = answer_of("structure.list");
   json.line().key("structures").begin_array();
@@ -139,12 +155,11 @@ int list_structures(const StructureListOptions& options) {
 }
 
 int check_structures(const StructureCheckOptions& options) {
-  const std::vector<StructureKind> kinds = structures_called(options.names);
   JsonWriter json = answer_of("structure.check");
   json.line().member("seed", options.seed);
   json.key("structures").begin_array();
   int code = kGood;
-  for (const StructureKind kind : kinds) {
+  for (const StructureKind kind : structures_called(options.names)) {
     const Trial trial =
         try_structure(kind, static_cast<std::uint64_t>(options.worlds), options.seed);
     const std::string file = write_scenario(trial, options.output);
@@ -162,40 +177,68 @@ int check_structures(const StructureCheckOptions& options) {
   return code;
 }
 
-}  // namespace
+struct StructureBenchOptions {
+  std::vector<std::string> names;  // empty for all
+  std::vector<int> bodies;         // empty for the usual numbers
+  std::uint64_t seed = 1;
+  int rounds = 9;
+  std::string output;  // folder; empty for none
+  bool json = false;
+};
 
-std::vector<StructureKind> structures_called(const std::vector<std::string>& names) {
-  std::vector<StructureKind> kinds = known_structures();
-  std::erase_if(kinds, [](StructureKind kind) {
-    return !is_possible(kind, 2) || traits_of(kind).has(Setting::planes);
-  });
-  if (names.empty()) return kinds;
-  std::vector<std::string_view> known;
-  for (const StructureKind kind : kinds) known.push_back(to_string(kind));
-  std::vector<StructureKind> chosen;
-  for (const std::string& name : names) {
-    const auto kind = structure_named(name);
-    if (!kind || *kind == StructureKind::none)
-      throw UsageError(with_suggestion(fmt::format("no structure '{}'", name), name, known));
-    if (std::ranges::find(kinds, *kind) == kinds.end())
-      throw UsageError(fmt::format("{}: random flat worlds are not for it; take one of {}", name,
-                                   fmt::join(known, ", ")));
-    chosen.push_back(*kind);
-  }
-  return chosen;
+Options structure_bench_options(StructureBenchOptions& o) {
+  return {{"NAME", &o.names, "structures; the default is all of them"},
+          {"--bodies", &o.bodies, "how many bodies; the default is 100, 400 and 1600",
+           OptionTraits{.value = "N", .least = 2, .most = 1'000'000, .one_each = true}},
+          seed_option(o.seed, "of the random worlds"),
+          {"--rounds", &o.rounds, "repeats; the median counts", {.least = 1, .most = 1000}},
+          {"-o,--output", &o.output, "folder for bench_structure.csv and .json", {.value = "DIR"}},
+          memory_option(),
+          json_option(o.json)};
 }
 
+int bench(const StructureBenchOptions& options) {
+  StructureBench trial;
+  trial.kinds = structures_called(options.names);
+  // What all the others are held against.
+  if (std::ranges::find(trial.kinds, StructureKind::brute_force) == trial.kinds.end())
+    trial.kinds.insert(trial.kinds.begin(), StructureKind::brute_force);
+  trial.bodies.assign(options.bodies.begin(), options.bodies.end());
+  if (trial.bodies.empty()) trial.bodies = {100, 400, 1600};
+  trial.seed = options.seed;
+  trial.rounds = options.rounds;
+  ReportFolder folder(options.output, "bench_structure");
+  std::vector<StructureTime> rows;
+  {
+    Progress progress("structure bench", structure_bench_rows(trial), "rows");
+    std::uint64_t done = 0;
+    rows = bench_structures(trial, [&] { progress.done(++done); });
+  }
+  const std::string json = to_json(rows, options.seed);
+  folder.write("bench_structure.csv", to_csv(rows));
+  folder.write("bench_structure.json", json);
+  folder.finish();
+  options.json ? answer(json) : print(to_table(rows));
+  const bool good = std::ranges::all_of(rows, [](const StructureTime& row) {
+    return row.fault.empty() && row.missed + row.invented == 0;
+  });
+  return good ? kGood : kFailed;
+}
+
+}  // namespace
+
 Command structure_command() {
-  return {"structure",
-          "The spatial structures, and those of your own: list, check, bench",
-          nullptr,
-          {command("list", "List the structures that this program knows", list_structures,
-                   structure_list_options),
-           command("check",
-                   "Hold structures against brute force on random worlds; the smallest world on "
-                   "which one fails is told and written as a scenario",
-                   check_structures, structure_check_options),
-           structure_bench_command()}};
+  return {
+      "structure",
+      "The spatial structures, and those of your own: list, check, bench",
+      nullptr,
+      {command("list", "List the structures that this program knows", list_structures, json_only),
+       command("check",
+               "Hold structures against brute force on random worlds; the smallest world on "
+               "which one fails is told and written as a scenario",
+               check_structures, structure_check_options),
+       command("bench", "Time structures beside each other and brute force, in turns", bench,
+               structure_bench_options)}};
 }
 
 }  // namespace lantern::app

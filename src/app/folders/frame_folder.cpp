@@ -2,13 +2,11 @@
 
 #include <algorithm>
 #include <limits>
-#include <optional>
 
 #include <fmt/format.h>
 
 #include "app/folders/kept_files.hpp"
 #include "app/output/render_job.hpp"
-#include "app/terminal.hpp"
 #include "base/error.hpp"
 #include "base/hash.hpp"
 #include "base/json_writer.hpp"
@@ -83,6 +81,50 @@ Hash style_of(const Manifest& m) {
   return hash;
 }
 
+// Was the folder's last run made by this very build? Two builds of one version may draw
+// differently. False if the manifest is missing, damaged or cannot be read; as to_json() writes it:
+// within a text of the file, a quote has a backslash before it.
+bool is_of_this_build(const Folder& folder) try {
+  const auto manifest = folder.read(kManifest, kMostFrameBytes);
+  return manifest &&
+         manifest->find(fmt::format("\n\"sources\": \"{}\"", kSourceHash)) != std::string::npos;
+} catch (const IoError&) {
+  return false;
+}
+
+constexpr const char* kManifestFormat = "lantern.manifest/2";
+constexpr std::string_view kFactsFormat = "lantern.frame/";
+constexpr std::uint64_t kMostWhole = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint64_t kMostIndex = std::numeric_limits<std::uint32_t>::max();
+
+// A frame's entry, whose files must be those of that frame.
+ListedFrame read_frame(const JsonMembers& json, const Manifest& m, std::uint32_t index) {
+  json.is("file", frame_file(m.scenario, index, m.format));
+  json.is("facts", frame_file(m.scenario, index, FileKind::json));
+  ListedFrame frame;
+  frame.step = static_cast<std::uint32_t>(json.whole("step", 0, kMostIndex));
+  frame.event = json.text("event");
+  frame.time = json.number("time");
+  frame.caption = json.text("caption");
+  frame.hash = json.hash("hash");
+  if (!m.in_betweens.empty())
+    frame.in_betweens = json.whole("in_betweens", 0, InBetweens::kMostPictures);
+  return frame;
+}
+
+void read_frames(const JsonMembers& json, Manifest& m) {
+  std::uint64_t pictures = 0;
+  for (const JsonMembers& one : json.objects("frames")) {
+    const auto index = static_cast<std::uint32_t>(one.whole("frame", 0, kMostIndex));
+    ListedFrame frame = read_frame(one, m, index);
+    pictures += frame.in_betweens;
+    if (pictures > InBetweens::kMostPictures)
+      one.refuse("in_betweens", "there are too many of them in all");
+    if (!m.frames.emplace(index, std::move(frame)).second)
+      one.refuse("frame", "it is listed before");
+  }
+}
+
 }  // namespace
 
 MadeFrom Manifest::frame_from(std::uint32_t index) const {
@@ -138,31 +180,13 @@ std::string in_between_file(const Manifest& m, std::uint32_t index, std::uint64_
                      word_for(m.format, kFileKinds));
 }
 
-namespace {
-
-// The text of the folder's manifest; empty if it is missing or cannot be read.
-std::string manifest_in(const Folder& folder) try {
-  return folder.read(kManifest, kMostFrameBytes).value_or("");
-} catch (const IoError&) {
-  return {};
-}
-
-// Was the folder's last run made by this very build? Two builds of one version may draw
-// differently. False if the manifest is missing or damaged; as to_json() writes it: within a text
-// of the file, a quote has a backslash before it.
-bool is_of_this_build(std::string_view manifest) {
-  return manifest.find(fmt::format("\n\"sources\": \"{}\"", kSourceHash)) != manifest.npos;
-}
-
-}  // namespace
-
 FrameFolder::FrameFolder(const Folder& output, const Manifest& wanted, bool whole)
     : folder_(output.inside(wanted.scenario.text())), wanted_(wanted), lock_(folder_) {
   require_kept_for(KeptFor::frames, folder_);
   require_writable({folder_, kManifest});
   folder_.remove_leftovers();
   if (is_foreign(folder_, kManifest)) strange_.push_back(kManifest);
-  const bool same_build = is_of_this_build(manifest_in(folder_));
+  const bool same_build = is_of_this_build(folder_);
   for (const std::string& name : folder_.names()) look_at(name, same_build, whole);
 }
 
@@ -180,7 +204,7 @@ void FrameFolder::look_at(const std::string& name, bool same_build, bool whole) 
   if (!found && !is_of_the_first_version(kind, bytes)) {
     strange_.push_back(name);
   } else if (found && same_build && is_wanted(name, kind, *found, whole)) {
-    standing_[name] = *found;
+    standing_.insert(name);
   } else {
     old_.push_back(name);
   }
@@ -232,49 +256,12 @@ bool FrameFolder::is_wanted(const std::string& name, FileKind kind, const MadeFr
 std::uint64_t FrameFolder::in_betweens_standing(std::uint32_t index) const {
   const std::string start = fmt::format("{}_{:04}_", wanted_.scenario.text(), index);
   return static_cast<std::uint64_t>(std::ranges::count_if(
-      standing_, [&](const auto& file) { return file.first.starts_with(start); }));
+      standing_, [&](const std::string& file) { return file.starts_with(start); }));
 }
 
 bool FrameFolder::stands(std::uint32_t index, FileKind kind) const {
   return stands(frame_file(wanted_.scenario, index, kind));
 }
-
-namespace {
-
-constexpr const char* kManifestFormat = "lantern.manifest/2";
-constexpr std::string_view kFactsFormat = "lantern.frame/";
-constexpr std::uint64_t kMostWhole = std::numeric_limits<std::uint64_t>::max();
-constexpr std::uint64_t kMostIndex = std::numeric_limits<std::uint32_t>::max();
-
-// A frame's entry, whose files must be those of that frame.
-ListedFrame read_frame(const JsonMembers& json, const Manifest& m, std::uint32_t index) {
-  json.is("file", frame_file(m.scenario, index, m.format));
-  json.is("facts", frame_file(m.scenario, index, FileKind::json));
-  ListedFrame frame;
-  frame.step = static_cast<std::uint32_t>(json.whole("step", 0, kMostIndex));
-  frame.event = json.text("event");
-  frame.time = json.number("time");
-  frame.caption = json.text("caption");
-  frame.hash = json.hash("hash");
-  if (!m.in_betweens.empty())
-    frame.in_betweens = json.whole("in_betweens", 0, InBetweens::kMostPictures);
-  return frame;
-}
-
-void read_frames(const JsonMembers& json, Manifest& m) {
-  std::uint64_t pictures = 0;
-  for (const JsonMembers& one : json.objects("frames")) {
-    const auto index = static_cast<std::uint32_t>(one.whole("frame", 0, kMostIndex));
-    ListedFrame frame = read_frame(one, m, index);
-    pictures += frame.in_betweens;
-    if (pictures > InBetweens::kMostPictures)
-      one.refuse("in_betweens", "there are too many of them in all");
-    if (!m.frames.emplace(index, std::move(frame)).second)
-      one.refuse("frame", "it is listed before");
-  }
-}
-
-}  // namespace
 
 std::string to_json(const Manifest& m) {
   JsonWriter json;

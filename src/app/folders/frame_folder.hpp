@@ -127,7 +127,7 @@ class FrameFolder {
   Folder folder_;
   const Manifest& wanted_;
   FolderLock lock_;
-  std::map<std::string, MadeFrom> standing_;  // by file name
+  std::set<std::string> standing_;  // names of files, as those below
   std::vector<std::string> old_, strange_;
 };
 

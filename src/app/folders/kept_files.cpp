@@ -6,17 +6,12 @@
 #include <charconv>
 #include <cmath>
 #include <iterator>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
 
 #include <fmt/format.h>
 
-#include "app/folders/frame_folder.hpp"
-#include "app/folders/golden_list.hpp"
+#include "app/folders/goldens.hpp"
 #include "app/folders/shard.hpp"
-#include "app/output/destination.hpp"
+#include "app/report_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/printable.hpp"
 #include "render/renderer.hpp"
@@ -26,6 +21,7 @@ namespace lantern::app {
 namespace {
 
 namespace fs = std::filesystem;
+using Json = nlohmann::json;
 
 struct Kept {
   const char* list;         // the file that says so
@@ -38,7 +34,6 @@ constexpr std::array kKept = {
     Kept{kGoldenList, "lantern.golden_frames/", KeptFor::goldens, "the golden frames"},
     Kept{kShardFile, "\"lantern.shard/", KeptFor::shard, "the frames of a part"},
 };
-constexpr const char* kMeasurement = "measure.json";
 
 // What stands at the list's name: `unknown` is a link, a folder, a device, an empty file, or one
 // that cannot be read, and may be the list all the same.
@@ -69,14 +64,14 @@ std::string lower_ending(const fs::path& file) {
   return ending;
 }
 
-// As a report's tables and pages are.
-bool is_some_page(const fs::path& file) {
-  constexpr std::string_view kTables[] = {".csv", ".html", ".svg", ".png"};
-  return std::ranges::find(kTables, lower_ending(file)) != std::end(kTables);
-}
-
 [[noreturn]] void refuse(const fs::path& file, std::string_view what) {
   throw UsageError(fmt::format("'{}' is {}; name another file", file.string(), what));
+}
+
+// Lantern's own are less deep; the rest is read, and dropped.
+bool is_near(int depth, Json::parse_event_t, const Json&) {
+  constexpr int kDeepest = 8;
+  return depth <= kDeepest;
 }
 
 }  // namespace
@@ -115,21 +110,11 @@ void require_free(const fs::path& file) {
   for (const Kept& kept : kKept)
     if (is_some_frame(name.string()) && may_be(standing(folder, kept)))
       refuse(file, fmt::format("called as one of {} there", kept.words));
-  if (is_some_page(name) && folder.has(kMeasurement) && folder.has(name.string()))
+  constexpr std::string_view kTables[] = {".csv", ".html", ".svg", ".png"};
+  const bool is_some_page = std::ranges::find(kTables, lower_ending(name)) != std::end(kTables);
+  if (is_some_page && folder.has(kMeasurement) && folder.has(name.string()))
     refuse(file, "one of the tables and pages of a measurement there");
 }
-
-using Json = nlohmann::json;
-
-namespace {
-
-// Lantern's own are less deep; the rest is read, and dropped.
-bool is_near(int depth, Json::parse_event_t, const Json&) {
-  constexpr int kDeepest = 8;
-  return depth <= kDeepest;
-}
-
-}  // namespace
 
 JsonMembers::JsonMembers(std::string_view text)
     : json_(std::make_shared<const Json>(Json::parse(text.begin(), text.end(), is_near, false))) {

@@ -2,20 +2,13 @@
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
-#include <set>
-#include <string_view>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include "app/folders/kept_files.hpp"
-#include "app/output/destination.hpp"
 #include "app/progress.hpp"
 #include "app/run_scenario.hpp"
 #include "app/terminal.hpp"
-#include "base/file.hpp"
-#include "base/json_writer.hpp"
 #include "base/number.hpp"
 #include "base/printable.hpp"
 #include "draw/theme.hpp"
@@ -23,17 +16,7 @@
 
 namespace lantern::app {
 
-namespace {
-
-constexpr std::string_view kOption = "--shard";
-
-}  // namespace
-
 std::string Shard::text() const { return fmt::format("{}/{}", number, of); }
-
-std::filesystem::path Shard::folder_in(const std::string& out) const {
-  return std::filesystem::path(out) / fmt::format("shard-{}-of-{}", number, of);
-}
 
 std::optional<Shard> parse_shard(const std::string& words) {
   if (words.empty()) return std::nullopt;
@@ -46,8 +29,7 @@ std::optional<Shard> parse_shard(const std::string& words) {
 }
 
 std::uint64_t Part::count(std::uint64_t frames) const {
-  if (is_none() || frames <= first_) return 0;
-  return (frames - first_ - 1) / nth_ + 1;
+  return is_none() || frames <= first ? 0 : (frames - first - 1) / nth + 1;
 }
 
 std::vector<Part> parts_of(const Shard& shard,
@@ -55,7 +37,7 @@ std::vector<Part> parts_of(const Shard& shard,
   constexpr std::uint64_t kPieces = 4;  // a whole scenario is at most this part of a share
   std::uint64_t total = 0;
   for (const auto& count : frames) total += count.value_or(0);
-  std::vector<Part> parts(frames.size(), Part::none());
+  std::vector<Part> parts(frames.size(), Part{0, 0});
   std::vector<std::size_t> whole;
   std::uint64_t dealt = 0;
   for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -65,7 +47,7 @@ std::vector<Part> parts_of(const Shard& shard,
     }
     // The dealing goes on where it stopped, so that remainders do not all fall to the first.
     const std::uint64_t first = (shard.number - 1 + shard.of - dealt % shard.of) % shard.of;
-    const Part part = Part::every(shard.of, first);
+    const Part part{shard.of, first};
     if (!frames[i] || part.count(*frames[i]) > 0) parts[i] = part;
     dealt += frames[i].value_or(0);
   }
@@ -82,9 +64,8 @@ std::vector<Part> parts_of(const Shard& shard,
 
 std::string command_for(Words words, const Shard& shard) {
   for (std::size_t i = 0; i < words.size(); ++i) {
-    if (i > 0 && words[i - 1] == kOption) words[i] = shard.text();
-    if (words[i].starts_with(std::string(kOption) + "="))
-      words[i] = fmt::format("{}={}", kOption, shard.text());
+    if (i > 0 && words[i - 1] == "--shard") words[i] = shard.text();
+    if (words[i].starts_with("--shard=")) words[i] = "--shard=" + shard.text();
   }
   return command_text(words);
 }
@@ -143,6 +124,29 @@ void require_possible(const JsonMembers& settings) {
       settings.refuse(name.c_str(), "there is no such setting");
 }
 
+// How many frames of each are chosen, at most; nothing where only the run can tell.
+std::vector<std::optional<std::uint64_t>> chosen_frames(const RenderOptions& options,
+                                                        const std::vector<Scenario>& scenarios) {
+  std::vector<std::optional<std::uint64_t>> frames;
+  for (const Scenario& scenario : scenarios) {
+    const auto extent = extent_of(scenario, pace_of(options.pace, scenario)).frames;
+    const Selection selection(options.frames, options.at, extent);
+    frames.push_back(selection.most() ? selection.most() : extent);
+  }
+  return frames;
+}
+
+// What the folder of one run would depend on: as its manifest says it, and the choice of frames.
+std::map<std::string, std::string> settings_of(const RenderJob& job, const Scenario& scenario) {
+  const Manifest m = job.manifest(scenario, pace_of(job.options.pace, scenario));
+  std::map<std::string, std::string> settings = settings_told_by(m);
+  settings["frames"] = job.options.frames;
+  settings["at"] = job.options.at;
+  settings["pace"] = job.options.pace;
+  settings["tween digits"] = std::to_string(m.in_between_digits);
+  return settings;
+}
+
 }  // namespace
 
 ShardRecord new_record(const Shard& shard) {
@@ -182,7 +186,9 @@ ShardRecord read_record(std::string_view text) {
   settings.text("frames"), settings.text("at");  // what a merge asks for
   const bool is_ours = r.version == kVersion && r.sources == kSourceHash;
   if (is_ours) require_possible(settings);
-  if (!in_between_digits(r)) settings.refuse("tween digits", "it is a whole number from 2 to 9");
+  const std::string digits = setting(r, "tween digits");
+  if (digits.size() != 1 || digits[0] < '2' || digits[0] > '9')
+    settings.refuse("tween digits", "it is a whole number from 2 to 9");
   r.words = json.texts("words");
   if (r.words.empty() || r.words.front() != kCommand)
     json.refuse("words", "they begin with render");
@@ -224,10 +230,8 @@ std::optional<std::string> contradiction(const Manifest& manifest, const ShardRe
   return std::nullopt;
 }
 
-std::optional<int> in_between_digits(const ShardRecord& record) {
-  const std::string digits = setting(record, "tween digits");
-  const bool is_one = digits.size() == 1 && '2' <= digits[0] && digits[0] <= '9';
-  return is_one ? std::optional(digits[0] - '0') : std::nullopt;
+int in_between_digits(const ShardRecord& record) {
+  return setting(record, "tween digits")[0] - '0';
 }
 
 std::optional<std::string> difference(const ShardRecord& a, const ShardRecord& b) {
@@ -243,33 +247,6 @@ std::optional<std::string> difference(const ShardRecord& a, const ShardRecord& b
   return difference_of_inputs(a, b);
 }
 
-namespace {
-
-// How many frames of each are chosen, at most; nothing where only the run can tell.
-std::vector<std::optional<std::uint64_t>> chosen_frames(const RenderOptions& options,
-                                                        const std::vector<Scenario>& scenarios) {
-  std::vector<std::optional<std::uint64_t>> frames;
-  for (const Scenario& scenario : scenarios) {
-    const auto extent = extent_of(scenario, pace_of(options.pace, scenario)).frames;
-    const Selection selection(options.frames, options.at, extent);
-    frames.push_back(selection.most() ? selection.most() : extent);
-  }
-  return frames;
-}
-
-// What the folder of one run would depend on: as its manifest says it, and the choice of frames.
-std::map<std::string, std::string> settings_of(const RenderJob& job, const Scenario& scenario) {
-  const Manifest m = job.manifest(scenario, pace_of(job.options.pace, scenario));
-  std::map<std::string, std::string> settings = settings_told_by(m);
-  settings["frames"] = job.options.frames;
-  settings["at"] = job.options.at;
-  settings["pace"] = job.options.pace;
-  settings["tween digits"] = std::to_string(m.in_between_digits);
-  return settings;
-}
-
-}  // namespace
-
 RenderOptions options_of_shard(const RenderOptions& options) {
   const auto shard = parse_shard(options.shard);
   if (!shard) return options;
@@ -279,7 +256,8 @@ RenderOptions options_of_shard(const RenderOptions& options) {
                     "on one machine, without --shard",
                     options.output));
   RenderOptions of_shard = options;
-  of_shard.output = shard->folder_in(options.output).string();
+  const std::string folder = fmt::format("shard-{}-of-{}", shard->number, shard->of);
+  of_shard.output = (std::filesystem::path(options.output) / folder).string();
   return of_shard;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
@@ -24,10 +23,7 @@ struct Shard {
   std::uint32_t number = 1;  // from 1
   std::uint32_t of = 1;
 
-  std::string text() const;                                       // "2/4"
-  std::filesystem::path folder_in(const std::string& out) const;  // OUT/shard-2-of-4
-  // Things that come one by one are dealt as cards are: every n-th is this shard's.
-  bool has(std::uint64_t position) const { return position % of + 1 == number; }
+  std::string text() const;  // "2/4"
   bool operator==(const Shard&) const = default;
 };
 
@@ -36,22 +32,14 @@ struct Shard {
 std::optional<Shard> parse_shard(const std::string& words);
 
 // Of the frames chosen of one scenario: those that a shard draws.
-class Part {
- public:
-  Part() = default;  // all
-  static Part none() { return {0, 0}; }
-  static Part every(std::uint64_t nth, std::uint64_t first) { return {nth, first}; }
+struct Part {
+  std::uint64_t nth = 1, first = 0;  // every nth, from the first on; none if nth is 0
 
-  bool is_all() const { return nth_ == 1; }
-  bool is_none() const { return nth_ == 0; }
-  bool has(std::uint64_t position) const { return nth_ > 0 && position % nth_ == first_; }
+  bool is_all() const { return nth == 1; }
+  bool is_none() const { return nth == 0; }
+  bool has(std::uint64_t position) const { return nth > 0 && position % nth == first; }
   // Of so many.
   std::uint64_t count(std::uint64_t frames) const;
-
- private:
-  Part(std::uint64_t nth, std::uint64_t first) : nth_(nth), first_(first) {}
-
-  std::uint64_t nth_ = 1, first_ = 0;
 };
 
 // A part of each of these scenarios, of which is known at most how many frames each gives, if that
@@ -98,16 +86,16 @@ std::map<std::string, std::string> settings_told_by(const Manifest& manifest);
 // How a manifest contradicts the record's settings: "theme is \"dark\", the record says \"light\"".
 std::optional<std::string> contradiction(const Manifest& manifest, const ShardRecord& record);
 
-// How many digits the numbers of in-betweens have; nothing if the settings do not say it rightly.
-std::optional<int> in_between_digits(const ShardRecord& record);
+// How many digits the numbers of in-betweens have.
+int in_between_digits(const ShardRecord& record);
 
 // How two records of one run would differ, as "the size is 160x90 in the first, 320x180 in the
 // second"; nothing if they are parts of one run. The number of the shard, and what is in it, may
 // differ.
 std::optional<std::string> difference(const ShardRecord& a, const ShardRecord& b);
 
-// The options of a shard: the same, but into the shard's own folder. Throws UsageError for words
-// that name no shard, and for an output that is no folder.
+// The options of a shard: the same, but into the shard's own folder, OUT/shard-2-of-4. Throws
+// UsageError for words that name no shard, and for an output that is no folder.
 RenderOptions options_of_shard(const RenderOptions& options);
 
 // The folder that the frames' folders stand in: the user's own, or the shard's within it. Made

@@ -1,16 +1,14 @@
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include <fmt/format.h>
 
-#include "app/output/film_clock.hpp"
-#include "app/output/render_job.hpp"
 #include "app/output/sinks.hpp"
 #include "app/terminal.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/printable.hpp"
+#include "base/utf8.hpp"
 #include "publish/film.hpp"
 #include "render/renderer.hpp"
 
@@ -29,75 +27,6 @@ std::string words_of(const std::string& caption) {
 std::uint64_t pictures(double seconds, double rate) {
   return std::max<std::uint64_t>(1, static_cast<std::uint64_t>(std::llround(seconds * rate)));
 }
-
-}  // namespace
-
-bool FilmClock::is_still(const Frame& a, const Frame& b, bool goes_on) {
-  return !goes_on || a.step != b.step || !InBetweens::is_one_movement(a, b);
-}
-
-void FilmClock::see(const Frame& frame) {
-  std::string words = words_of(frame.caption);
-  if (words == words_) return;
-  words_ = std::move(words);
-  words_since_ = now_;
-}
-
-double FilmClock::seconds_of(const Frame& still) {
-  if (settings_.hold) return *settings_.hold;
-  const double seen = static_cast<double>(now_ - words_since_) / settings_.rate;
-  return std::max(kLook, static_cast<double>(letters(still.caption)) / kLettersPerSecond - seen);
-}
-
-void FilmClock::hold(const Frame& still) {
-  see(still);
-  now_ += pictures(seconds_of(still), settings_.rate);
-  moving_ = false;
-}
-
-// The last of so many different pictures that has come.
-double FilmClock::quantized(double t) const {
-  if (!settings_.in_betweens) return t;
-  const auto parts = static_cast<double>(*settings_.in_betweens + 1);
-  return std::floor(t * parts + 1e-9) / parts;
-}
-
-std::vector<FilmClock::Shot> FilmClock::way(const Frame& a, const Frame& b, bool goes_on) {
-  std::vector<Shot> shots;
-  if (!goes_on) return shots;
-  see(b);
-  if (InBetweens::is_one_movement(a, b)) {
-    move(a, b, shots);
-  } else if (settings_.in_betweens != 0u) {
-    const std::uint64_t all = pictures(InBetweens::kChange, settings_.rate);
-    for (std::uint64_t k = 1; k < all; ++k, ++now_) {
-      const double t = quantized(static_cast<double>(k) / static_cast<double>(all));
-      if (t > 0 && (shots.empty() || t != shots.back().t)) shots.push_back({t, now_});
-    }
-  }
-  return shots;
-}
-
-// By the world's clock, so that nothing is lost or gained by rounding from frame to frame.
-void FilmClock::move(const Frame& a, const Frame& b, std::vector<Shot>& shots) {
-  if (!moving_) {
-    moving_ = true;
-    from_time_ = a.time;
-    from_moment_ = now_ > 0 ? now_ - 1 : 0;  // the last one of the still before it
-  }
-  const double nearly = 1e-3 / settings_.rate;
-  for (;; ++now_) {
-    const double time =
-        from_time_ + static_cast<double>(now_ - from_moment_) / settings_.rate + nearly;
-    if (time >= b.time) return;
-    const double t = quantized(std::max(0.0, time - nearly - a.time) / (b.time - a.time));
-    if (shots.empty() || t != shots.back().t) shots.push_back({t, now_});
-  }
-}
-
-namespace {
-
-namespace fs = std::filesystem;
 
 FilmSettings film_settings(const Sequence& s) {
   FilmSettings film;
@@ -206,6 +135,69 @@ class FilmSink : public FileSink {
 };
 
 }  // namespace
+
+bool FilmClock::is_still(const Frame& a, const Frame& b, bool goes_on) {
+  return !goes_on || a.step != b.step || !InBetweens::is_one_movement(a, b);
+}
+
+void FilmClock::see(const Frame& frame) {
+  std::string words = words_of(frame.caption);
+  if (words == words_) return;
+  words_ = std::move(words);
+  words_since_ = now_;
+}
+
+double FilmClock::seconds_of(const Frame& still) {
+  if (settings_.hold) return *settings_.hold;
+  const double seen = static_cast<double>(now_ - words_since_) / settings_.rate;
+  return std::max(kLook, static_cast<double>(letters(still.caption)) / kLettersPerSecond - seen);
+}
+
+void FilmClock::hold(const Frame& still) {
+  see(still);
+  now_ += pictures(seconds_of(still), settings_.rate);
+  moving_ = false;
+}
+
+// The last of so many different pictures that has come.
+double FilmClock::quantized(double t) const {
+  if (!settings_.in_betweens) return t;
+  const auto parts = static_cast<double>(*settings_.in_betweens + 1);
+  return std::floor(t * parts + 1e-9) / parts;
+}
+
+std::vector<FilmClock::Shot> FilmClock::way(const Frame& a, const Frame& b, bool goes_on) {
+  std::vector<Shot> shots;
+  if (!goes_on) return shots;
+  see(b);
+  if (InBetweens::is_one_movement(a, b)) {
+    move(a, b, shots);
+  } else if (settings_.in_betweens != 0u) {
+    const std::uint64_t all = pictures(InBetweens::kChange, settings_.rate);
+    for (std::uint64_t k = 1; k < all; ++k, ++now_) {
+      const double t = quantized(static_cast<double>(k) / static_cast<double>(all));
+      if (t > 0 && (shots.empty() || t != shots.back().t)) shots.push_back({t, now_});
+    }
+  }
+  return shots;
+}
+
+// By the world's clock, so that nothing is lost or gained by rounding from frame to frame.
+void FilmClock::move(const Frame& a, const Frame& b, std::vector<Shot>& shots) {
+  if (!moving_) {
+    moving_ = true;
+    from_time_ = a.time;
+    from_moment_ = now_ > 0 ? now_ - 1 : 0;  // the last one of the still before it
+  }
+  const double nearly = 1e-3 / settings_.rate;
+  for (;; ++now_) {
+    const double time =
+        from_time_ + static_cast<double>(now_ - from_moment_) / settings_.rate + nearly;
+    if (time >= b.time) return;
+    const double t = quantized(std::max(0.0, time - nearly - a.time) / (b.time - a.time));
+    if (shots.empty() || t != shots.back().t) shots.push_back({t, now_});
+  }
+}
 
 std::unique_ptr<FileSink> make_film_sink(const Sequence& sequence) {
   return std::make_unique<FilmSink>(sequence);

@@ -1,21 +1,14 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include "app/output/destination.hpp"
-#include "app/output/render_job.hpp"
 #include "app/output/sinks.hpp"
 #include "app/output/watch.hpp"
 #include "app/progress.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
+#include "base/grouped.hpp"
 #include "base/memory.hpp"
 #include "base/number.hpp"
 #include "draw/page.hpp"

@@ -1,19 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <filesystem>
-#include <memory>
-#include <optional>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "app/output/sinks.hpp"
 #include "app/progress.hpp"
 #include "app/terminal.hpp"
-#include "base/error.hpp"
 #include "base/memory.hpp"
 #include "draw/page.hpp"
 #include "embedded/version.hpp"
@@ -100,26 +93,17 @@ Vec<2> paper_of(const RenderJob& job) {
   return Vec<2>(job.picture.width, job.picture.height) * (kMillimetres / job.options.dpi);
 }
 
-// Counts the frames that are chosen, and draws none: only a run can tell how many pages there are.
-class CountingSink : public FrameSink {
- public:
-  explicit CountingSink(Selection& selection) : selection_(selection) {}
-  void frame(const Frame& frame) override { chosen_ += selection_.takes(frame); }
-  void finish(const DirectorReport&) override { selection_.require_some(); }
-  std::uint64_t chosen() const { return chosen_; }
-
- private:
-  Selection& selection_;
-  std::uint64_t chosen_ = 0;
-};
-
+// Draws none of the frames: only a run can tell how many pages there are.
 std::uint64_t pages_of(const Sequence& sequence, const publish::SheetGrid& grid) {
-  const RenderOptions& options = sequence.job.options;
-  Selection selection(options.frames, options.at,
-                      extent_of(sequence.scenario, sequence.pace).frames);
-  CountingSink sink(selection);
-  run_scenario(sequence.scenario, sequence.pace, sink, sequence.work, selection.most());
-  return (sink.chosen() + grid.pictures() - 1) / grid.pictures();
+  struct CountingSink : FrameSink {
+    explicit CountingSink(const Selection& of) : selection(of) {}
+    void frame(const Frame& frame) override { chosen += selection.takes(frame); }
+    void finish(const DirectorReport&) override { selection.require_some(); }
+    Selection selection;
+    std::uint64_t chosen = 0;
+  } sink(sequence.selection);  // as it is before the run
+  run_scenario(sequence.scenario, sequence.pace, sink, sequence.work, sink.selection.most());
+  return (sink.chosen + grid.pictures() - 1) / grid.pictures();
 }
 
 // Makes pages: PNG or PDF.
@@ -164,14 +148,14 @@ class SheetSink : public FileSink {
  private:
   void begin_pictures() {
     const Vec<2> pixels = paper_ * (of_.job.options.dpi / kMillimetres);
-    width_ = static_cast<int>(std::lround(pixels.x));
-    height_ = static_cast<int>(std::lround(pixels.y));
-    if (std::max(width_, height_) > Renderer::kMostPixels)
+    const int width = static_cast<int>(std::lround(pixels.x));
+    const int height = static_cast<int>(std::lround(pixels.y));
+    if (std::max(width, height) > Renderer::kMostPixels)
       throw UsageError(
           fmt::format("a sheet of {} x {} pixels is more than {}; ask for fewer dots "
                       "(--dpi), or make it a .pdf",
-                      width_, height_, Renderer::kMostPixels));
-    renderer_ = of_.job.make_renderer(width_, height_, of_.work);
+                      width, height, Renderer::kMostPixels));
+    renderer_ = of_.job.make_renderer(width, height, of_.work);
   }
   // The panels alone: what is said of them stands on the sheet.
   publish::SheetPicture bare_picture(const Frame& frame, const Staging& staging) const {
@@ -227,7 +211,6 @@ class SheetSink : public FileSink {
   std::optional<publish::PdfDocument> document_;  // one of these two
   std::unique_ptr<Renderer> renderer_;
   Image image_;
-  int width_ = 0, height_ = 0;  // pixels
   std::uint64_t pages_ = 0, page_ = 0, in_document_ = 0;
   // Of the page that is being filled.
   std::vector<publish::SheetPicture> waiting_;

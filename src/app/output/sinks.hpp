@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "app/folders/shard.hpp"
-#include "app/output/destination.hpp"
 #include "app/output/render_job.hpp"
 #include "app/run_scenario.hpp"
 #include "base/file.hpp"
@@ -20,19 +19,12 @@
 
 namespace lantern::app {
 
-// Keeps the frames of a sequence, at most `Bound` of them, and then gives each with what its group
+// Keeps the frames of a sequence, up to a bound, and then gives each with what its group
 // shares; the axes of charts are those of all that were kept. A frame's picture depends on the
 // scenario alone: the bound is counted in frames and in bytes estimated from what a frame lists.
 // When a run is stopped before its end, frames that were waiting are not drawn.
 class StagedSink : public FrameSink {
  public:
-  struct Bound {
-    std::size_t frames = 1000;
-    std::size_t bytes = std::size_t{64} << 20;
-  };
-  StagedSink() = default;
-  explicit StagedSink(const Bound& bound) : bound_(bound) {}
-
   void frame(const Frame& frame) final;
   void finish(const DirectorReport& report) final;
   std::uint64_t waiting() const final { return undrawn_; }
@@ -46,36 +38,10 @@ class StagedSink : public FrameSink {
  private:
   void flush();
 
-  Bound bound_;
   std::vector<Frame> waiting_;
   std::size_t bytes_ = 0;  // of those
   std::atomic<std::uint64_t> undrawn_{0};
 };
-
-// Frames into DIR/<scenario>/: a picture and facts each, a manifest, and the finished atlas. Each
-// chosen frame is drawn when its group is whole, unless its picture stands there already; of a part
-// only that part's, and the atlas with the last frame. The disk is left as it was until the first
-// one. Its run throws IoError, BackendError, and UsageError for a picture that is too large and if
-// no frame was chosen.
-class FolderSink : public StagedSink {
- public:
-  struct Made {
-    std::filesystem::path path;
-    std::size_t drawn = 0, kept = 0;
-    std::uint64_t chosen = 0;     // of the whole run, whoever draws them
-    std::size_t in_betweens = 0;  // there now
-    bool has_atlas = false;       // it stands there, whole
-  };
-  // After finish().
-  const Made& made() const { return made_; }
-
- protected:
-  Made made_;
-};
-// All that is given to it must outlive it.
-std::unique_ptr<FolderSink> make_folder_sink(const RenderJob& job, const Scenario& scenario,
-                                             Pace pace, Selection& selection, Work& work,
-                                             const Part& part);
 
 // What a sink is made for. All of it must outlive the sink.
 struct Sequence {
@@ -93,6 +59,22 @@ struct Sequence {
   [[noreturn]] void refuse(const std::string& why) const;
 };
 
+// Frames into DIR/<scenario>/: a picture and facts each, a manifest, and the finished atlas. Each
+// chosen frame is drawn when its group is whole, unless its picture stands there already; of a part
+// only that part's, and the atlas with the last frame. The disk is left as it was until the first
+// one. Its run throws IoError, BackendError, and UsageError for a picture that is too large and if
+// no frame was chosen.
+struct FolderMade {
+  std::filesystem::path path;
+  std::size_t drawn = 0, kept = 0;
+  std::uint64_t chosen = 0;     // of the whole run, whoever draws them
+  std::size_t in_betweens = 0;  // there now
+  bool has_atlas = false;       // it stands there, whole
+};
+// What it has made is told to `made`, which must outlive it.
+std::unique_ptr<StagedSink> make_folder_sink(const Sequence& sequence, const Part& part,
+                                             FolderMade& made);
+
 // Frames into files that the user names, or onto standard output. A file has its name only when it
 // is whole: when a run fails or is interrupted, what stood there before still does. Each kind
 // throws UsageError for what it cannot do, before the run if it can be known then.
@@ -104,12 +86,11 @@ class FileSink : public StagedSink {
     std::optional<double> seconds = std::nullopt;  // that films take in all,
     double rate = 0;                               // at so many pictures a second
   };
+  explicit FileSink(const Sequence& sequence) : of_(sequence) {}
   // After finish().
   const Made& made() const { return made_; }
 
  protected:
-  explicit FileSink(const Sequence& sequence) : of_(sequence) {}
-
   // Every chosen frame, in order.
   virtual void take(const Frame& frame, const Staging& staging) = 0;
   // After the last one; there was one.
@@ -129,11 +110,60 @@ class FileSink : public StagedSink {
   void close(const DirectorReport& report) final;
 };
 
+// When the pictures of a film are seen: the speed of what moves, how long stands what is read.
+// Moments are counted in pictures of the film's rate, from 0. World time that goes on in small
+// steps is shown at its own speed, whatever lies between two frames; any other change takes
+// InBetweens::kChange seconds. A still is a frame that nothing goes on from at once: the last of
+// each step, and each that the next one differs from by more than a small step of time.
+class FilmClock {
+ public:
+  // A still stands until its words have been on the screen as long as it takes to read them at this
+  // speed, which is that of subtitles, and at least kLook.
+  static constexpr double kLettersPerSecond = 15;
+  static constexpr double kLook = 1;  // seconds
+
+  struct Settings {
+    double rate = 30;                           // pictures a second
+    std::optional<double> hold = std::nullopt;  // seconds of each still, whatever its words
+    // Different ones between two frames; none: all that the rate has room for; 0: cuts.
+    std::optional<std::uint64_t> in_betweens = std::nullopt;
+  };
+  explicit FilmClock(const Settings& settings) : settings_(settings) {}
+
+  // The first moment that is still free.
+  std::uint64_t now() const { return now_; }
+
+  // Is `a` a still, if `b` is chosen next? `goes_on`: it is the next one of the run, too.
+  static bool is_still(const Frame& a, const Frame& b, bool goes_on);
+
+  // The frame is shown from now on, as a still. When that ends is the new now().
+  void hold(const Frame& still);
+
+  // What is shown on the way from `a` to `b`, `b` itself left out; 0 is `a`. Then it is b's turn.
+  struct Shot {
+    double t = 0;  // of the way
+    std::uint64_t moment = 0;
+  };
+  std::vector<Shot> way(const Frame& a, const Frame& b, bool goes_on);
+
+ private:
+  double seconds_of(const Frame& still);
+  void move(const Frame& a, const Frame& b, std::vector<Shot>& shots);
+  double quantized(double t) const;
+  void see(const Frame& frame);
+
+  Settings settings_;
+  std::uint64_t now_ = 0;
+  bool moving_ = false;            // a movement is under way:
+  double from_time_ = 0;           // at this world time
+  std::uint64_t from_moment_ = 0;  // it was this moment
+  std::string words_;              // on the screen,
+  std::uint64_t words_since_ = 0;  // from this moment on
+};
+
 // The sink for this kind of output, which is no folder.
 std::unique_ptr<FileSink> make_file_sink(const Sequence& sequence);
-// Each of them in a file of its own.
-std::unique_ptr<FileSink> make_picture_sink(const Sequence& sequence);
-std::unique_ptr<FileSink> make_stdout_sink(const Sequence& sequence);
+// Of the kinds that have a file of their own.
 std::unique_ptr<FileSink> make_film_sink(const Sequence& sequence);
 std::unique_ptr<FileSink> make_document_sink(const Sequence& sequence);
 std::unique_ptr<FileSink> make_sheet_sink(const Sequence& sequence);

@@ -1,73 +1,31 @@
 #include "app/output/watch.hpp"
 
-#include <exception>
-#include <optional>
-#include <string>
+#include <chrono>
 #include <system_error>
-#include <vector>
+#include <thread>
 
 #include <fmt/format.h>
 #include <sys/stat.h>
 
-#include "app/terminal.hpp"
+#include "app/commands/command.hpp"
+#include "app/output/render_job.hpp"
 #include "base/error.hpp"
-#include "base/file.hpp"
 #include "base/hash.hpp"
 #include "base/json_writer.hpp"
+#include "base/stop.hpp"
 
 namespace lantern::app {
 
 namespace fs = std::filesystem;
 
-WatchedFiles::WatchedFiles(const std::vector<std::string>& files) {
-  for (const std::string& file : files) {
-    const Stamp stamp = stamp_of(file);
-    files_.push_back({file, stamp, std::nullopt, hash_of(file).value_or(0)});
-  }
-}
+namespace {
 
-WatchedFiles::Stamp WatchedFiles::stamp_of(const std::string& file) {
-  struct stat found {};
-  std::error_code error;
-  const auto written = fs::last_write_time(file, error);
-  if (error || ::stat(file.c_str(), &found) != 0) return std::nullopt;
-  return std::tuple(written, static_cast<std::uintmax_t>(found.st_size),
-                    static_cast<std::uint64_t>(found.st_ino));
-}
-
-std::optional<std::uint64_t> WatchedFiles::hash_of(const std::string& file) try {
+std::optional<std::uint64_t> hash_of(const std::string& file) try {
   constexpr std::size_t kMostBytes = std::size_t{1} << 28;
   return Hash().add(read_file(file, kMostBytes)).value();
 } catch (const IoError&) {
   return std::nullopt;
 }
-
-// A stamp that has rested is older than a clock tick, so that whatever is written later has
-// another.
-std::vector<std::string> WatchedFiles::changed() {
-  std::vector<std::string> changed;
-  gone_.clear();
-  back_.clear();
-  for (Watched& one : files_) {
-    const Stamp now = stamp_of(one.file);
-    const bool rests = now == one.looked_at;
-    one.looked_at = now;
-    if (rests && one.is_gone != !now) {
-      one.is_gone = !now;
-      (now ? back_ : gone_).push_back(one.file);
-    }
-    if (!now || !rests || now == one.told) continue;
-    const auto hash = hash_of(one.file);
-    if (!hash) continue;
-    one.told = now;
-    if (*hash == one.hash) continue;
-    one.hash = *hash;
-    changed.push_back(one.file);
-  }
-  return changed;
-}
-
-namespace {
 
 constexpr const char* kScript = R"(<script>
 (() => {{
@@ -114,7 +72,62 @@ std::string script_string(std::string_view text) {
   return quoted;
 }
 
+constexpr auto kLook = std::chrono::milliseconds(25);  // a signal is heard as soon
+
+// What is wrong with a scenario, or with what was asked of it, may be mended by the next save: it
+// is said, and the watch goes on. A machine without graphics will not be.
+void render_and_tell(const RenderOptions& options) {
+  try {
+    draw_scenarios(options);
+  } catch (const UsageError& e) {
+    complain(e.what());
+  } catch (const IoError& e) {
+    complain(e.what());
+  }
+}
+
 }  // namespace
+
+WatchedFiles::WatchedFiles(const std::vector<std::string>& files) {
+  for (const std::string& file : files) {
+    const Stamp stamp = stamp_of(file);
+    files_.push_back({file, stamp, std::nullopt, hash_of(file).value_or(0)});
+  }
+}
+
+WatchedFiles::Stamp WatchedFiles::stamp_of(const std::string& file) {
+  struct stat found {};
+  std::error_code error;
+  const auto written = fs::last_write_time(file, error);
+  if (error || ::stat(file.c_str(), &found) != 0) return std::nullopt;
+  return std::tuple(written, static_cast<std::uintmax_t>(found.st_size),
+                    static_cast<std::uint64_t>(found.st_ino));
+}
+
+// A stamp that has rested is older than a clock tick, so that whatever is written later has
+// another.
+std::vector<std::string> WatchedFiles::changed() {
+  std::vector<std::string> changed;
+  gone_.clear();
+  back_.clear();
+  for (Watched& one : files_) {
+    const Stamp now = stamp_of(one.file);
+    const bool rests = now == one.looked_at;
+    one.looked_at = now;
+    if (rests && one.is_gone != !now) {
+      one.is_gone = !now;
+      (now ? back_ : gone_).push_back(one.file);
+    }
+    if (!now || !rests || now == one.told) continue;
+    const auto hash = hash_of(one.file);
+    if (!hash) continue;
+    one.told = now;
+    if (*hash == one.hash) continue;
+    one.hash = *hash;
+    changed.push_back(one.file);
+  }
+  return changed;
+}
 
 std::string reload_script(const std::filesystem::path& page) {
   return fmt::format(kScript, script_string(version_file(page.filename().string())));
@@ -152,6 +165,32 @@ void forget_versions() noexcept {
       // it is somebody else's by now
     }
   written().clear();
+}
+
+int watch_scenarios(const RenderOptions& asked) {
+  RenderOptions options = asked;
+  options.reloading = true;
+  const RenderJob checked(options);  // words that no save can mend
+  if (Destination(options.output, !options.sheet.empty()).kind() == OutputKind::standard_output)
+    throw UsageError("watch draws again and again; -o - takes one picture");
+  for (const std::string& file : options.files)
+    if (!std::filesystem::exists(file))
+      throw IoError(fmt::format("'{}' is not there to be watched", file));
+  const struct Leftovers {
+    ~Leftovers() { forget_versions(); }
+  } at_the_end;
+  WatchedFiles watched(options.files);
+  render_and_tell(options);
+  say(fmt::format("watching {}; Ctrl-C ends", fmt::join(options.files, ", ")));
+  while (!stop_asked()) {
+    std::this_thread::sleep_for(kLook);
+    options.files = watched.changed();
+    for (const std::string& file : watched.gone())
+      say(fmt::format("'{}' is gone; it is waited for", file));
+    for (const std::string& file : watched.back()) say(fmt::format("'{}' is back", file));
+    if (!options.files.empty()) render_and_tell(options);
+  }
+  return kInterrupted;
 }
 
 }  // namespace lantern::app

@@ -40,7 +40,6 @@ class WatchedFiles {
     bool is_gone = false;    // and this has been told
   };
   static Stamp stamp_of(const std::string& file);
-  static std::optional<std::uint64_t> hash_of(const std::string& file);
 
   std::vector<Watched> files_;
   std::vector<std::string> gone_, back_;

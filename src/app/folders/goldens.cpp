@@ -1,55 +1,75 @@
-// The frames of a run beside golden ones: compared with them, or becoming them. Both draw as
-// `lantern render` does, in one pass, and keep no picture longer than it is needed.
-//
-// DIR/<scenario>/golden.txt lists the frames with the hashes of their pixels; beside it stand
-// <scenario>_0000.png and .json, as render writes them.
-#pragma once
+#include "app/folders/goldens.hpp"
 
-#include <cstdint>
-#include <filesystem>
-#include <map>
-#include <memory>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
+#include <algorithm>
+#include <sstream>
 
 #include <fmt/format.h>
 
 #include "app/folders/frame_folder.hpp"
-#include "app/folders/golden_list.hpp"
 #include "app/folders/kept_files.hpp"
 #include "app/output/sinks.hpp"
-#include "base/file.hpp"
+#include "base/number.hpp"
+#include "base/printable.hpp"
+#include "draw/theme.hpp"
 #include "embedded/version.hpp"
-#include "language/scenario.hpp"
-#include "publish/golden_report.hpp"
-#include "render/compare.hpp"
-#include "render/png.hpp"
 #include "render/renderer.hpp"
 
 namespace lantern::app {
 
-// What the goldens of one scenario are. The references must outlive the sink.
-struct Goldens {
-  const RenderJob& job;
-  const Scenario& scenario;
-  Pace pace;
-  Selection& selection;
-  Work& work;
-  ScenarioName name;
-  std::filesystem::path output;  // DIR
-  std::optional<Folder> folder;  // DIR/<scenario>, if it is there
-  GoldenList list;               // that stands there; without frames if none does
+namespace {
 
-  // What this run's frames are made with.
-  GoldenList::MadeWith made_with() const {
-    const Manifest m = job.manifest(scenario, pace);
-    return {std::string(kVersion), m.size, m.theme, std::string(word_for(m.pace, kPaces)),
-            fmt::format("lantern.frame/{}", kFactsVersion)};
-  }
-};
+constexpr std::string_view kGoldenFormat = "lantern.golden_frames/";
+constexpr std::string_view kGoldenVersion = "1";
+
+using Member = std::pair<std::string_view, std::string GoldenList::MadeWith::*>;
+constexpr std::array<Member, 5> kMembers = {{{"version", &GoldenList::MadeWith::version},
+                                             {"size", &GoldenList::MadeWith::size},
+                                             {"theme", &GoldenList::MadeWith::theme},
+                                             {"pace", &GoldenList::MadeWith::pace},
+                                             {"facts", &GoldenList::MadeWith::facts}}};
+
+bool is_hash(std::string_view word) {
+  return word.size() == 16 && word.find_first_not_of("0123456789abcdef") == word.npos;
+}
+
+// The word that a line begins with, which loses it and the space behind it.
+std::string_view taken_word(std::string_view& line) {
+  const std::string_view word = line.substr(0, line.find(' '));
+  line.remove_prefix(std::min(word.size() + 1, line.size()));
+  return word;
+}
+
+// "7 1f0c6e2a... split": the frame, its pixels, and what is left of the line.
+bool read_frame(std::string_view line, GoldenList& list) {
+  const auto index = number_in<std::uint32_t>(taken_word(line));
+  const std::string hash(taken_word(line));
+  return index && is_hash(hash) &&
+         list.frames.emplace(*index, GoldenList::Entry{hash, std::string(line)}).second;
+}
+
+// They are told as words to type.
+bool is_right(const GoldenList::MadeWith& m) {
+  const auto is_of = [](std::string_view text, std::string_view letters) {
+    return text.size() <= 32 && text.find_first_not_of(letters) == text.npos;
+  };
+  return is_of(m.version, "0123456789.") && is_of(m.size, "0123456789x") &&
+         (m.theme.empty() || theme_named(m.theme)) &&
+         (m.pace.empty() || m.pace == word_for(Pace::step, kPaces) ||
+          m.pace == word_for(Pace::event, kPaces)) &&
+         is_of(m.facts, "lantern.frame/0123456789");
+}
+
+bool read_line(std::string_view line, GoldenList& list) {
+  if (line.find(' ') == line.npos) return false;
+  const std::string_view key = taken_word(line);
+  if (key == "frame") return read_frame(line, list);
+  for (const auto& [name, member] : kMembers)
+    if (key == name && (list.made_with.*member).empty()) {
+      list.made_with.*member = line;
+      return is_right(list.made_with);
+    }
+  return false;
+}
 
 // Draws the chosen frames.
 class GoldenSink : public StagedSink {
@@ -106,10 +126,8 @@ class GoldenSink : public StagedSink {
   Image image_;
 };
 
-// What differs goes into the suite.
 class GoldenComparison : public GoldenSink {
  public:
-  // Pictures are kept for as many frames as `shown` says, which is counted down.
   GoldenComparison(const Goldens& goldens, const Allowance& allowance, GoldenSuite& suite,
                    std::size_t& shown)
       : GoldenSink(goldens), allowance_(allowance), suite_(suite), shown_(shown) {}
@@ -203,16 +221,10 @@ class GoldenComparison : public GoldenSink {
   std::size_t& shown_;
 };
 
-// What has changed is written, and what is gone is removed, unless somebody else made it.
 class GoldenUpdate : public GoldenSink {
  public:
-  explicit GoldenUpdate(const Goldens& goldens) : GoldenSink(goldens) {}
-
-  // Names of files.
-  struct Changes {
-    std::vector<std::string> written, removed, strange;
-  };
-  const Changes& changes() const { return changes_; }
+  GoldenUpdate(const Goldens& goldens, GoldenChanges& changes)
+      : GoldenSink(goldens), changes_(changes) {}
 
  private:
   // Throws IoError, and leaves what stood there or the new file.
@@ -267,7 +279,68 @@ class GoldenUpdate : public GoldenSink {
 
   std::optional<FolderLock> lock_;  // from the first frame on
   std::map<std::uint32_t, GoldenList::Entry> taken_;
-  Changes changes_;
+  GoldenChanges& changes_;
 };
+
+}  // namespace
+
+std::string to_text(const GoldenList& list) {
+  std::string text = fmt::format("{}{}\n", kGoldenFormat, kGoldenVersion);
+  for (const auto& [name, member] : kMembers)
+    text += fmt::format("{} {}\n", name, list.made_with.*member);
+  for (const auto& [index, entry] : list.frames)
+    text += fmt::format("frame {} {} {}\n", index, entry.pixels, printable(entry.event));
+  return text;
+}
+
+std::optional<GoldenList> read_golden_list(const Folder& folder) {
+  constexpr std::size_t kMostBytes = std::size_t{1} << 28;
+  const auto text = folder.read(kGoldenList, kMostBytes);
+  if (!text) return std::nullopt;
+  const std::string file = folder.path(kGoldenList).string();
+  const auto damaged = [&](const std::string& how) {
+    return DamagedGoldens(fmt::format("'{}' is damaged{}; --update makes it anew", file, how));
+  };
+  std::istringstream lines(*text);
+  GoldenList list;
+  std::string line, all;
+  for (std::size_t number = 1; std::getline(lines, line); ++number) {
+    if (line.ends_with('\r')) line.pop_back();  // as some version control systems give it
+    all += line + "\n";
+    if (number == 1) {
+      if (!line.starts_with(kGoldenFormat))
+        throw IoError(
+            fmt::format("'{}' is not Lantern's: move it, or give --dir another folder", file));
+      if (line.substr(kGoldenFormat.size()) != kGoldenVersion)
+        throw IoError(fmt::format("'{}' is of a later Lantern: {}", file, line));
+    } else if (!read_line(line, list)) {
+      throw damaged(fmt::format(" in line {}", number));
+    }
+  }
+  for (const auto& [name, member] : kMembers)
+    if ((list.made_with.*member).empty()) throw damaged(fmt::format(": no {}", name));
+  try {
+    require_as_written(all, to_text(list));
+  } catch (const RefusedFile& why) {
+    throw damaged(fmt::format(": {}", why.what()));
+  }
+  return list;
+}
+
+GoldenList::MadeWith Goldens::made_with() const {
+  const Manifest m = job.manifest(scenario, pace);
+  return {std::string(kVersion), m.size, m.theme, std::string(word_for(m.pace, kPaces)),
+          fmt::format("lantern.frame/{}", kFactsVersion)};
+}
+
+std::unique_ptr<FrameSink> make_golden_comparison(const Goldens& goldens,
+                                                  const Allowance& allowance, GoldenSuite& suite,
+                                                  std::size_t& shown) {
+  return std::make_unique<GoldenComparison>(goldens, allowance, suite, shown);
+}
+
+std::unique_ptr<FrameSink> make_golden_update(const Goldens& goldens, GoldenChanges& changes) {
+  return std::make_unique<GoldenUpdate>(goldens, changes);
+}
 
 }  // namespace lantern::app
