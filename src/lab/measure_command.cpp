@@ -21,10 +21,8 @@
 #include "lab/measure_unsuited.hpp"
 #include "language/method.hpp"
 #include "measure/plan.hpp"
-#include "measure/problems.hpp"
 #include "report/benches.hpp"
 #include "report/measure_document.hpp"
-#include "report/measure_files.hpp"
 #include "report/pages.hpp"
 
 namespace lantern::lab {

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "measure/peers.hpp"
-#include "report/words.hpp"
+#include "report/document.hpp"
 
 namespace lantern::lab {
 namespace {

@@ -2,14 +2,6 @@
 // same textures in the same run, in turns.
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <functional>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "measure/atlas_peer.hpp"
 #include "measure/bench.hpp"
 

@@ -1,14 +1,6 @@
 // What all benches have in common: who takes part, what was found, and who was asked for.
 #pragma once
 
-#include <algorithm>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <fmt/format.h>
-
-#include "base/error.hpp"
 #include "base/suggest.hpp"
 #include "measure/row.hpp"
 

@@ -3,14 +3,6 @@
 // is look at too many, and that is what is counted here beside the time.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
-#include "base/timing.hpp"
 #include "measure/bench.hpp"
 #include "measure/boxes/worlds.hpp"
 

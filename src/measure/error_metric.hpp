@@ -2,13 +2,7 @@
 // scenario is held against its own run at a much finer step.
 #pragma once
 
-#include <cmath>
 #include <deque>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
 
 #include "measure/simulation.hpp"
 

@@ -1,11 +1,6 @@
 #include "measure/invariants.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-
 #include "physics/energy.hpp"
-#include "physics/manifold.hpp"
 #include "run/players.hpp"
 
 namespace lantern::measure {

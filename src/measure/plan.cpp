@@ -1,14 +1,8 @@
 #include "measure/plan.hpp"
 
-#include <algorithm>
-#include <limits>
-
-#include <fmt/format.h>
-
-#include "base/error.hpp"
-#include "measure/dormand_prince_solver.hpp"
-#include "measure/lantern_solver.hpp"
+#include "embedded/problems.hpp"
 #include "measure/peers.hpp"
+#include "measure/solvers.hpp"
 
 namespace lantern::measure {
 namespace {
@@ -192,6 +186,20 @@ std::vector<Row> Plan::run(std::span<const Job> jobs, const std::function<void(d
   }
   time_in_turn(trials, runs, [&](std::size_t i) { told(expected[i]); });
   return rows;
+}
+
+std::vector<std::string_view> problem_names() {
+  std::vector<std::string_view> names;
+  for (const auto& [name, text] : problem::files()) names.push_back(name);
+  std::ranges::sort(names);
+  return names;
+}
+
+Scenario known_problem(std::string_view name) {
+  for (const auto& [known, text] : problem::files())
+    if (known == name) return parse_scenario(text, fmt::format("scenarios/problems/{}.toml", name));
+  LANTERN_CHECK(name, ==, std::string_view("a known problem"));
+  return Scenario(ScenarioSpec());
 }
 
 }  // namespace lantern::measure

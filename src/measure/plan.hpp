@@ -1,17 +1,17 @@
 // Which runs make up a measurement, how long each will take, and the running of them.
 #pragma once
 
-#include <functional>
-#include <map>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
 #include "measure/run.hpp"
 
 namespace lantern::measure {
+
+// The problems that Lantern carries with it: scenarios whose answer is known.
+
+// Names of the files of scenarios/problems/ and of its crowds/, in alphabetical order.
+std::vector<std::string_view> problem_names();
+
+// One of them; it must be there.
+Scenario known_problem(std::string_view name);
 
 enum class Effort {
   quick,   // a minute: plain problems, few repeats, no long runs

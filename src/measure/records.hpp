@@ -6,16 +6,6 @@
 // back (report/measure_json.cpp).
 #pragma once
 
-#include <cmath>
-#include <concepts>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <fmt/format.h>
-
 #include "base/json_writer.hpp"
 #include "measure/row.hpp"
 

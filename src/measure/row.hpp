@@ -1,16 +1,8 @@
 // One measured run: a line of the table.
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "base/timing.hpp"
 #include "measure/error_metric.hpp"
-#include "measure/simulation.hpp"
 
 namespace lantern::measure {
 

@@ -2,8 +2,6 @@
 // with the real engine, over the step (omega h) and the damping ratio (zeta).
 #pragma once
 
-#include <vector>
-
 #include "physics/integrate/integrator.hpp"
 
 namespace lantern::measure {

@@ -1,15 +1,10 @@
 #include "measure/stress.hpp"
 
-#include <algorithm>
-#include <exception>
 #include <iterator>
-#include <utility>
 
 #include <fmt/format.h>
 
-#include "base/stop.hpp"
 #include "embedded/stress_scenarios.hpp"
-#include "language/scenario.hpp"
 #include "run/director.hpp"
 
 namespace lantern::measure {

@@ -1,8 +1,5 @@
 // Bad values, field by field: each is refused where it enters, by name, and changes nothing.
 
-#include <fmt/format.h>
-
-#include "geometry/not_finite.hpp"
 #include "measure/stress_scene.hpp"
 
 namespace lantern::measure {

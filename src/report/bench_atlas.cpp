@@ -1,10 +1,6 @@
 // `bench atlas`: how full texture atlases become, and how soon.
-#include <algorithm>
 #include <charconv>
 
-#include <fmt/format.h>
-
-#include "measure/atlas_bench.hpp"
 #include "report/benches.hpp"
 
 namespace lantern::measure {

@@ -1,11 +1,7 @@
 // `bench frames`: how fast frames become files, beside cairo.
-#include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <thread>
-
-#include <fmt/format.h>
 
 #include "base/counted.hpp"
 #include "draw/page.hpp"

@@ -1,12 +1,6 @@
 // `bench pairs`: all pairs of moving boxes, and what rays, boxes and balls meet.
-#include <algorithm>
-#include <set>
 
-#include <fmt/format.h>
-
-#include "measure/boxes/worlds.hpp"
 #include "report/benches.hpp"
-#include "report/words.hpp"
 
 namespace lantern::measure {
 

@@ -1,10 +1,6 @@
 // `bench step`: what a step of many bodies costs, and how exact it is.
-#include <algorithm>
-
-#include <fmt/format.h>
 
 #include "base/counted.hpp"
-#include "base/suggest.hpp"
 #include "report/benches.hpp"
 
 namespace lantern::measure {

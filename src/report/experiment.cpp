@@ -1,10 +1,5 @@
 #include "report/experiment.hpp"
 
-#include <concepts>
-#include <type_traits>
-
-#include <fmt/format.h>
-
 #include "base/grouped.hpp"
 
 namespace lantern::report {

@@ -2,13 +2,6 @@
 // of members (each_field) makes CSV and JSON, one list of columns the tables of terminal and page.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "base/option.hpp"
 #include "measure/records.hpp"
 #include "report/document.hpp"

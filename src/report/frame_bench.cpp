@@ -1,34 +1,66 @@
-#include "report/frame_bench.hpp"
-
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <cstdlib>
-#include <exception>
-#include <functional>
-#include <memory>
-#include <mutex>
-#include <span>
 #include <system_error>
-#include <thread>
-#include <utility>
-#include <vector>
 
-#include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/clock.hpp"
-#include "base/error.hpp"
-#include "base/file.hpp"
-#include "base/stop.hpp"
-#include "base/timing.hpp"
+#include "render/cairo_painter.hpp"
 #include "render/pipeline.hpp"
-#include "render/png.hpp"
-#include "render/renderer.hpp"
-#include "report/cairo_peer.hpp"
+#include "report/benches.hpp"
 
 namespace lantern::report {
+
+// The same draw lists through cairo and its own PNG writer: what Lantern's speed is measured
+// against.
+
+// Needs libcairo.so.2, which is loaded when asked for. Geometry, colours and text are Lantern's
+// own, the text as outlines.
+class CairoPeer {
+ public:
+  // Throws BackendError, naming the package to install, if there is no cairo.
+  CairoPeer(int width, int height);
+  ~CairoPeer();
+  CairoPeer(const CairoPeer&) = delete;
+  CairoPeer& operator=(const CairoPeer&) = delete;
+
+  std::string version() const;
+  void draw(const DrawList& list, const Theme& theme);
+  // By cairo_surface_write_to_png. Throws IoError.
+  void write_png(const std::filesystem::path& path);
+
+ private:
+  int width_, height_;
+  void* surface_ = nullptr;
+  void* context_ = nullptr;
+  std::optional<CairoPainter> painter_;
+};
+
+CairoPeer::CairoPeer(int width, int height) : width_(width), height_(height) {
+  constexpr int kRgb24 = 1;
+  surface_ = cairo().image_surface_create(kRgb24, width, height);
+  cairo().require(cairo().surface_status(surface_));
+  context_ = cairo().create(surface_);
+  painter_.emplace(context_, CairoPainter::For::pixels);
+}
+
+CairoPeer::~CairoPeer() {
+  if (context_) cairo().destroy(context_);
+  cairo().surface_destroy(surface_);
+}
+
+std::string CairoPeer::version() const { return cairo().version_string(); }
+
+void CairoPeer::write_png(const std::filesystem::path& path) {
+  const int status = cairo().surface_write_to_png(surface_, path.c_str());
+  if (status != 0)
+    throw IoError(
+        fmt::format("cannot write '{}': {}", path.string(), cairo().status_to_string(status)));
+}
+
+void CairoPeer::draw(const DrawList& list, const Theme& theme) {
+  painter_->draw(list, theme, true, Canvas(list.page, width_, height_));
+}
 
 // --- how soon a process has its first picture on the disk ---
 

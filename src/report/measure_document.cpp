@@ -1,15 +1,8 @@
 #include "report/measure_document.hpp"
 
-#include <algorithm>
-#include <map>
-#include <optional>
 #include <tuple>
-#include <utility>
 
-#include <fmt/format.h>
-
-#include "report/measure_plots.hpp"
-#include "report/words.hpp"
+#include "report/problem_rows.hpp"
 
 namespace lantern::report {
 namespace {

@@ -1,15 +1,8 @@
-#include "report/measure_files.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <type_traits>
-
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "language/scenario.hpp"
 #include "measure/records.hpp"
+#include "report/measure_document.hpp"
 
 // Where the rows are, since they are found by the rows' type.
 namespace lantern::measure {

@@ -1,14 +1,7 @@
-#include "report/measure_plots.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <set>
-#include <span>
-#include <utility>
 
-#include <fmt/format.h>
-
-#include "report/words.hpp"
+#include "report/document.hpp"
+#include "report/problem_rows.hpp"
 
 namespace lantern::report {
 namespace {

@@ -1,16 +1,6 @@
 #include "report/problem_rows.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
-#include <set>
-#include <utility>
-
-#include <fmt/format.h>
-
-#include "draw/plot_marks.hpp"
-#include "report/words.hpp"
+#include "report/document.hpp"
 
 namespace lantern::report {
 namespace {

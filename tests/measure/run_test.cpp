@@ -8,10 +8,9 @@
 #include "base/error.hpp"
 #include "base/stop.hpp"
 #include "measure/contact_runs.hpp"
-#include "measure/lantern_solver.hpp"
 #include "measure/plan.hpp"
-#include "measure/problems.hpp"
 #include "measure/scenes.hpp"
+#include "measure/solvers.hpp"
 
 namespace lantern::measure {
 namespace {

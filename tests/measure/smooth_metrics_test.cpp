@@ -8,7 +8,7 @@
 
 #include "base/error.hpp"
 #include "measure/error_metric.hpp"
-#include "measure/problems.hpp"
+#include "measure/plan.hpp"
 
 namespace lantern::measure {
 namespace {

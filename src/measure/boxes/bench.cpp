@@ -1,27 +1,11 @@
 #include "measure/boxes/bench.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <map>
-#include <memory>
-#include <optional>
 #include <set>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include <fmt/format.h>
 #include <malloc.h>
 
-#include "base/clock.hpp"
-#include "base/error.hpp"
 #include "base/hash.hpp"
 #include "base/memory.hpp"
-#include "base/stop.hpp"
-#include "base/timing.hpp"
 
 namespace lantern::measure {
 namespace {

@@ -1,19 +1,9 @@
-#include "measure/boxes/contest.hpp"
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <numeric>
 
-#include <fmt/format.h>
-
 #include "base/counted.hpp"
-#include "base/stop.hpp"
+#include "measure/boxes/bench.hpp"
 #include "measure/broad_phase_cost.hpp"
-#include "measure/peer_modules.hpp"
 #include "measure/peers.hpp"
-#include "spatial/pair_order.hpp"
-#include "spatial/query.hpp"
 
 namespace lantern::measure {
 

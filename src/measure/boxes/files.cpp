@@ -1,22 +1,9 @@
-#include <algorithm>
-#include <array>
-#include <bit>
 #include <charconv>
 #include <cstring>
-#include <optional>
-#include <string>
-#include <string_view>
-
-#include <fmt/format.h>
 
 #include "base/counted.hpp"
-#include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/memory.hpp"
-#include "base/random.hpp"
-#include "base/stop.hpp"
-#include "base/suggest.hpp"
-#include "geometry/flat.hpp"
 #include "geometry/random_vec.hpp"
 #include "measure/boxes/worlds.hpp"
 #include "measure/csv_file.hpp"

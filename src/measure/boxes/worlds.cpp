@@ -1,16 +1,6 @@
 #include "measure/boxes/worlds.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-
-#include <fmt/format.h>
-
 #include "base/check.hpp"
-#include "base/error.hpp"
-#include "base/random.hpp"
-#include "base/stop.hpp"
-#include "geometry/flat.hpp"
 #include "geometry/random_vec.hpp"
 #include "run/director.hpp"
 

@@ -3,14 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include <glm/geometric.hpp>
 
 #include "base/check.hpp"
 #include "base/error.hpp"
 #include "geometry/elliptic.hpp"
-#include "measure/forms/precise.hpp"
 
 namespace lantern::measure {
 

@@ -1,11 +1,5 @@
 // Bodies that slide, roll and topple on the ground, on a slope and on a plate.
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-
-#include <fmt/format.h>
-
 #include "measure/metrics/reading.hpp"
 
 namespace lantern::measure {

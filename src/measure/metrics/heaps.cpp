@@ -1,14 +1,6 @@
 // Bodies that stand and hang. No closed form tells where each of a heap lies; what must hold is
 // known all the same: they neither sink into each other nor wander.
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <utility>
-
-#include <fmt/format.h>
-
-#include "measure/metrics/meters.hpp"
 #include "measure/metrics/reading.hpp"
 
 namespace lantern::measure {

@@ -1,14 +1,5 @@
 // Bodies that bounce and hit each other.
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <optional>
-
-#include <fmt/format.h>
-
 #include "measure/metrics/reading.hpp"
 
 namespace lantern::measure {

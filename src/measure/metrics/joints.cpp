@@ -1,16 +1,7 @@
 // Bodies on joints.
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <utility>
-
-#include <fmt/format.h>
-
-#include "base/check.hpp"
-#include "measure/forms/dormand_prince.hpp"
 #include "measure/forms/linkage.hpp"
-#include "measure/metrics/meters.hpp"
+#include "measure/metrics/reading.hpp"
 #include "physics/mass.hpp"
 
 namespace lantern::measure {

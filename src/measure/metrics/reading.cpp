@@ -1,12 +1,5 @@
 #include "measure/metrics/reading.hpp"
 
-#include <algorithm>
-#include <limits>
-
-#include <fmt/format.h>
-
-#include "base/check.hpp"
-#include "base/error.hpp"
 #include "physics/mass.hpp"
 
 namespace lantern::measure {

@@ -1,10 +1,5 @@
 // Bodies that never touch, each against its closed form.
 
-#include <algorithm>
-#include <cmath>
-
-#include <fmt/format.h>
-
 #include "measure/metrics/reading.hpp"
 #include "physics/mass.hpp"
 

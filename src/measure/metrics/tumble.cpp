@@ -1,16 +1,8 @@
 // Blocks that tip: one that rocks, and many that knock each other over.
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <utility>
 
-#include <fmt/format.h>
-
-#include "base/error.hpp"
 #include "measure/forms/dormand_prince.hpp"
-#include "measure/lantern_solver.hpp"
-#include "measure/metrics/meters.hpp"
 #include "measure/metrics/reading.hpp"
+#include "measure/solvers.hpp"
 
 namespace lantern::measure {
 
