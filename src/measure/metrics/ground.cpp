@@ -3,10 +3,9 @@
 #include "measure/metrics/reading.hpp"
 
 namespace lantern::measure {
+namespace {
 
 // --- bodies that are thrown along level ground ---
-
-namespace {
 
 // Blocks that slide over level ground until friction has stopped them: after v / (mu g) seconds and
 // v^2 / (2 mu g) units, straight on, whatever their heading.
@@ -145,14 +144,7 @@ class SlipThenRoll : public ErrorMetric {
   Worst& speed_ = norm("v", "1", "largest error of a velocity, over the first speed");
 };
 
-}  // namespace
-
-MetricMaker slide_metric(const Scenario& s) { return made_of<Slide>(s); }
-MetricMaker slip_then_roll_metric(const Scenario& s) { return made_of<SlipThenRoll>(s); }
-
 // --- bodies that are put on a slope ---
-
-namespace {
 
 // Blocks and balls that are put on a slope. A block stays iff tan a <= mu, else it slides with
 // g (sin a - mu cos a). A ball of inertia k m r^2 rolls with g sin a / (1 + k) iff
@@ -309,14 +301,7 @@ class Topple : public ErrorMetric {
   Worst& tilt_ = norm("tilt", "rad", "largest tilt over the run of a box that should stand");
 };
 
-}  // namespace
-
-MetricMaker incline_metric(const Scenario& s) { return made_of<Incline>(s); }
-MetricMaker topple_metric(const Scenario& s) { return made_of<Topple>(s); }
-
 // --- what rolls and slides on a plate that slides itself ---
-
-namespace {
 
 // A plate on level or sloping ground, which is pulled, and balls and boxes on it, all along one
 // line and from rest. With gravity g along it, and N = m g across, a rider takes from the plate
@@ -469,6 +454,13 @@ class BallOnPlate : public ErrorMetric {
 
 }  // namespace
 
-MetricMaker ball_on_plate_metric(const Scenario& s) { return made_of<BallOnPlate>(s); }
+std::span<const Problem> ground_problems() {
+  static constexpr Problem kAll[] = {{Solution::slide, made_of<Slide>},
+                                     {Solution::slip_then_roll, made_of<SlipThenRoll>},
+                                     {Solution::incline, made_of<Incline>},
+                                     {Solution::topple, made_of<Topple>},
+                                     {Solution::ball_on_plate, made_of<BallOnPlate>}};
+  return kAll;
+}
 
 }  // namespace lantern::measure

@@ -4,10 +4,9 @@
 #include "measure/metrics/reading.hpp"
 
 namespace lantern::measure {
+namespace {
 
 // --- bodies that should hang or stand still, each carrying all later ones ---
-
-namespace {
 
 // Newton's second law gives the mean force that held the bodies i, i+1, ... up between two looks:
 //
@@ -215,14 +214,7 @@ class HangingChain : public ErrorMetric {
                          "largest error of the mean pull of a joint between two samples, relative");
 };
 
-}  // namespace
-
-MetricMaker stack_metric(const Scenario& s) { return made_of<Stack>(s); }
-MetricMaker hanging_chain_metric(const Scenario& s) { return made_of<HangingChain>(s); }
-
 // --- many bodies that come to rest, or should stay there ---
-
-namespace {
 
 // The least half width of all that moves.
 double smallest_half(const Scenario& scenario, const std::vector<std::size_t>& bodies) {
@@ -339,7 +331,12 @@ class Standing : public Heap {
 
 }  // namespace
 
-MetricMaker pile_metric(const Scenario& s) { return made_of<Contained>(s); }
-MetricMaker standing_metric(const Scenario& s) { return made_of<Standing>(s); }
+std::span<const Problem> heaps_problems() {
+  static constexpr Problem kAll[] = {{Solution::stack, made_of<Stack>},
+                                     {Solution::hanging_chain, made_of<HangingChain>},
+                                     {Solution::pile, made_of<Contained>},
+                                     {Solution::standing, made_of<Standing>}};
+  return kAll;
+}
 
 }  // namespace lantern::measure

@@ -213,8 +213,6 @@ class SpringsAlongPins : public ErrorMetric {
   Worst& gap_ = norm("joint", "units", "widest gap of a joint over the run");
 };
 
-}  // namespace
-
 void require_linkage(const Scenario& scenario) {
   if (scenario.world.dimension != 2) refuse_problem(scenario, "the world must be flat");
   require_nothing_else(scenario);
@@ -230,12 +228,7 @@ MetricMaker linkage_metric(const Scenario& scenario) {
     return std::make_unique<LinkageMetric>(scenario, exact);
   };
 }
-MetricMaker bridge_metric(const Scenario& s) { return made_of<Bridge>(s); }
-MetricMaker springs_along_pins_metric(const Scenario& s) { return made_of<SpringsAlongPins>(s); }
-
 // --- a body that turns about a fixed point under gravity ---
-
-namespace {
 
 using LongMat = glm::mat<3, 3, long double>;
 
@@ -360,14 +353,22 @@ Top top_of(const Scenario& scenario) {
   return top;
 }
 
-}  // namespace
-
 void require_heavy_top(const Scenario& scenario) { top_of(scenario); }
 
 MetricMaker heavy_top_metric(const Scenario& scenario) {
   const Top top = top_of(scenario);
   const auto exact = std::make_shared<std::vector<TopMoment>>(top_motion(top, *scenario.problem));
   return [&scenario, top, exact] { return std::make_unique<HeavyTop>(scenario, top, exact); };
+}
+
+}  // namespace
+
+std::span<const Problem> joints_problems() {
+  static constexpr Problem kAll[] = {{Solution::linkage, linkage_metric, require_linkage},
+                                     {Solution::heavy_top, heavy_top_metric, require_heavy_top},
+                                     {Solution::bridge, made_of<Bridge>},
+                                     {Solution::springs_along_pins, made_of<SpringsAlongPins>}};
+  return kAll;
 }
 
 }  // namespace lantern::measure

@@ -24,46 +24,18 @@ inline MetricMaker trajectories(long double length, long double speed,
   };
 }
 
-// Bodies that never touch.
-MetricsOf projectile_metric;  // any number of bodies that are thrown, with or without drag
-// One body on one spring to a fixed point, under any damping: along a line, or, if the spring has
-// no rest length and no damping, in any direction.
-MetricsOf oscillator_metric;
-// Bodies in a row between one or two fixed points, tied each to the next by springs without
-// damping, moving along the row.
-MetricsOf chain_metric;
-MetricsOf kepler_metric;    // two bodies that attract each other, one of which may be static
-MetricsOf pendulum_metric;  // one body on a rod, or on a stiff spring as long as it is at rest
-MetricsOf free_top_metric;  // one body that turns freely in 3D
+// A problem is its metric, and, where that is costly to make, what is asked of it without the
+// answer: some take runs of their own, or the cube of their bodies.
+struct Problem {
+  Solution solution;
+  MetricsOf* metrics;
+  void (*require)(const Scenario&) = nullptr;
+};
 
-// Bodies on joints.
-MetricsOf linkage_metric;             // a flat linkage of pins and rods that swings, open or closed
-MetricsOf heavy_top_metric;           // one body on a pin at a fixed point, under gravity
-MetricsOf bridge_metric;              // joints that something falls on
-MetricsOf springs_along_pins_metric;  // bodies on pins, with springs along them
-
-// Bodies in contact.
-MetricsOf bouncing_ball_metric;
-MetricsOf blocks_and_wall_metric;
-MetricsOf collisions_metric;
-MetricsOf billiards_metric;
-MetricsOf slide_metric;
-MetricsOf slip_then_roll_metric;
-MetricsOf incline_metric;
-MetricsOf topple_metric;
-MetricsOf stack_metric;
-MetricsOf hanging_chain_metric;
-MetricsOf ball_on_plate_metric;  // what rolls and slides on a plate that slides down a slope
-MetricsOf rocking_block_metric;
-MetricsOf dominoes_metric;
-MetricsOf pile_metric;      // bodies that fall into a container and come to rest
-MetricsOf standing_metric;  // bodies that begin at rest and should stay there
-
-// What is asked of those whose answer is costly to know, without the answer.
-void require_chain(const Scenario& scenario);
-void require_linkage(const Scenario& scenario);
-void require_heavy_top(const Scenario& scenario);
-void require_dominoes(const Scenario& scenario);
+// Those of each file of this folder.
+using Problems = std::span<const Problem>();
+Problems smooth_problems, joints_problems, impacts_problems, ground_problems, heaps_problems,
+    tumble_problems;
 
 // --- what they read from a scenario ---
 

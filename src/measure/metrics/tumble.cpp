@@ -5,7 +5,6 @@
 #include "measure/solvers.hpp"
 
 namespace lantern::measure {
-
 namespace {
 
 // A block on its corner rocks from one to the other. Housner ("The behavior of inverted pendulum
@@ -213,8 +212,6 @@ class Dominoes : public ErrorMetric {
   Worst& gain_ = norm("gain", "1", EnergyMeter::kGainMeaning);
 };
 
-}  // namespace
-
 MetricMaker rocking_block_metric(const Scenario& scenario) {
   require_links(scenario, 0);
   if (scenario.world.dimension != 2) refuse_problem(scenario, "the world must be flat");
@@ -258,6 +255,14 @@ MetricMaker dominoes_metric(const Scenario& scenario) {
     refuse_problem(scenario, "not all of its dominoes fall");
   own->error = latest_error(own_fall_times(scenario, 2 * own->step), own->times);
   return [&scenario, own] { return std::make_unique<Dominoes>(scenario, own); };
+}
+
+}  // namespace
+
+std::span<const Problem> tumble_problems() {
+  static constexpr Problem kAll[] = {{Solution::rocking_block, rocking_block_metric},
+                                     {Solution::dominoes, dominoes_metric, require_dominoes}};
+  return kAll;
 }
 
 }  // namespace lantern::measure
