@@ -10,9 +10,6 @@
 #include "measure/peers.hpp"
 
 namespace lantern::measure {
-
-// The sets of textures that atlases are measured with, and those of a user's own file.
-
 namespace {
 
 constexpr std::size_t kMostSizesBytes = std::size_t{256} << 20;
@@ -66,50 +63,6 @@ std::vector<TextureSize> sizes_in(CsvFile csv) {
   });
   return sizes;
 }
-
-}  // namespace
-
-const std::vector<std::string_view>& texture_set_names() {
-  static const std::vector<std::string_view> names = [] {
-    std::vector<std::string_view> all;
-    for (const SetDoc& doc : kSets) all.push_back(doc.name);
-    return all;
-  }();
-  return names;
-}
-
-std::string texture_set_words(std::string_view name) {
-  const auto doc = std::ranges::find(kSets, name, &SetDoc::name);
-  return doc == std::end(kSets) ? std::string() : std::string(doc->words) + ", evenly spread";
-}
-
-TextureSet texture_set(std::string_view name, std::size_t count, std::uint64_t seed) {
-  const auto doc = std::ranges::find(kSets, name, &SetDoc::name);
-  if (doc == std::end(kSets))
-    throw Refused(
-        with_suggestion(fmt::format("there is no set '{}'", name), name, texture_set_names()));
-  TextureSet set{std::string(name), {}};
-  Random random(seed);
-  for (std::size_t i = 0; i < count; ++i) {
-    const auto width = static_cast<int>(random.whole(doc->least.width, doc->most.width));
-    const auto height = static_cast<int>(random.whole(doc->least.height, doc->most.height));
-    set.sizes.push_back(doc->powers ? TextureSize{1 << width, 1 << height}
-                                    : TextureSize{width, height});
-  }
-  return set;
-}
-
-TextureSet read_texture_sizes(const std::filesystem::path& file) {
-  const std::string text = read_input(file, kMostSizesBytes);
-  TextureSet set{file.stem().string(), sizes_in(CsvFile(file.string(), text))};
-  if (set.sizes.empty())
-    throw Refused(fmt::format("{}: it has no texture; a line is WIDTH,HEIGHT", file.string()));
-  return set;
-}
-
-// --- who packs, and what makes a layout right ---
-
-namespace {
 
 using Places = std::vector<std::optional<TexturePlace>>;
 
@@ -179,70 +132,6 @@ Packed best_texture(std::span<const TextureSize> sizes, const Rect& leaf, bool t
 constexpr PeerModule kAtlasModules[] = {
     {"stb_rect_pack", "lantern_peer_atlas_stb.so", "libstb-dev"},
 };
-
-}  // namespace
-
-std::vector<AtlasPeer> own_atlas_packers(bool partly) {
-  const auto by = [](OwnPacker::Rule rule) {
-    return [rule = std::move(rule)](std::span<const TextureSize> sizes) {
-      return std::make_unique<OwnPacker>(sizes, rule);
-    };
-  };
-  const auto choosing = [&](bool turn) {
-    return by(
-        [=](auto sizes, const Rect& atlas) { return best_texture(sizes, atlas, turn, partly); });
-  };
-  return {{"first_fit", "", "the taught rule: the tallest first, each into the first leaf it fits",
-           by([=](auto sizes, const Rect& atlas) { return first_fit(sizes, atlas, partly); })},
-          {"best_texture", "", "each free leaf chooses the texture that leaves least of it",
-           choosing(false)},
-          {"best_texture:turn", "", "the same, and textures may be turned by 90 degrees",
-           choosing(true)}};
-}
-
-std::vector<AtlasPeer> atlas_contestants(const AtlasBenchConfig& config,
-                                         std::vector<std::string>& missing) {
-  std::vector<AtlasPeer> all = own_atlas_packers(config.atlas.has_value());
-  if (config.peers)
-    for (AtlasPeer& peer : peers_of<AtlasPeer>(kAtlasModules, "lantern_atlas_peers", missing))
-      all.push_back(std::move(peer));
-  keep_asked_for(all, config.only, missing, [](const AtlasPeer& one) { return one.name; });
-  return all;
-}
-
-void check_layout(std::span<const TextureSize> sizes,
-                  std::span<const std::optional<TexturePlace>> places, AtlasRow& row) {
-  std::vector<Rect> rects;
-  std::int64_t area = 0;
-  for (std::size_t i = 0; i < std::min(sizes.size(), places.size()); ++i) {
-    if (!places[i]) continue;
-    const auto& [r, turned] = *places[i];
-    rects.push_back(r);
-    area += std::int64_t{r.width} * r.height;
-    row.turned += turned;
-    row.wrong_sizes +=
-        sizes[i] != (turned ? TextureSize{r.height, r.width} : TextureSize{r.width, r.height});
-    row.outside += r.x < 0 || r.y < 0 || r.x + r.width > row.width || r.y + r.height > row.height;
-  }
-  row.packed = rects.size();
-  row.fill = static_cast<double>(area) / (static_cast<double>(row.width) * row.height);
-  // Sorted by x, only those that begin before a texture ends can lie over it.
-  std::ranges::sort(rects, {}, &Rect::x);
-  for (std::size_t i = 0; i < rects.size(); ++i) {
-    stop_if_asked();
-    const Rect& a = rects[i];
-    for (std::size_t j = i + 1; j < rects.size() && rects[j].x < a.x + a.width; ++j)
-      row.overlaps += rects[j].y < a.y + a.height && a.y < rects[j].y + rects[j].height;
-  }
-  if (row.overlaps + row.outside + row.wrong_sizes == 0) return;
-  row.status = "wrong";
-  row.reason = fmt::format("{} overlaps, {} outside, {} of another size", row.overlaps, row.outside,
-                           row.wrong_sizes);
-}
-
-// --- the rounds ---
-
-namespace {
 
 constexpr double kTurnSeconds = 0.004;  // of calls in one turn
 constexpr double kSearchSeconds = 1.0;  // that searches of one contestant are timed at a set
@@ -333,6 +222,108 @@ std::vector<TextureSet> sets_of(const AtlasBenchConfig& config) {
 }
 
 }  // namespace
+
+// The sets of textures that atlases are measured with, and those of a user's own file.
+
+const std::vector<std::string_view>& texture_set_names() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> all;
+    for (const SetDoc& doc : kSets) all.push_back(doc.name);
+    return all;
+  }();
+  return names;
+}
+
+std::string texture_set_words(std::string_view name) {
+  const auto doc = std::ranges::find(kSets, name, &SetDoc::name);
+  return doc == std::end(kSets) ? std::string() : std::string(doc->words) + ", evenly spread";
+}
+
+TextureSet texture_set(std::string_view name, std::size_t count, std::uint64_t seed) {
+  const auto doc = std::ranges::find(kSets, name, &SetDoc::name);
+  if (doc == std::end(kSets))
+    throw Refused(
+        with_suggestion(fmt::format("there is no set '{}'", name), name, texture_set_names()));
+  TextureSet set{std::string(name), {}};
+  Random random(seed);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto width = static_cast<int>(random.whole(doc->least.width, doc->most.width));
+    const auto height = static_cast<int>(random.whole(doc->least.height, doc->most.height));
+    set.sizes.push_back(doc->powers ? TextureSize{1 << width, 1 << height}
+                                    : TextureSize{width, height});
+  }
+  return set;
+}
+
+TextureSet read_texture_sizes(const std::filesystem::path& file) {
+  const std::string text = read_input(file, kMostSizesBytes);
+  TextureSet set{file.stem().string(), sizes_in(CsvFile(file.string(), text))};
+  if (set.sizes.empty())
+    throw Refused(fmt::format("{}: it has no texture; a line is WIDTH,HEIGHT", file.string()));
+  return set;
+}
+
+// --- who packs, and what makes a layout right ---
+
+std::vector<AtlasPeer> own_atlas_packers(bool partly) {
+  const auto by = [](OwnPacker::Rule rule) {
+    return [rule = std::move(rule)](std::span<const TextureSize> sizes) {
+      return std::make_unique<OwnPacker>(sizes, rule);
+    };
+  };
+  const auto choosing = [&](bool turn) {
+    return by(
+        [=](auto sizes, const Rect& atlas) { return best_texture(sizes, atlas, turn, partly); });
+  };
+  return {{"first_fit", "", "the taught rule: the tallest first, each into the first leaf it fits",
+           by([=](auto sizes, const Rect& atlas) { return first_fit(sizes, atlas, partly); })},
+          {"best_texture", "", "each free leaf chooses the texture that leaves least of it",
+           choosing(false)},
+          {"best_texture:turn", "", "the same, and textures may be turned by 90 degrees",
+           choosing(true)}};
+}
+
+std::vector<AtlasPeer> atlas_contestants(const AtlasBenchConfig& config,
+                                         std::vector<std::string>& missing) {
+  std::vector<AtlasPeer> all = own_atlas_packers(config.atlas.has_value());
+  if (config.peers)
+    for (AtlasPeer& peer : peers_of<AtlasPeer>(kAtlasModules, "lantern_atlas_peers", missing))
+      all.push_back(std::move(peer));
+  keep_asked_for(all, config.only, missing, [](const AtlasPeer& one) { return one.name; });
+  return all;
+}
+
+void check_layout(std::span<const TextureSize> sizes,
+                  std::span<const std::optional<TexturePlace>> places, AtlasRow& row) {
+  std::vector<Rect> rects;
+  std::int64_t area = 0;
+  for (std::size_t i = 0; i < std::min(sizes.size(), places.size()); ++i) {
+    if (!places[i]) continue;
+    const auto& [r, turned] = *places[i];
+    rects.push_back(r);
+    area += std::int64_t{r.width} * r.height;
+    row.turned += turned;
+    row.wrong_sizes +=
+        sizes[i] != (turned ? TextureSize{r.height, r.width} : TextureSize{r.width, r.height});
+    row.outside += r.x < 0 || r.y < 0 || r.x + r.width > row.width || r.y + r.height > row.height;
+  }
+  row.packed = rects.size();
+  row.fill = static_cast<double>(area) / (static_cast<double>(row.width) * row.height);
+  // Sorted by x, only those that begin before a texture ends can lie over it.
+  std::ranges::sort(rects, {}, &Rect::x);
+  for (std::size_t i = 0; i < rects.size(); ++i) {
+    stop_if_asked();
+    const Rect& a = rects[i];
+    for (std::size_t j = i + 1; j < rects.size() && rects[j].x < a.x + a.width; ++j)
+      row.overlaps += rects[j].y < a.y + a.height && a.y < rects[j].y + rects[j].height;
+  }
+  if (row.overlaps + row.outside + row.wrong_sizes == 0) return;
+  row.status = "wrong";
+  row.reason = fmt::format("{} overlaps, {} outside, {} of another size", row.overlaps, row.outside,
+                           row.wrong_sizes);
+}
+
+// --- the rounds ---
 
 std::size_t atlas_bench_stages(const AtlasBenchConfig& config) {
   if (config.own) return 1;

@@ -32,70 +32,6 @@ bool pass_through(const World<D>& world, BodyId a, BodyId b) {
   });
 }
 
-}  // namespace
-
-template <int D>
-double overlap_between(const Body<D>& a, const Body<D>& b) {
-  const auto manifold = collide<D>(placed(a), placed(b), 0.0);
-  double depth = 0;
-  if (manifold)
-    for (const ManifoldPoint<D>& point : manifold->points())
-      depth = std::max(depth, -point.separation);
-  return depth;
-}
-
-template <int D>
-double overlap_of(const World<D>& world) {
-  const auto& bodies = world.bodies();
-  double depth = 0;
-  for (std::size_t j = 0; j < bodies.size(); ++j)
-    for (std::size_t i = 0; i < j; ++i) {
-      const Body<D>&a = bodies[i], &b = bodies[j];
-      const bool meet = a.collides && b.collides && (a.moves() || b.moves());
-      if (meet && !pass_through(world, a.id, b.id)) depth += overlap_between(a, b);
-    }
-  return depth;
-}
-
-template <int D>
-EnergyTrial follow_energy(World<D>& world, double step, int steps, const WatchEnergy& watch) {
-  EnergyTrial trial{-std::numeric_limits<double>::infinity(), 0, {}};
-  const auto look = [&](EnergyMoment& moment) {
-    const Energy now = energy<D>(world.bodies(), world.forces());
-    moment.time = world.time();
-    moment.energy = now.total();
-    for (const Push<D>& push : world.forces().pushes)
-      moment.energy -= glm::dot(push.force, world.find(push.body)->position);
-    moment.kinetic = std::max(moment.kinetic, now.kinetic());
-  };
-  EnergyMoment moment;
-  moment.kinetic = moving_mass(world) * kAtRest * kAtRest / 2;
-  look(moment);
-  moment.permitted = moment.energy + lifted_by(world, overlap_of(world));
-  try {
-    for (int i = 0; i <= steps; ++i) {
-      if (i > 0) {
-        world.step(step);
-        look(moment);
-      }
-      if (watch) watch(moment);
-      if (moment.excess() > trial.excess) trial = {moment.excess(), moment.time, {}};
-    }
-  } catch (const Refused& refused) {
-    trial = {std::numeric_limits<double>::infinity(), world.time(), refused.what()};
-  }
-  return trial;
-}
-
-template double overlap_between(const Body<2>&, const Body<2>&);
-template double overlap_between(const Body<3>&, const Body<3>&);
-template double overlap_of(const World<2>&);
-template double overlap_of(const World<3>&);
-template EnergyTrial follow_energy(World<2>&, double, int, const WatchEnergy&);
-template EnergyTrial follow_energy(World<3>&, double, int, const WatchEnergy&);
-
-namespace {
-
 constexpr double kRoom = 2.5;   // bodies start within so many units of the middle
 constexpr double kTight = 0.8;  // and where they shall overlap, within these
 constexpr int kTries = 20;      // to find a place without overlap
@@ -289,6 +225,66 @@ class SceneMaker {
 };
 
 }  // namespace
+
+template <int D>
+double overlap_between(const Body<D>& a, const Body<D>& b) {
+  const auto manifold = collide<D>(placed(a), placed(b), 0.0);
+  double depth = 0;
+  if (manifold)
+    for (const ManifoldPoint<D>& point : manifold->points())
+      depth = std::max(depth, -point.separation);
+  return depth;
+}
+
+template <int D>
+double overlap_of(const World<D>& world) {
+  const auto& bodies = world.bodies();
+  double depth = 0;
+  for (std::size_t j = 0; j < bodies.size(); ++j)
+    for (std::size_t i = 0; i < j; ++i) {
+      const Body<D>&a = bodies[i], &b = bodies[j];
+      const bool meet = a.collides && b.collides && (a.moves() || b.moves());
+      if (meet && !pass_through(world, a.id, b.id)) depth += overlap_between(a, b);
+    }
+  return depth;
+}
+
+template <int D>
+EnergyTrial follow_energy(World<D>& world, double step, int steps, const WatchEnergy& watch) {
+  EnergyTrial trial{-std::numeric_limits<double>::infinity(), 0, {}};
+  const auto look = [&](EnergyMoment& moment) {
+    const Energy now = energy<D>(world.bodies(), world.forces());
+    moment.time = world.time();
+    moment.energy = now.total();
+    for (const Push<D>& push : world.forces().pushes)
+      moment.energy -= glm::dot(push.force, world.find(push.body)->position);
+    moment.kinetic = std::max(moment.kinetic, now.kinetic());
+  };
+  EnergyMoment moment;
+  moment.kinetic = moving_mass(world) * kAtRest * kAtRest / 2;
+  look(moment);
+  moment.permitted = moment.energy + lifted_by(world, overlap_of(world));
+  try {
+    for (int i = 0; i <= steps; ++i) {
+      if (i > 0) {
+        world.step(step);
+        look(moment);
+      }
+      if (watch) watch(moment);
+      if (moment.excess() > trial.excess) trial = {moment.excess(), moment.time, {}};
+    }
+  } catch (const Refused& refused) {
+    trial = {std::numeric_limits<double>::infinity(), world.time(), refused.what()};
+  }
+  return trial;
+}
+
+template double overlap_between(const Body<2>&, const Body<2>&);
+template double overlap_between(const Body<3>&, const Body<3>&);
+template double overlap_of(const World<2>&);
+template double overlap_of(const World<3>&);
+template EnergyTrial follow_energy(World<2>&, double, int, const WatchEnergy&);
+template EnergyTrial follow_energy(World<3>&, double, int, const WatchEnergy&);
 
 EnergyTrial random_trial(std::uint64_t seed, ContactMethod method, const WatchEnergy& watch) {
   if (seed % 2 == 0) return SceneMaker<2>(seed, method).run(watch);

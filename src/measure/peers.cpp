@@ -22,20 +22,6 @@ fs::path place_of(const PeerModule& module) {
   return fs::is_regular_file(file, error) ? file : fs::path();
 }
 
-}  // namespace
-
-std::optional<Library> load_module(const PeerModule& module, std::vector<std::string>& missing) {
-  const fs::path path = place_of(module);
-  if (!path.empty()) return Library({path.c_str()});
-  missing.push_back(
-      fmt::format("{}: not built in; apt-get install {} and build again: an installed Lantern has "
-                  "no engines beside it",
-                  module.name, module.package));
-  return std::nullopt;
-}
-
-namespace {
-
 // As World::add derives it.
 template <int D>
 void weigh(PeerBody& body) {
@@ -144,6 +130,16 @@ constexpr PeerModule kModules[] = {
 };
 
 }  // namespace
+
+std::optional<Library> load_module(const PeerModule& module, std::vector<std::string>& missing) {
+  const fs::path path = place_of(module);
+  if (!path.empty()) return Library({path.c_str()});
+  missing.push_back(
+      fmt::format("{}: not built in; apt-get install {} and build again: an installed Lantern has "
+                  "no engines beside it",
+                  module.name, module.package));
+  return std::nullopt;
+}
 
 std::vector<std::unique_ptr<Solver>> load_peers(std::vector<std::string>& missing) {
   std::vector<std::unique_ptr<Solver>> solvers;

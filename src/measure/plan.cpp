@@ -125,13 +125,6 @@ std::vector<PeerRecord> Plan::peers() const {
   return records;
 }
 
-std::vector<std::string> Plan::peers_there() const {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < peers_; ++i)
-    names.push_back(fmt::format("{} {}", solvers_[i]->name(), solvers_[i]->version()));
-  return names;
-}
-
 double Plan::longest() const {
   if (options_.longest) return *options_.longest;
   if (options_.effort == Effort::quick) return 0.1;

@@ -64,7 +64,6 @@ class Plan {
   bool is_too_long(const Job& job) const { return seconds(job) > longest(); }
   const std::vector<std::string>& missing_peers() const { return missing_peers_; }
   std::vector<PeerRecord> peers() const;         // those that have jobs
-  std::vector<std::string> peers_there() const;  // "Box2D 2.4.1": all, in the same order
   const std::vector<Unsuited>& unsuited() const { return unsuited_; }
 
   const Scenario& scenario(const Job& job) const { return options_.scenarios[job.scenario]; }

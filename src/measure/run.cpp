@@ -75,50 +75,6 @@ Schedule problem_of(const Scenario& scenario) {
 
 double part_of(const Leg& leg) { return leg.seconds / leg.looks; }
 
-}  // namespace
-
-Schedule Schedule::of(const Scenario& scenario) {
-  if (scenario.bodies.empty()) throw Refused("it has no bodies: there is nothing to measure");
-  Schedule schedule = scenario.problem ? problem_of(scenario) : script_of(scenario);
-  if (schedule.legs.empty())
-    throw Refused(
-        "no time passes in it: there is nothing to measure; a step with do = \"run\" would");
-  return schedule;
-}
-
-double Schedule::fitted_step(double wished) const {
-  if (!std::isfinite(wished) || wished <= 0)
-    throw Refused(fmt::format("a time step of {} s is not allowed; it must be above 0", wished));
-  if (seconds + wished == seconds || seconds / wished > 0x1p53)
-    throw Refused(fmt::format("a time step of {} s is too small to move a clock that shows {} s",
-                              wished, seconds));
-  if (legs.size() == 1) {
-    const double part = part_of(legs[0]);
-    return part / std::max(1.0, std::round(part / wished));
-  }
-  for (const Leg& leg : legs) {
-    const double parts = part_of(leg) / wished;
-    if (parts < 0.5 || std::abs(parts - std::round(parts)) > 1e-6 * parts)
-      throw Refused(
-          fmt::format("a time step of {} s does not divide the {} s between two looks at "
-                      "the run",
-                      wished, part_of(leg)));
-  }
-  return wished;
-}
-
-std::uint64_t Schedule::steps_in_part(const Leg& leg, double h) const {
-  return static_cast<std::uint64_t>(std::llround(part_of(leg) / h));
-}
-
-std::uint64_t Schedule::steps(double h) const {
-  std::uint64_t n = 0;
-  for (const Leg& leg : legs) n += leg.looks * steps_in_part(leg, h);
-  return n;
-}
-
-namespace {
-
 constexpr double kBeyondSense = 100;  // times the scale: the run has diverged
 
 // Other engines do not hear the wish to stop, so they are asked for few steps at a time.
@@ -307,6 +263,46 @@ void judge(Row& row, std::optional<std::string> collapse) {
 void ignore(const Observation&) {}
 
 }  // namespace
+
+Schedule Schedule::of(const Scenario& scenario) {
+  if (scenario.bodies.empty()) throw Refused("it has no bodies: there is nothing to measure");
+  Schedule schedule = scenario.problem ? problem_of(scenario) : script_of(scenario);
+  if (schedule.legs.empty())
+    throw Refused(
+        "no time passes in it: there is nothing to measure; a step with do = \"run\" would");
+  return schedule;
+}
+
+double Schedule::fitted_step(double wished) const {
+  if (!std::isfinite(wished) || wished <= 0)
+    throw Refused(fmt::format("a time step of {} s is not allowed; it must be above 0", wished));
+  if (seconds + wished == seconds || seconds / wished > 0x1p53)
+    throw Refused(fmt::format("a time step of {} s is too small to move a clock that shows {} s",
+                              wished, seconds));
+  if (legs.size() == 1) {
+    const double part = part_of(legs[0]);
+    return part / std::max(1.0, std::round(part / wished));
+  }
+  for (const Leg& leg : legs) {
+    const double parts = part_of(leg) / wished;
+    if (parts < 0.5 || std::abs(parts - std::round(parts)) > 1e-6 * parts)
+      throw Refused(
+          fmt::format("a time step of {} s does not divide the {} s between two looks at "
+                      "the run",
+                      wished, part_of(leg)));
+  }
+  return wished;
+}
+
+std::uint64_t Schedule::steps_in_part(const Leg& leg, double h) const {
+  return static_cast<std::uint64_t>(std::llround(part_of(leg) / h));
+}
+
+std::uint64_t Schedule::steps(double h) const {
+  std::uint64_t n = 0;
+  for (const Leg& leg : legs) n += leg.looks * steps_in_part(leg, h);
+  return n;
+}
 
 Reference reference_for(const Scenario& scenario, const Schedule& schedule, double step) {
   if (scenario.problem) {

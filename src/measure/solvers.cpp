@@ -58,39 +58,6 @@ std::vector<Method> named(const std::vector<std::string>& names) {
   return methods;
 }
 
-}  // namespace
-
-std::optional<std::string> LanternSolver::cannot(const Scenario& scenario) const {
-  if (method_.contacts && scenario.world.contacts == ContactMethod::none)
-    return "its bodies do not collide";
-  const auto is_joint = [](const LinkSpec& link) { return link.kind != LinkSpec::Kind::spring; };
-  if (method_.contacts == ContactMethod::lecture && std::ranges::any_of(scenario.links, is_joint))
-    return "the lecture has no joints";
-  if (method_.rotation && scenario.world.dimension == 2) return "a flat body turns by its spin";
-  return std::nullopt;
-}
-
-std::unique_ptr<Simulation> LanternSolver::start(const Scenario& scenario, double h) const {
-  return std::make_unique<WorldSimulation>(moved_by(scenario, method_, h));
-}
-
-std::vector<Method> methods_for(const Scenario& scenario) {
-  if (scenario.problem && !scenario.problem->methods.empty())
-    return named(scenario.problem->methods);
-  if (scenario.world.contacts != ContactMethod::none)
-    return named({"lecture", "impulse", "impulse:100", "soft", "soft:16"});
-  if (has_forces(scenario))
-    return named({"explicit_euler", "semi_implicit_euler", "velocity_verlet", "runge_kutta_4",
-                  "implicit_midpoint", "implicit_euler"});
-  if (scenario.world.dimension == 3 && std::ranges::any_of(scenario.bodies, turns_in_space))
-    return named({"explicit_gyroscopic", "splitting_2", "splitting_4"});
-  Method as_written;
-  as_written.name = "as written";
-  return {as_written};
-}
-
-namespace {
-
 double tolerance_of(const Scenario& scenario, double h) {
   const double ratio = h / scenario.problem->step;
   return std::clamp(1e-3 * ratio * ratio * ratio * ratio * ratio, 1e-14, 1e-3);
@@ -203,6 +170,35 @@ class PointSimulation : public Simulation {
 };
 
 }  // namespace
+
+std::optional<std::string> LanternSolver::cannot(const Scenario& scenario) const {
+  if (method_.contacts && scenario.world.contacts == ContactMethod::none)
+    return "its bodies do not collide";
+  const auto is_joint = [](const LinkSpec& link) { return link.kind != LinkSpec::Kind::spring; };
+  if (method_.contacts == ContactMethod::lecture && std::ranges::any_of(scenario.links, is_joint))
+    return "the lecture has no joints";
+  if (method_.rotation && scenario.world.dimension == 2) return "a flat body turns by its spin";
+  return std::nullopt;
+}
+
+std::unique_ptr<Simulation> LanternSolver::start(const Scenario& scenario, double h) const {
+  return std::make_unique<WorldSimulation>(moved_by(scenario, method_, h));
+}
+
+std::vector<Method> methods_for(const Scenario& scenario) {
+  if (scenario.problem && !scenario.problem->methods.empty())
+    return named(scenario.problem->methods);
+  if (scenario.world.contacts != ContactMethod::none)
+    return named({"lecture", "impulse", "impulse:100", "soft", "soft:16"});
+  if (has_forces(scenario))
+    return named({"explicit_euler", "semi_implicit_euler", "velocity_verlet", "runge_kutta_4",
+                  "implicit_midpoint", "implicit_euler"});
+  if (scenario.world.dimension == 3 && std::ranges::any_of(scenario.bodies, turns_in_space))
+    return named({"explicit_gyroscopic", "splitting_2", "splitting_4"});
+  Method as_written;
+  as_written.name = "as written";
+  return {as_written};
+}
 
 std::optional<std::string> DormandPrinceSolver::cannot(const Scenario& scenario) const {
   if (!scenario.problem) return "it has no [problem]";

@@ -110,74 +110,6 @@ class PileMaker {
   std::vector<BodySpec> bodies_;
 };
 
-}  // namespace
-
-std::string Pile::name() const {
-  const auto kind = std::ranges::find_if(
-      kKinds, [&](const Kind& k) { return k.dimension == dimension && k.balls == balls; });
-  return fmt::format("{}:{}", kind->name, bodies);
-}
-
-std::optional<Pile> pile_named(std::string_view name) {
-  const std::size_t colon = name.find(':');
-  const auto kind = std::ranges::find(kKinds, name.substr(0, colon), &Kind::name);
-  if (colon == std::string_view::npos || kind == std::end(kKinds)) return std::nullopt;
-  Pile pile{kind->dimension, kind->balls, 0};
-  const char* end = name.data() + name.size();
-  const auto [at, error] = std::from_chars(name.data() + colon + 1, end, pile.bodies);
-  if (error != std::errc() || at != end || pile.bodies < 1 || pile.bodies > kMostBodies)
-    return std::nullopt;
-  return pile;
-}
-
-Scenario pile_scene(const Pile& pile, double step, StructureKind structure) {
-  ScenarioSpec spec;
-  spec.name = pile.name();
-  spec.world.dimension = pile.dimension;
-  spec.world.time_step = step;
-  spec.world.gravity = {0, -kPileGravity, 0};
-  spec.world.contacts = ContactMethod::soft;
-  spec.structure.kind = structure;
-  spec.structure.split_static = true;
-  spec.structure.capacity = 8;  // of a tree; about a body in a cell
-  spec.structure.max_depth = 8;
-  PileMaker maker(pile);
-  spec.world.bounds = maker.bounds();
-  spec.bodies = maker.bodies();
-  return Scenario(std::move(spec));
-}
-
-PileGauge::PileGauge(const Pile& pile, const Scenario& scenario)
-    : half_(half_width(pile.dimension)), scenario_(scenario), invariants_(scenario) {
-  std::vector<BodyState> lying(scenario.bodies.size());
-  for (std::size_t i = 0; i < lying.size(); ++i) {
-    lying[i].there = true;
-    const Vec<3> apart(3 * static_cast<double>(i), kHalfSize, 0);
-    lying[i].position = falls(i) ? apart : scenario.bodies[i].position;
-  }
-  at_rest_ = invariants_.of(lying).energy;
-}
-
-bool PileGauge::falls(std::size_t body) const {
-  return scenario_.bodies[body].kind == BodyKind::dynamic_body;
-}
-
-PileState PileGauge::of(const std::vector<BodyState>& states,
-                        const std::vector<double>& skins) const {
-  const Kept kept = invariants_.of(states, {skins, kNearly});
-  PileState found{kept.penetration, 0, kept.touching, kept.energy - at_rest_, 0};
-  if (kept.touching > 0) found.mean = kept.penetrations / static_cast<double>(kept.touching);
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    const Vec<3>& at = states[i].position;
-    const bool is_flat = scenario_.world.dimension == 2;
-    found.outside +=
-        falls(i) && (at.y < 0 || std::abs(at.x) > half_ || (!is_flat && std::abs(at.z) > half_));
-  }
-  return found;
-}
-
-namespace {
-
 constexpr double kStepSeconds = 1.0 / 60;
 constexpr std::size_t kTurn = 15;         // steps that a solver makes at a time
 constexpr std::size_t kTurnsASecond = 4;  // of simulated time
@@ -381,6 +313,70 @@ StepComparison compared_at(double deepest, const std::vector<OwnPoint>& front) {
 }
 
 }  // namespace
+
+std::string Pile::name() const {
+  const auto kind = std::ranges::find_if(
+      kKinds, [&](const Kind& k) { return k.dimension == dimension && k.balls == balls; });
+  return fmt::format("{}:{}", kind->name, bodies);
+}
+
+std::optional<Pile> pile_named(std::string_view name) {
+  const std::size_t colon = name.find(':');
+  const auto kind = std::ranges::find(kKinds, name.substr(0, colon), &Kind::name);
+  if (colon == std::string_view::npos || kind == std::end(kKinds)) return std::nullopt;
+  Pile pile{kind->dimension, kind->balls, 0};
+  const char* end = name.data() + name.size();
+  const auto [at, error] = std::from_chars(name.data() + colon + 1, end, pile.bodies);
+  if (error != std::errc() || at != end || pile.bodies < 1 || pile.bodies > kMostBodies)
+    return std::nullopt;
+  return pile;
+}
+
+Scenario pile_scene(const Pile& pile, double step, StructureKind structure) {
+  ScenarioSpec spec;
+  spec.name = pile.name();
+  spec.world.dimension = pile.dimension;
+  spec.world.time_step = step;
+  spec.world.gravity = {0, -kPileGravity, 0};
+  spec.world.contacts = ContactMethod::soft;
+  spec.structure.kind = structure;
+  spec.structure.split_static = true;
+  spec.structure.capacity = 8;  // of a tree; about a body in a cell
+  spec.structure.max_depth = 8;
+  PileMaker maker(pile);
+  spec.world.bounds = maker.bounds();
+  spec.bodies = maker.bodies();
+  return Scenario(std::move(spec));
+}
+
+PileGauge::PileGauge(const Pile& pile, const Scenario& scenario)
+    : half_(half_width(pile.dimension)), scenario_(scenario), invariants_(scenario) {
+  std::vector<BodyState> lying(scenario.bodies.size());
+  for (std::size_t i = 0; i < lying.size(); ++i) {
+    lying[i].there = true;
+    const Vec<3> apart(3 * static_cast<double>(i), kHalfSize, 0);
+    lying[i].position = falls(i) ? apart : scenario.bodies[i].position;
+  }
+  at_rest_ = invariants_.of(lying).energy;
+}
+
+bool PileGauge::falls(std::size_t body) const {
+  return scenario_.bodies[body].kind == BodyKind::dynamic_body;
+}
+
+PileState PileGauge::of(const std::vector<BodyState>& states,
+                        const std::vector<double>& skins) const {
+  const Kept kept = invariants_.of(states, {skins, kNearly});
+  PileState found{kept.penetration, 0, kept.touching, kept.energy - at_rest_, 0};
+  if (kept.touching > 0) found.mean = kept.penetrations / static_cast<double>(kept.touching);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const Vec<3>& at = states[i].position;
+    const bool is_flat = scenario_.world.dimension == 2;
+    found.outside +=
+        falls(i) && (at.y < 0 || std::abs(at.x) > half_ || (!is_flat && std::abs(at.z) > half_));
+  }
+  return found;
+}
 
 std::vector<Pile> usual_piles() {
   return {{2, false, 500}, {2, true, 500},  {2, false, 2000},

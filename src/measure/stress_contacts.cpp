@@ -89,28 +89,6 @@ double headings() {
   return worst;
 }
 
-}  // namespace
-
-std::vector<StressCase> contact_cases() {
-  constexpr const char* kGroup = "extreme input";
-  return {
-      {"elastic_bounce", "bars", "A ball that loses nothing keeps its energy at any step.",
-       none_above(1e-12, "relative", "20 s, 2D and 3D, steps from 1 ms to 3 s", elastic_bounce<2>,
-                  elastic_bounce<3>)},
-      {"pi_by_blocks", kGroup, "Two blocks of mass ratio 1e6 and a wall count the digits of pi.",
-       none_above(0, "impacts", "off floor(pi 10^k), k = 0 ... 3: 3, 31, 314, 3141", pi_by_blocks)},
-      {"sliding", "bars", "A box thrown along the floor stops after v^2/(2 mu g).",
-       none_above(1e-6, "m", "5 m/s, friction 0.1, 0.5, 1, 10; 2D and 3D", sliding<2>, sliding<3>)},
-      {"headings", "bars", "A box slides equally far in every direction.",
-       none_above(1e-6, "m", "24 headings, 3 m/s, friction 0.5", headings)}};
-}
-
-// The bars: 1 m boxes, g = 10, h = 1/60 s, 10 s unless said.
-
-namespace {
-
-using namespace stress;
-
 // --- free motion at 1 ms, 10 s ---
 
 constexpr double kFine = 1e-3;
@@ -270,6 +248,22 @@ StressResult one_hash() {
 }
 
 }  // namespace
+
+std::vector<StressCase> contact_cases() {
+  constexpr const char* kGroup = "extreme input";
+  return {
+      {"elastic_bounce", "bars", "A ball that loses nothing keeps its energy at any step.",
+       none_above(1e-12, "relative", "20 s, 2D and 3D, steps from 1 ms to 3 s", elastic_bounce<2>,
+                  elastic_bounce<3>)},
+      {"pi_by_blocks", kGroup, "Two blocks of mass ratio 1e6 and a wall count the digits of pi.",
+       none_above(0, "impacts", "off floor(pi 10^k), k = 0 ... 3: 3, 31, 314, 3141", pi_by_blocks)},
+      {"sliding", "bars", "A box thrown along the floor stops after v^2/(2 mu g).",
+       none_above(1e-6, "m", "5 m/s, friction 0.1, 0.5, 1, 10; 2D and 3D", sliding<2>, sliding<3>)},
+      {"headings", "bars", "A box slides equally far in every direction.",
+       none_above(1e-6, "m", "24 headings, 3 m/s, friction 0.5", headings)}};
+}
+
+// The bars: 1 m boxes, g = 10, h = 1/60 s, 10 s unless said.
 
 std::vector<StressCase> bar_cases() {
   constexpr const char* kGroup = "bars";

@@ -190,36 +190,6 @@ double zero_size_error() {
   return is_finite(world) ? std::abs(world.bodies()[2].position.y + 2) : kInfinity;
 }
 
-}  // namespace
-
-std::vector<StressCase> shape_cases() {
-  constexpr const char* kGroup = "extreme input";
-  return {
-      {"parallel_edges", kGroup, "Nearly parallel box edges keep their normal.", parallel_edges},
-      {"parallel_capsules", kGroup, "Nearly parallel capsules keep their normal.",
-       parallel_capsules},
-      {"fallback_normal", kGroup, "Shapes with a common centre get a fixed normal of unit length.",
-       fallback_normal},
-      {"contact_size_ratio", kGroup, "Contacts are exact at size ratios from 1e-6 to 1e6.",
-       none_above(4e-12, "of the size", "separations of balls and boxes, ratios 1e-6 ... 1e6",
-                  ratio_error<2>, ratio_error<3>)},
-      {"contact_aspect_ratio", kGroup, "Contacts of boxes of 1 : 1e4 part them.",
-       none_above(1e-6, "of the size",
-                  "left over when boxes of 1 : 1e4 are parted as their contact says",
-                  needle_error<2>, needle_error<3>)},
-      {"zero_size_contacts", kGroup, "Shapes of no size have exact contacts.", zero_size_contacts},
-      {"zero_size", kGroup, "A shape of no size is legal if static, or with an explicit mass.",
-       none_above(1e-3, "m",
-                  "a point with a mass on the floor, 2D and 3D; without one it is refused",
-                  zero_size_error<2>, zero_size_error<3>)}};
-}
-
-// Far from the origin: the same motion, but for the digits that the place itself takes away.
-
-namespace {
-
-using namespace stress;
-
 // Places relative to the origin after `steps` steps: a pile, a ball that rolls into it, a pendulum
 // on a spring and one on a rod, around a point that is `offset` away on every axis but the height.
 template <int D>
@@ -308,6 +278,30 @@ StressResult boxes_round_outward() {
 }
 
 }  // namespace
+
+std::vector<StressCase> shape_cases() {
+  constexpr const char* kGroup = "extreme input";
+  return {
+      {"parallel_edges", kGroup, "Nearly parallel box edges keep their normal.", parallel_edges},
+      {"parallel_capsules", kGroup, "Nearly parallel capsules keep their normal.",
+       parallel_capsules},
+      {"fallback_normal", kGroup, "Shapes with a common centre get a fixed normal of unit length.",
+       fallback_normal},
+      {"contact_size_ratio", kGroup, "Contacts are exact at size ratios from 1e-6 to 1e6.",
+       none_above(4e-12, "of the size", "separations of balls and boxes, ratios 1e-6 ... 1e6",
+                  ratio_error<2>, ratio_error<3>)},
+      {"contact_aspect_ratio", kGroup, "Contacts of boxes of 1 : 1e4 part them.",
+       none_above(1e-6, "of the size",
+                  "left over when boxes of 1 : 1e4 are parted as their contact says",
+                  needle_error<2>, needle_error<3>)},
+      {"zero_size_contacts", kGroup, "Shapes of no size have exact contacts.", zero_size_contacts},
+      {"zero_size", kGroup, "A shape of no size is legal if static, or with an explicit mass.",
+       none_above(1e-3, "m",
+                  "a point with a mass on the floor, 2D and 3D; without one it is refused",
+                  zero_size_error<2>, zero_size_error<3>)}};
+}
+
+// Far from the origin: the same motion, but for the digits that the place itself takes away.
 
 std::vector<StressCase> origin_cases() {
   constexpr const char* kGroup = "extreme input";

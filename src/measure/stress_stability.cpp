@@ -57,53 +57,6 @@ std::vector<double> middles(double low, int per_decade, int count) {
   return values;
 }
 
-}  // namespace
-
-// Neither start is, or comes to, x = 0, where the spring has no direction.
-double measured_growth(Integrator method, double omega_h, double zeta) {
-  const State s{1, 0.125}, t{1, -0.5};
-  const State p = stepped(method, omega_h, zeta, s), q = stepped(method, omega_h, zeta, t);
-  // The columns of the matrix, by Cramer's rule: M s = p and M t = q.
-  const double det = s.x * t.v - t.x * s.v;
-  const double a = (p.x * t.v - q.x * s.v) / det, b = (q.x * s.x - p.x * t.x) / det;
-  const double c = (p.v * t.v - q.v * s.v) / det, d = (q.v * s.x - p.v * t.x) / det;
-  return spectral_radius(a, b, c, d);
-}
-
-double stability_limit(Integrator method, double zeta) {
-  switch (method) {
-    case Integrator::explicit_euler:
-      return zeta <= 1 ? 2 * zeta : 2 / (zeta + std::sqrt(zeta * zeta - 1));
-    case Integrator::semi_implicit_euler:
-      return 2 / (std::sqrt(1 + zeta * zeta) + zeta);  // = 2 (sqrt(1 + zeta^2) - zeta)
-    case Integrator::velocity_verlet:
-      return 2;
-    case Integrator::runge_kutta_4:
-      return runge_kutta_limit(zeta);
-    case Integrator::implicit_midpoint:
-    case Integrator::implicit_euler:
-      break;
-  }
-  return std::numeric_limits<double>::infinity();
-}
-
-StabilityMap make_stability_map() {
-  StabilityMap map;
-  map.omega_h = middles(map.omega_low, kOmegaPerDecade, kOmegaDecades * kOmegaPerDecade);
-  map.zeta = middles(map.zeta_low, kZetaPerDecade, kZetaDecades * kZetaPerDecade);
-  map.zeta.insert(map.zeta.begin(), 0.0);
-  for (const Integrator method : stress::kIntegrators) {
-    StabilityMap::Panel panel{method, {}};
-    for (const double zeta : map.zeta)
-      for (const double omega_h : map.omega_h)
-        panel.growth.push_back(measured_growth(method, omega_h, zeta));
-    map.panels.push_back(std::move(panel));
-  }
-  return map;
-}
-
-namespace {
-
 using namespace stress;
 
 constexpr double kRatios[] = {0, 0.01, 0.1, 0.5, 1, 2, 10, 1e3};  // damping ratios
@@ -235,6 +188,49 @@ StressResult map_agrees() {
 }
 
 }  // namespace
+
+// Neither start is, or comes to, x = 0, where the spring has no direction.
+double measured_growth(Integrator method, double omega_h, double zeta) {
+  const State s{1, 0.125}, t{1, -0.5};
+  const State p = stepped(method, omega_h, zeta, s), q = stepped(method, omega_h, zeta, t);
+  // The columns of the matrix, by Cramer's rule: M s = p and M t = q.
+  const double det = s.x * t.v - t.x * s.v;
+  const double a = (p.x * t.v - q.x * s.v) / det, b = (q.x * s.x - p.x * t.x) / det;
+  const double c = (p.v * t.v - q.v * s.v) / det, d = (q.v * s.x - p.v * t.x) / det;
+  return spectral_radius(a, b, c, d);
+}
+
+double stability_limit(Integrator method, double zeta) {
+  switch (method) {
+    case Integrator::explicit_euler:
+      return zeta <= 1 ? 2 * zeta : 2 / (zeta + std::sqrt(zeta * zeta - 1));
+    case Integrator::semi_implicit_euler:
+      return 2 / (std::sqrt(1 + zeta * zeta) + zeta);  // = 2 (sqrt(1 + zeta^2) - zeta)
+    case Integrator::velocity_verlet:
+      return 2;
+    case Integrator::runge_kutta_4:
+      return runge_kutta_limit(zeta);
+    case Integrator::implicit_midpoint:
+    case Integrator::implicit_euler:
+      break;
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+StabilityMap make_stability_map() {
+  StabilityMap map;
+  map.omega_h = middles(map.omega_low, kOmegaPerDecade, kOmegaDecades * kOmegaPerDecade);
+  map.zeta = middles(map.zeta_low, kZetaPerDecade, kZetaDecades * kZetaPerDecade);
+  map.zeta.insert(map.zeta.begin(), 0.0);
+  for (const Integrator method : stress::kIntegrators) {
+    StabilityMap::Panel panel{method, {}};
+    for (const double zeta : map.zeta)
+      for (const double omega_h : map.omega_h)
+        panel.growth.push_back(measured_growth(method, omega_h, zeta));
+    map.panels.push_back(std::move(panel));
+  }
+  return map;
+}
 
 std::vector<StressCase> stability_cases() {
   using enum Integrator;

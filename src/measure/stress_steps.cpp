@@ -143,37 +143,6 @@ double blow_up() {
   return silent;
 }
 
-}  // namespace
-
-std::vector<StressCase> step_cases() {
-  constexpr const char* kGroup = "extreme input";
-  return {
-      {"step_zero", kGroup, "A step of no time changes not a bit of the world.", step_zero},
-      {"step_negative", kGroup, "A negative step is refused, and the world stays as it was.",
-       step_negative},
-      {"step_tiny", kGroup, "What rests does so at steps of 1e-12 s.",
-       none_above(1e-3, "m", "what rests has moved; h = 1e-12 and 1e-9, every method, 2D and 3D",
-                  step_tiny)},
-      {"step_huge", kGroup,
-       "What rests does so at steps of 1000 s, or the world says who does not.",
-       none_above(1e-5, "of a fall",
-                  "that what rests has moved; h = 1 and 1e3, every method, 2D and 3D", step_huge)},
-      {"overflow", kGroup, "A number that overflows ends the run, naming body and step.",
-       [] { return overflow_of(kExplicit); }},
-      {"overflow_implicit", kGroup,
-       "An implicit method ends a run that overflows, naming body and step.",
-       [] { return overflow_of(kImplicit); }},
-      {"blow_up", kGroup, "A spring beyond its method's limit ends the run, naming body and step.",
-       none_above(0, "runs", "of 4 explicit methods that do not end naming body and step",
-                  blow_up)}};
-}
-
-// Stiff springs, drag and chains, at steps far beyond what an explicit method bears.
-
-namespace {
-
-using namespace stress;
-
 // Nothing collides.
 template <int D>
 WorldConfig<D> config_of(Integrator method, double gravity = 0) {
@@ -292,6 +261,31 @@ double stiff_pendulum() {
 }
 
 }  // namespace
+
+std::vector<StressCase> step_cases() {
+  constexpr const char* kGroup = "extreme input";
+  return {
+      {"step_zero", kGroup, "A step of no time changes not a bit of the world.", step_zero},
+      {"step_negative", kGroup, "A negative step is refused, and the world stays as it was.",
+       step_negative},
+      {"step_tiny", kGroup, "What rests does so at steps of 1e-12 s.",
+       none_above(1e-3, "m", "what rests has moved; h = 1e-12 and 1e-9, every method, 2D and 3D",
+                  step_tiny)},
+      {"step_huge", kGroup,
+       "What rests does so at steps of 1000 s, or the world says who does not.",
+       none_above(1e-5, "of a fall",
+                  "that what rests has moved; h = 1 and 1e3, every method, 2D and 3D", step_huge)},
+      {"overflow", kGroup, "A number that overflows ends the run, naming body and step.",
+       [] { return overflow_of(kExplicit); }},
+      {"overflow_implicit", kGroup,
+       "An implicit method ends a run that overflows, naming body and step.",
+       [] { return overflow_of(kImplicit); }},
+      {"blow_up", kGroup, "A spring beyond its method's limit ends the run, naming body and step.",
+       none_above(0, "runs", "of 4 explicit methods that do not end naming body and step",
+                  blow_up)}};
+}
+
+// Stiff springs, drag and chains, at steps far beyond what an explicit method bears.
 
 std::vector<StressCase> stiff_cases() {
   using enum Integrator;

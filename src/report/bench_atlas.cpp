@@ -164,7 +164,6 @@ class AtlasBench : public ExperimentOf<AtlasBenchResult> {
                        set.sizes.size()));
     });
   }
-  Texts texts() const override { return texts_of(result_); }
   bool is_good() const override {
     return std::ranges::none_of(result_.rows,
                                 [](const AtlasRow& row) { return row.status == "wrong"; });

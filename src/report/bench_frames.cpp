@@ -210,7 +210,6 @@ class FramesBench : public ExperimentOf<FrameBenchResult> {
       tell(fmt::format("sequence {} of {}, {}", i + 1, stages(), sequences_[i].name));
     });
   }
-  Texts texts() const override { return texts_of(result_); }
 
  private:
   FrameSequence sequence_of(const std::string& file) const {

@@ -251,7 +251,6 @@ class PairsBench : public ExperimentOf<BoxBenchResult> {
       tell(fmt::format("world {} of {}, {}", stage + 1, stages(), words));
     });
   }
-  Texts texts() const override { return texts_of(result_); }
   bool is_good() const override { return std::ranges::all_of(result_.rows, &BoxBenchRow::is_good); }
 
  private:

@@ -226,7 +226,6 @@ class StepBench : public ExperimentOf<StepBenchResult> {
                        100 * share));
     });
   }
-  Texts texts() const override { return texts_of(result_); }
 
  private:
   std::vector<std::string> piles_;

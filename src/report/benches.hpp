@@ -94,4 +94,19 @@ Texts texts_of(const AtlasBenchResult& result);
 Texts texts_of(const StepBenchResult& result);
 Texts texts_of(const BroadPhaseResult& result);  // its table and page have the cheapest settings
 
+// One whose result is a BenchResult.
+template <class Result>
+class ExperimentOf : public Experiment {
+ public:
+  void set_circumstances(Circumstances circumstances, std::string command) override {
+    result_.circumstances = std::move(circumstances);
+    result_.command = std::move(command);
+  }
+  std::vector<std::string> missing() const override { return result_.missing; }
+  Texts texts() const override { return texts_of(result_); }
+
+ protected:
+  Result result_;
+};
+
 }  // namespace lantern::report

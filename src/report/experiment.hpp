@@ -193,18 +193,4 @@ class Experiment {
   virtual std::vector<std::string> missing() const = 0;  // peers that are not there: a line each
 };
 
-// One whose result is a BenchResult.
-template <class Result>
-class ExperimentOf : public Experiment {
- public:
-  void set_circumstances(Circumstances circumstances, std::string command) override {
-    result_.circumstances = std::move(circumstances);
-    result_.command = std::move(command);
-  }
-  std::vector<std::string> missing() const override { return result_.missing; }
-
- protected:
-  Result result_;
-};
-
 }  // namespace lantern::report

@@ -10,60 +10,6 @@
 #include "report/benches.hpp"
 
 namespace lantern::report {
-
-// The same draw lists through cairo and its own PNG writer: what Lantern's speed is measured
-// against.
-
-// Needs libcairo.so.2, which is loaded when asked for. Geometry, colours and text are Lantern's
-// own, the text as outlines.
-class CairoPeer {
- public:
-  // Throws BackendError, naming the package to install, if there is no cairo.
-  CairoPeer(int width, int height);
-  ~CairoPeer();
-  CairoPeer(const CairoPeer&) = delete;
-  CairoPeer& operator=(const CairoPeer&) = delete;
-
-  std::string version() const;
-  void draw(const DrawList& list, const Theme& theme);
-  // By cairo_surface_write_to_png. Throws IoError.
-  void write_png(const std::filesystem::path& path);
-
- private:
-  int width_, height_;
-  void* surface_ = nullptr;
-  void* context_ = nullptr;
-  std::optional<CairoPainter> painter_;
-};
-
-CairoPeer::CairoPeer(int width, int height) : width_(width), height_(height) {
-  constexpr int kRgb24 = 1;
-  surface_ = cairo().image_surface_create(kRgb24, width, height);
-  cairo().require(cairo().surface_status(surface_));
-  context_ = cairo().create(surface_);
-  painter_.emplace(context_, CairoPainter::For::pixels);
-}
-
-CairoPeer::~CairoPeer() {
-  if (context_) cairo().destroy(context_);
-  cairo().surface_destroy(surface_);
-}
-
-std::string CairoPeer::version() const { return cairo().version_string(); }
-
-void CairoPeer::write_png(const std::filesystem::path& path) {
-  const int status = cairo().surface_write_to_png(surface_, path.c_str());
-  if (status != 0)
-    throw IoError(
-        fmt::format("cannot write '{}': {}", path.string(), cairo().status_to_string(status)));
-}
-
-void CairoPeer::draw(const DrawList& list, const Theme& theme) {
-  painter_->draw(list, theme, true, Canvas(list.page, width_, height_));
-}
-
-// --- how soon a process has its first picture on the disk ---
-
 namespace {
 
 // Runs `work` in a process of its own, which has loaded no graphics library yet; gives the seconds
@@ -100,42 +46,46 @@ double seconds_in_new_process(const std::function<void()>& work) {
   return seconds;
 }
 
-}  // namespace
-
-StartTimes measure_start(const DrawList& list, const std::filesystem::path& folder,
-                         const FrameBenchConfig& config, bool shaders_known) {
-  const std::filesystem::path path = folder / "first.png";
-  const auto prepare = [&] {
-    if (!shaders_known) ::setenv("MESA_SHADER_CACHE_DISABLE", "1", 1);
-  };
-  const auto bare = [&] {
-    prepare();
-    // Left to the system, as a process would at its end: to take it down is no part of the start.
-    Context::create(config.backend).release();
-  };
-  const auto frame = [&] {
-    prepare();
-    auto renderer = std::make_unique<Renderer>(Context::create(config.backend), 1280, 720);
-    Image image;
-    renderer->draw(list, config.theme, false, image);
-    write_file(path, encode_png(image, PngEffort::fast, {}, 0));
-    static_cast<void>(renderer.release());
-  };
-  if (shaders_known) seconds_in_new_process(frame);  // fills the cache
-  std::vector<double> bare_seconds, frame_seconds;
-  for (int i = 0; i < config.rounds; ++i) {
-    bare_seconds.push_back(seconds_in_new_process(bare));
-    frame_seconds.push_back(seconds_in_new_process(frame));
-  }
-  std::error_code ignored;
-  std::filesystem::remove(path, ignored);
-  return {shaders_known, quantile(bare_seconds, 0.5), quantile(frame_seconds, 0.5)};
-}
-
-// --- sequences, written by each in turns ---
-namespace {
-
 namespace fs = std::filesystem;
+
+// The same draw lists through cairo and its own PNG writer: what Lantern's speed is measured
+// against. Needs libcairo.so.2, which is loaded when asked for. Geometry, colours and text are
+// Lantern's own, the text as outlines.
+class CairoPeer {
+ public:
+  // Throws BackendError, naming the package to install, if there is no cairo.
+  CairoPeer(int width, int height) : width_(width), height_(height) {
+    constexpr int kRgb24 = 1;
+    surface_ = cairo().image_surface_create(kRgb24, width, height);
+    cairo().require(cairo().surface_status(surface_));
+    context_ = cairo().create(surface_);
+    painter_.emplace(context_, CairoPainter::For::pixels);
+  }
+  ~CairoPeer() {
+    if (context_) cairo().destroy(context_);
+    cairo().surface_destroy(surface_);
+  }
+  CairoPeer(const CairoPeer&) = delete;
+  CairoPeer& operator=(const CairoPeer&) = delete;
+
+  static std::string version() { return cairo().version_string(); }
+  void draw(const DrawList& list, const Theme& theme) {
+    painter_->draw(list, theme, true, Canvas(list.page, width_, height_));
+  }
+  // By cairo_surface_write_to_png. Throws IoError.
+  void write_png(const fs::path& path) {
+    const int status = cairo().surface_write_to_png(surface_, path.c_str());
+    if (status != 0)
+      throw IoError(
+          fmt::format("cannot write '{}': {}", path.string(), cairo().status_to_string(status)));
+  }
+
+ private:
+  int width_, height_;
+  void* surface_ = nullptr;
+  void* context_ = nullptr;
+  std::optional<CairoPainter> painter_;
+};
 
 struct Round {
   double seconds = 0;
@@ -301,6 +251,38 @@ void keep_what_differs(FrameSequence& sequence, const FrameBenchConfig& config) 
 }
 
 }  // namespace
+
+// --- how soon a process has its first picture on the disk ---
+
+StartTimes measure_start(const DrawList& list, const std::filesystem::path& folder,
+                         const FrameBenchConfig& config, bool shaders_known) {
+  const std::filesystem::path path = folder / "first.png";
+  const auto prepare = [&] {
+    if (!shaders_known) ::setenv("MESA_SHADER_CACHE_DISABLE", "1", 1);
+  };
+  const auto bare = [&] {
+    prepare();
+    // Left to the system, as a process would at its end: to take it down is no part of the start.
+    Context::create(config.backend).release();
+  };
+  const auto frame = [&] {
+    prepare();
+    auto renderer = std::make_unique<Renderer>(Context::create(config.backend), 1280, 720);
+    Image image;
+    renderer->draw(list, config.theme, false, image);
+    write_file(path, encode_png(image, PngEffort::fast, {}, 0));
+    static_cast<void>(renderer.release());
+  };
+  if (shaders_known) seconds_in_new_process(frame);  // fills the cache
+  std::vector<double> bare_seconds, frame_seconds;
+  for (int i = 0; i < config.rounds; ++i) {
+    bare_seconds.push_back(seconds_in_new_process(bare));
+    frame_seconds.push_back(seconds_in_new_process(frame));
+  }
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);
+  return {shaders_known, quantile(bare_seconds, 0.5), quantile(frame_seconds, 0.5)};
+}
 
 void bench_frames(FrameBenchResult& result, std::vector<FrameSequence> sequences,
                   const fs::path& folder, const std::function<void(std::size_t)>& begun) {

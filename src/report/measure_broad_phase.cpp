@@ -116,7 +116,6 @@ class BroadPhases : public ExperimentOf<BroadPhaseResult> {
       result_.rows.insert(result_.rows.end(), more.begin(), more.end());
     }
   }
-  Texts texts() const override { return texts_of(result_); }
   std::vector<Picture> pages() const override {
     std::vector<Picture> pages;
     for (const BoxScene& scene : result_.config.scenes)

@@ -95,6 +95,39 @@ Plot right_plot(const ProblemRows& problem, const Looks& looks) {
   return plot;
 }
 
+// Nothing if no run has samples.
+std::optional<double> shared_step(const ProblemRows& problem) {
+  std::map<double, std::size_t> runs;  // of each step
+  for (const Row& row : problem.rows)
+    if (!row.samples.empty()) ++runs[row.step];
+  const auto most = std::ranges::max_element(
+      runs, {}, [](const auto& entry) { return std::pair(entry.second, -entry.first); });
+  return most == runs.end() ? std::nullopt : std::optional(most->first);
+}
+
+// The value of a sample; nothing for one that has none.
+using SampleValue = std::optional<double> (*)(const DriftSample&);
+constexpr SampleValue kError = [](const DriftSample& s) { return std::optional(s.error); };
+constexpr SampleValue kEnergy = [](const DriftSample& s) { return s.energy; };
+
+Plot drift_plot(const ProblemRows& problem, const Looks& looks, double step, SampleValue value) {
+  Plot plot;
+  plot.x_name = fmt::format("seconds since the start, in steps of {} s", figure(step));
+  for (const MethodRows& method : by_method(problem)) {
+    PlotSeries& series = plot.series.emplace_back(series_of(method, looks));
+    const auto row = std::ranges::find(method.rows, step, &Row::step);
+    if (row == method.rows.end()) continue;
+    for (const DriftSample& sample : row->samples)
+      if (const auto y = value(sample)) {
+        PlotPoint point{{sample.time, *y}};
+        point.beyond = !std::isfinite(*y);
+        series.points.push_back(point);
+      }
+  }
+  send_far_ones_off(plot);
+  return plot;
+}
+
 }  // namespace
 
 void send_far_ones_off(Plot& plot) {
@@ -248,43 +281,6 @@ bool is_one_count(const ProblemRows& problem, const WorkCount& work) {
 }
 
 // --- how error and energy go with time ---
-
-namespace {
-
-// Nothing if no run has samples.
-std::optional<double> shared_step(const ProblemRows& problem) {
-  std::map<double, std::size_t> runs;  // of each step
-  for (const Row& row : problem.rows)
-    if (!row.samples.empty()) ++runs[row.step];
-  const auto most = std::ranges::max_element(
-      runs, {}, [](const auto& entry) { return std::pair(entry.second, -entry.first); });
-  return most == runs.end() ? std::nullopt : std::optional(most->first);
-}
-
-// The value of a sample; nothing for one that has none.
-using SampleValue = std::optional<double> (*)(const DriftSample&);
-constexpr SampleValue kError = [](const DriftSample& s) { return std::optional(s.error); };
-constexpr SampleValue kEnergy = [](const DriftSample& s) { return s.energy; };
-
-Plot drift_plot(const ProblemRows& problem, const Looks& looks, double step, SampleValue value) {
-  Plot plot;
-  plot.x_name = fmt::format("seconds since the start, in steps of {} s", figure(step));
-  for (const MethodRows& method : by_method(problem)) {
-    PlotSeries& series = plot.series.emplace_back(series_of(method, looks));
-    const auto row = std::ranges::find(method.rows, step, &Row::step);
-    if (row == method.rows.end()) continue;
-    for (const DriftSample& sample : row->samples)
-      if (const auto y = value(sample)) {
-        PlotPoint point{{sample.time, *y}};
-        point.beyond = !std::isfinite(*y);
-        series.points.push_back(point);
-      }
-  }
-  send_far_ones_off(plot);
-  return plot;
-}
-
-}  // namespace
 
 std::optional<DriftPlots> drift_plots(const ProblemRows& problem, const Looks& looks) {
   const auto step = shared_step(problem);

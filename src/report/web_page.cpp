@@ -138,33 +138,6 @@ class PlotWriter {
   std::string out_;
 };
 
-}  // namespace
-
-std::string web_colors(std::string_view name) {
-  const Theme theme = *theme_named(name);
-  std::string text;
-  for (std::size_t role = 1; role < theme.colors.size(); ++role) {
-    const Color& c = theme.colors[role];
-    text += fmt::format("--r{}:#{:02x}{:02x}{:02x};", role, c.r, c.g, c.b);
-  }
-  return text;
-}
-
-std::string web_sample(const PlotInk& ink) {
-  DrawList list;
-  draw_plot_line(ink, {1, 7}, {33, 7}, 2, list);
-  draw_plot_mark(ink, {17, 7}, 4.6, false, list);
-  std::string text = "<svg class=\"sample\" viewBox=\"0 0 34 14\" aria-hidden=\"true\">";
-  for (const DrawShape& shape : list.shapes) text += to_tag(shape);
-  return text + "</svg>";
-}
-
-std::string web_plot(const Plot& plot, const std::vector<std::string>& classes) {
-  return PlotWriter(plot, classes).text();
-}
-
-namespace {
-
 constexpr std::string_view kPageStyle = R"css(
 *{box-sizing:border-box}
 body{margin:0;background:var(--paper);color:var(--ink);font:16px/1.5 system-ui,sans-serif}
@@ -387,6 +360,29 @@ class WebPage {
 };
 
 }  // namespace
+
+std::string web_colors(std::string_view name) {
+  const Theme theme = *theme_named(name);
+  std::string text;
+  for (std::size_t role = 1; role < theme.colors.size(); ++role) {
+    const Color& c = theme.colors[role];
+    text += fmt::format("--r{}:#{:02x}{:02x}{:02x};", role, c.r, c.g, c.b);
+  }
+  return text;
+}
+
+std::string web_sample(const PlotInk& ink) {
+  DrawList list;
+  draw_plot_line(ink, {1, 7}, {33, 7}, 2, list);
+  draw_plot_mark(ink, {17, 7}, 4.6, false, list);
+  std::string text = "<svg class=\"sample\" viewBox=\"0 0 34 14\" aria-hidden=\"true\">";
+  for (const DrawShape& shape : list.shapes) text += to_tag(shape);
+  return text + "</svg>";
+}
+
+std::string web_plot(const Plot& plot, const std::vector<std::string>& classes) {
+  return PlotWriter(plot, classes).text();
+}
 
 std::string to_html(const Document& document) { return WebPage(document).text(); }
 
