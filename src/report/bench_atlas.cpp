@@ -7,17 +7,10 @@ namespace lantern::measure {
 
 template <class Visit>
 void each_field(const AtlasRow& row, Visit&& visit) {
-  visit(Field("set"), row.set);
-  visit(Field("textures"), row.textures);
-  visit(Field("contestant"), row.contestant);
-  visit(Field("version"), row.version);
-  visit(Field("status"), row.status);
-  visit(Field("reason"), row.reason);
-  visit(Field("width"), row.width);
-  visit(Field("height"), row.height);
-  visit(Field("fill"), row.fill);
-  visit(Field("packed"), row.packed);
-  visit(Field("turned"), row.turned);
+  visit_fields(visit, "set", row.set, "textures", row.textures, "contestant", row.contestant,
+               "version", row.version, "status", row.status, "reason", row.reason, "width",
+               row.width, "height", row.height, "fill", row.fill, "packed", row.packed, "turned",
+               row.turned);
   each_timing(row.timing, "seconds", "interquartile_range", "seconds_interquartile_range", visit);
   const bool searched = row.searching.repeats > 0;
   visit(Field("median", "search_seconds_median", "search_seconds"),
@@ -26,12 +19,8 @@ void each_field(const AtlasRow& row, Visit&& visit) {
         IfTimed(row.searching.lower_quartile, searched));
   visit(Field("upper_quartile", "search_seconds_upper_quartile", "search_seconds"),
         IfTimed(row.searching.upper_quartile, searched));
-  visit(Field("sides_tried"), row.sides);
-  visit(Field("leaf_tests"), row.leaf_tests);
-  visit(Field("bytes"), row.bytes);
-  visit(Field("overlaps"), row.overlaps);
-  visit(Field("outside"), row.outside);
-  visit(Field("wrong_sizes"), row.wrong_sizes);
+  visit_fields(visit, "sides_tried", row.sides, "leaf_tests", row.leaf_tests, "bytes", row.bytes,
+               "overlaps", row.overlaps, "outside", row.outside, "wrong_sizes", row.wrong_sizes);
 }
 
 }  // namespace lantern::measure

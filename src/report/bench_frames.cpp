@@ -12,34 +12,27 @@ namespace lantern::report {
 
 template <class Visit>
 void each_field(const FrameRow& row, Visit&& visit) {
-  visit(Field("sequence"), row.sequence);
-  visit(Field("writer"), row.writer);
-  visit(Field("frames"), row.frames);
-  visit(Field("frames_per_second"), row.frames_per_second);
-  visit(Field("lower_quartile"), row.lower_quartile);
-  visit(Field("upper_quartile"), row.upper_quartile);
-  visit(Field("against_cairo"), row.against_cairo);
-  visit(Field("bytes_per_file"), row.bytes_per_file);
+  visit_fields(visit, "sequence", row.sequence, "writer", row.writer, "frames", row.frames,
+               "frames_per_second", row.frames_per_second, "lower_quartile", row.lower_quartile,
+               "upper_quartile", row.upper_quartile, "against_cairo", row.against_cairo,
+               "bytes_per_file", row.bytes_per_file);
   const auto counted = [](const std::optional<std::uint64_t>& count) {
     return count ? std::optional(static_cast<double>(*count)) : std::nullopt;
   };
-  visit(Field("pixels_drawn"), counted(row.pixels_drawn));
-  visit(Field("bands_packed"), counted(row.bands_packed));
-  visit(Field("bands_kept"), counted(row.bands_kept));
+  visit_fields(visit, "pixels_drawn", counted(row.pixels_drawn), "bands_packed",
+               counted(row.bands_packed), "bands_kept", counted(row.bands_kept));
 }
 
 template <class Visit>
 void each_field(const FrameMean& mean, Visit&& visit) {
-  visit(Field("writer"), mean.writer);
-  visit(Field("against_cairo"), mean.against_cairo);
-  visit(Field("bytes_per_file"), mean.bytes_per_file);
+  visit_fields(visit, "writer", mean.writer, "against_cairo", mean.against_cairo, "bytes_per_file",
+               mean.bytes_per_file);
 }
 
 template <class Visit>
 void each_field(const StartTimes& s, Visit&& visit) {
-  visit(Field("shaders_known"), s.shaders_known);
-  visit(Field("bare_context_seconds"), s.bare_context);
-  visit(Field("first_file_seconds"), s.first_file);
+  visit_fields(visit, "shaders_known", s.shaders_known, "bare_context_seconds", s.bare_context,
+               "first_file_seconds", s.first_file);
 }
 
 namespace {

@@ -6,28 +6,16 @@ namespace lantern::measure {
 
 template <class Visit>
 void each_field(const BoxBenchRow& row, Visit&& visit) {
-  visit(Field("workload"), row.workload);
-  visit(Field("dimension"), row.dimension);
-  visit(Field("bodies"), row.bodies);
-  visit(Field("contestant"), row.contestant);
-  visit(Field("version"), row.version);
-  visit(Field("setting"), row.setting);
-  visit(Field("status"), row.status);
-  visit(Field("reason"), row.reason);
+  visit_fields(visit, "workload", row.workload, "dimension", row.dimension, "bodies", row.bodies,
+               "contestant", row.contestant, "version", row.version, "setting", row.setting,
+               "status", row.status, "reason", row.reason);
   each_timing(row.timing, "seconds", "iqr", "seconds_iqr", visit);
   const bool timed = row.timing.repeats > 0;
   visit(Field("wall", "seconds_wall", "seconds"), IfTimed(row.wall, timed));
-  visit(Field("found"), row.found);
-  visit(Field("missed"), row.missed);
-  visit(Field("invented"), row.invented);
-  visit(Field("checked"), row.checked);
-  visit(Field("allocations"), row.allocations);
-  visit(Field("bytes"), row.bytes);
-  visit(Field("pair_tests"), row.counts.pair_tests);
-  visit(Field("box_tests"), row.counts.box_tests);
-  visit(Field("nodes_visited"), row.counts.nodes_visited);
-  visit(Field("nodes"), row.counts.nodes);
-  visit(Field("entries"), row.counts.entries);
+  visit_fields(visit, "found", row.found, "missed", row.missed, "invented", row.invented, "checked",
+               row.checked, "allocations", row.allocations, "bytes", row.bytes, "pair_tests",
+               row.counts.pair_tests, "box_tests", row.counts.box_tests, "nodes_visited",
+               row.counts.nodes_visited, "nodes", row.counts.nodes, "entries", row.counts.entries);
 }
 
 }  // namespace lantern::measure

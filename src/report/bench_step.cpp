@@ -7,26 +7,17 @@ namespace lantern::measure {
 
 template <class Visit>
 void each_field(const StepRow& row, Visit&& visit) {
-  visit(Field("pile"), row.pile);
-  visit(Field("solver"), row.solver);
-  visit(Field("version"), row.version);
-  visit(Field("status"), row.status);
-  visit(Field("reason"), row.reason);
-  visit(Field("simulated_seconds"), row.simulated);
+  visit_fields(visit, "pile", row.pile, "solver", row.solver, "version", row.version, "status",
+               row.status, "reason", row.reason, "simulated_seconds", row.simulated);
   visit(Field("mean", "mean_ms", "step_ms"), row.mean);
   visit(Field("median", "median_ms", "step_ms"), row.median);
   visit(Field("lower_quartile", "lower_quartile_ms", "step_ms"), row.lower_quartile);
   visit(Field("upper_quartile", "upper_quartile_ms", "step_ms"), row.upper_quartile);
   visit(Field("last_second", "last_second_ms", "step_ms"), row.last_second);
   visit(Field("wall", "wall_ms", "step_ms"), row.wall);
-  visit(Field("deepest"), row.end.deepest);
-  visit(Field("mean_depth"), row.end.mean);
-  visit(Field("touching_pairs"), row.end.touching);
-  visit(Field("outside"), row.end.outside);
-  visit(Field("creep"), row.creep);
-  visit(Field("most_creep"), row.most_creep);
-  visit(Field("energy_lost"), row.lost);
-  visit(Field("energy_gained"), row.gained);
+  visit_fields(visit, "deepest", row.end.deepest, "mean_depth", row.end.mean, "touching_pairs",
+               row.end.touching, "outside", row.end.outside, "creep", row.creep, "most_creep",
+               row.most_creep, "energy_lost", row.lost, "energy_gained", row.gained);
   for (const WorldCounter& counter : kWorldCounters) {
     const std::string name(counter.name);
     visit(Field(name.c_str(), name.c_str(), "work"), row.work.*counter.count);
@@ -35,13 +26,8 @@ void each_field(const StepRow& row, Visit&& visit) {
 
 template <class Visit>
 void each_field(const StepComparison& c, Visit&& visit) {
-  visit(Field("pile"), c.pile);
-  visit(Field("peer"), c.peer);
-  visit(Field("of_its_penetration"), c.of);
-  visit(Field("deepest"), c.deepest);
-  visit(Field("peer_ms"), c.peer_ms);
-  visit(Field("our_ms"), c.our_ms);
-  visit(Field("by"), c.by);
+  visit_fields(visit, "pile", c.pile, "peer", c.peer, "of_its_penetration", c.of, "deepest",
+               c.deepest, "peer_ms", c.peer_ms, "our_ms", c.our_ms, "by", c.by);
 }
 
 }  // namespace lantern::measure

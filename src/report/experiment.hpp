@@ -10,9 +10,7 @@ namespace lantern::measure {
 
 template <class Visit>
 void each_field(const Contestant& one, Visit&& visit) {
-  visit(Field("name"), one.name);
-  visit(Field("version"), one.version);
-  visit(Field("how"), one.how);
+  visit_fields(visit, "name", one.name, "version", one.version, "how", one.how);
 }
 
 }  // namespace lantern::measure

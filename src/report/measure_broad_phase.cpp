@@ -9,27 +9,14 @@ namespace lantern::measure {
 template <class Visit>
 void each_field(const BroadPhaseCost& row, Visit&& visit) {
   const BroadPhaseCounts& c = row.counts;
-  visit(Field("scene"), row.scene);
-  visit(Field("dimension"), row.dimension);
-  visit(Field("structure"), to_string(row.kind));
-  visit(Field("capacity"), row.capacity);
-  visit(Field("depth_limit"), row.depth_limit);
-  visit(Field("bodies"), row.bodies);
-  visit(Field("updates"), row.updates);
-  visit(Field("all_pairs"), c.all_pairs);
-  visit(Field("testable_pairs"), c.testable_pairs);
-  visit(Field("true_pairs"), c.true_pairs);
-  visit(Field("missed"), c.missed);
-  visit(Field("invented"), c.invented);
-  visit(Field("candidates"), c.candidates);
-  visit(Field("false_candidates"), c.false_candidates());
-  visit(Field("false_per_true"), row.false_per_true());
-  visit(Field("pair_tests"), c.pair_tests);
-  visit(Field("entries"), c.entries);
-  visit(Field("entries_per_body"), row.entries_per_body());
-  visit(Field("box_tests"), c.box_tests);
-  visit(Field("nodes"), c.nodes);
-  visit(Field("depth"), row.depth);
+  visit_fields(visit, "scene", row.scene, "dimension", row.dimension, "structure",
+               to_string(row.kind), "capacity", row.capacity, "depth_limit", row.depth_limit,
+               "bodies", row.bodies, "updates", row.updates, "all_pairs", c.all_pairs,
+               "testable_pairs", c.testable_pairs, "true_pairs", c.true_pairs, "missed", c.missed,
+               "invented", c.invented, "candidates", c.candidates, "false_candidates",
+               c.false_candidates(), "false_per_true", row.false_per_true(), "pair_tests",
+               c.pair_tests, "entries", c.entries, "entries_per_body", row.entries_per_body(),
+               "box_tests", c.box_tests, "nodes", c.nodes, "depth", row.depth);
   each_timing(row.timing, "seconds", "iqr", "seconds_iqr", visit);
 }
 

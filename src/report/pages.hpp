@@ -2,7 +2,6 @@
 #pragma once
 
 #include "measure/broad_phase_cost.hpp"
-#include "measure/stability_map.hpp"
 #include "report/problem_rows.hpp"
 #include "report/stress_tables.hpp"
 

@@ -20,12 +20,9 @@ void each_field(const StressOutcome& outcome, Visit&& visit) {
   visit(Field("group"), outcome.of.group);
   visit(Field("", "verdict"), report::verdict_of(result));
   visit(Field("good", ""), result.good);
-  visit(Field("figure"), result.figure);
-  visit(Field("sense"), result.at_least ? "at least" : "at most");
-  visit(Field("bound"), result.bound);
-  visit(Field("unit"), result.unit);
-  visit(Field("what"), outcome.of.what);
-  visit(Field("detail"), result.detail);
+  visit_fields(visit, "figure", result.figure, "sense", result.at_least ? "at least" : "at most",
+               "bound", result.bound, "unit", result.unit, "what", outcome.of.what, "detail",
+               result.detail);
 }
 
 }  // namespace lantern::measure
