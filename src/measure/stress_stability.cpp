@@ -2,7 +2,6 @@
 #include <complex>
 #include <numbers>
 
-#include "measure/stability_map.hpp"
 #include "measure/stress_scene.hpp"
 
 namespace lantern::measure {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "measure/error_metric.hpp"
+#include "measure/row.hpp"
 
 namespace lantern::measure {
 

@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "measure/error_metric.hpp"
 #include "measure/plan.hpp"
+#include "measure/row.hpp"
 
 namespace lantern::measure {
 namespace {

@@ -252,6 +252,12 @@ class StageBench {
   std::vector<Entry> entries_;
 };
 
+const std::vector<std::uint64_t>& bodies_of(const BoxWorkload& workload,
+                                            const BoxBenchConfig& config) {
+  if (!config.bodies.empty()) return config.bodies;
+  return config.full ? workload.full : workload.bodies;
+}
+
 class Bench {
  public:
   Bench(BoxBenchResult& result, const BoxBenchWatch& watch)
@@ -265,17 +271,11 @@ class Bench {
   void run() {
     if (own_) return run(*own_, nullptr);
     for (const BoxWorkload* workload : config_.workloads)
-      for (const std::uint64_t bodies : bodies_of(*workload))
+      for (const std::uint64_t bodies : bodies_of(*workload, config_))
         run(stage_of(*workload, bodies, config_.seed), workload);
   }
 
  private:
-  const std::vector<std::uint64_t>& bodies_of(const BoxWorkload& workload) const {
-    return !config_.bodies.empty() ? config_.bodies
-           : config_.full          ? workload.full
-                                   : workload.bodies;
-  }
-
   void gather() {
     all_ = own_box_contestants();
     if (config_.peers)
@@ -317,7 +317,7 @@ class Bench {
                           static_cast<double>(sampled) * share * share);
     }
     for (const BoxWorkload* workload : config_.workloads)
-      for (const std::uint64_t bodies : bodies_of(*workload))
+      for (const std::uint64_t bodies : bodies_of(*workload, config_))
         require_room(workload->name, bodies, bodies < 8 ? 0 : pairs_of(*workload, bodies));
   }
 
@@ -398,9 +398,7 @@ std::size_t box_stages(const BoxBenchConfig& config) {
   if (config.own) return 1;
   std::size_t stages = 0;
   for (const BoxWorkload* workload : config.workloads)
-    stages += !config.bodies.empty() ? config.bodies.size()
-              : config.full          ? workload->full.size()
-                                     : workload->bodies.size();
+    stages += bodies_of(*workload, config).size();
   return stages;
 }
 

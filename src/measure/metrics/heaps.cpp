@@ -171,7 +171,7 @@ class HangingChain : public ErrorMetric {
     for (const std::size_t i : moving_bodies(scenario)) require_at_rest(scenario, i);
     const std::vector<BodyState> states = first_states(scenario);
     for (const LinkSpec& link : links_) {
-      const Vec<3> span = upper(link, states) - lower(link, states);
+      const Vec<3> span = far_end(link, states) - lower(link, states);
       if (glm::dot(span, g) > 0 || !are_nearly_parallel(span, g))
         refuse_problem(scenario, "it does not hang straight down");
       const bool is_pin = link.kind == LinkSpec::Kind::pin;
@@ -189,7 +189,7 @@ class HangingChain : public ErrorMetric {
   void look(const Observation& now) override {
     double grown = -length_;
     for (const LinkSpec& link : links_)
-      grown += glm::length(upper(link, now.states) - lower(link, now.states));
+      grown += glm::length(far_end(link, now.states) - lower(link, now.states));
     stretch_.meet(grown);
     burdens_.look(now, tension_);
   }
@@ -197,9 +197,6 @@ class HangingChain : public ErrorMetric {
  private:
   Vec<3> lower(const LinkSpec& link, const std::vector<BodyState>& states) const {
     return point_of(states[link.a], link.at_a);
-  }
-  Vec<3> upper(const LinkSpec& link, const std::vector<BodyState>& states) const {
-    return link.b ? point_of(states[*link.b], link.at_b) : link.at_b;
   }
 
   std::vector<LinkSpec> links_;  // from above

@@ -27,6 +27,10 @@ Vec<3> point_of(const BodyState& state, const Vec<3>& at) {
   return state.position + matrix(state.orientation) * at;
 }
 
+Vec<3> far_end(const LinkSpec& link, const std::vector<BodyState>& states) {
+  return link.b ? point_of(states[*link.b], link.at_b) : link.at_b;
+}
+
 JointGaps::JointGaps(const Scenario& scenario) {
   const std::vector<BodyState> states = first_states(scenario);
   for (const LinkSpec& link : scenario.links) {
@@ -38,8 +42,7 @@ JointGaps::JointGaps(const Scenario& scenario) {
 }
 
 double JointGaps::distance(const LinkSpec& link, const std::vector<BodyState>& states) {
-  const Vec<3> end = link.b ? point_of(states[*link.b], link.at_b) : link.at_b;
-  return glm::length(point_of(states[link.a], link.at_a) - end);
+  return glm::length(point_of(states[link.a], link.at_a) - far_end(link, states));
 }
 
 void JointGaps::look(const std::vector<BodyState>& states) {
@@ -84,7 +87,7 @@ Linkage linkage_of(const Scenario& scenario, const std::vector<std::size_t>& bod
     if (!place(link.a)) refuse_problem(scenario, "nothing moves on one of its joints");
     Linkage::Joint joint{*place(link.a), {}, flat_long(link.at_a), flat_long(link.at_b), {}};
     if (link.b) joint.b = place(*link.b);
-    const Vec<3> end = link.b ? point_of(states[*link.b], link.at_b) : link.at_b;
+    const Vec<3> end = far_end(link, states);
     if (link.b && !joint.b) joint.at_b = flat_long(end);
     const double gap = glm::length(point_of(states[link.a], link.at_a) - end);
     if (link.kind == LinkSpec::Kind::distance) joint.length = link.rest_length.value_or(gap);
@@ -117,17 +120,13 @@ using Swinging = std::vector<std::vector<TrajectoryMetric::Exact>>;  // at each 
 std::shared_ptr<const Swinging> swinging(const Scenario& scenario) {
   const std::vector<std::size_t> bodies = dynamic_bodies(scenario);
   Linkage linkage = linkage_of(scenario, bodies);
-  auto all = std::make_shared<Swinging>();
-  const ProblemSpec& problem = *scenario.problem;
-  for (std::uint32_t n = 0; n <= problem.samples; ++n) {
-    auto& states = all->emplace_back();
-    const auto& now = linkage.at(static_cast<long double>(problem.seconds) * n / problem.samples);
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      const Linkage::Body& body = now[i];
-      states.push_back({bodies[i], Vec<3>(glm::vec<3, long double>(body.position, 0)),
-                        Vec<3>(glm::vec<3, long double>(body.velocity, 0))});
-    }
-  }
+  auto all = at_samples(*scenario.problem, [&](long double time) {
+    std::vector<TrajectoryMetric::Exact> states;
+    for (const Linkage::Body& body : linkage.at(time))
+      states.push_back({bodies[states.size()], Vec<3>(LongVec(body.position, 0)),
+                        Vec<3>(LongVec(body.velocity, 0))});
+    return states;
+  });
   LANTERN_CHECK(linkage.energy_error(), <, 1e-12L);
   return all;
 }
@@ -263,7 +262,8 @@ void top_slope(const Top& top, const TopState& y, TopState& dy) {
   dy = {turning.w, turning.x, turning.y, turning.z, rate.x, rate.y, rate.z};
 }
 
-std::vector<TopMoment> top_motion(const Top& top, const ProblemSpec& problem) {
+std::shared_ptr<const std::vector<TopMoment>> top_motion(const Top& top,
+                                                         const ProblemSpec& problem) {
   const LongQuat& q = top.orientation;
   TopState y{q.w, q.x, q.y, q.z, top.spin.x, top.spin.y, top.spin.z};
   TopState scale(7, 1.0L);
@@ -271,18 +271,15 @@ std::vector<TopMoment> top_motion(const Top& top, const ProblemSpec& problem) {
       std::max(1.0L, std::max({std::abs(y[4]), std::abs(y[5]), std::abs(y[6])}));
   for (std::size_t i = 4; i < 7; ++i) scale[i] = fastest;
   DormandPrince<long double> method(1e-16L, scale);
-  std::vector<TopMoment> all;
   long double time = 0;
-  for (std::uint32_t n = 0; n <= problem.samples; ++n) {
-    const long double end = static_cast<long double>(problem.seconds) * n / problem.samples;
+  return at_samples(problem, [&](long double end) -> TopMoment {
     method.run([&](long double, const TopState& now, TopState& dy) { top_slope(top, now, dy); },
                time, end, y);
     time = end;
     const LongQuat at = quaternion_of(y);
     const LongVec w(y[4], y[5], y[6]);
-    all.push_back({at, top.pivot + at * top.arm, at * glm::cross(w, top.arm)});
-  }
-  return all;
+    return {at, top.pivot + at * top.arm, at * glm::cross(w, top.arm)};
+  });
 }
 
 class HeavyTop : public ErrorMetric {
@@ -357,7 +354,7 @@ void require_heavy_top(const Scenario& scenario) { top_of(scenario); }
 
 MetricMaker heavy_top_metric(const Scenario& scenario) {
   const Top top = top_of(scenario);
-  const auto exact = std::make_shared<std::vector<TopMoment>>(top_motion(top, *scenario.problem));
+  const auto exact = top_motion(top, *scenario.problem);
   return [&scenario, top, exact] { return std::make_unique<HeavyTop>(scenario, top, exact); };
 }
 
