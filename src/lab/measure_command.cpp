@@ -20,7 +20,7 @@
 #include "lab/experiment_run.hpp"
 #include "lab/measure_unsuited.hpp"
 #include "language/method.hpp"
-#include "measure/plan.hpp"
+#include "measure/run.hpp"
 #include "report/benches.hpp"
 #include "report/measure_document.hpp"
 #include "report/pages.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "measure/plan.hpp"
+#include "measure/run.hpp"
 
 namespace lantern::lab {
 

@@ -1,7 +1,6 @@
-#include "measure/plan.hpp"
-
 #include "embedded/problems.hpp"
 #include "measure/peers.hpp"
+#include "measure/run.hpp"
 #include "measure/solvers.hpp"
 
 namespace lantern::measure {

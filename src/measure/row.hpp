@@ -87,8 +87,6 @@ using MetricMaker = std::function<std::unique_ptr<ErrorMetric>()>;
 // Refused, naming what is wrong, if the scenario is not such a problem: two springs where the
 // oscillator has one, say.
 MetricMaker metrics_of(const Scenario& scenario);
-// One of them.
-std::unique_ptr<ErrorMetric> make_error_metric(const Scenario& scenario);
 
 // Throws Refused as that does, as far as it can be told at once: to know some answers takes runs of
 // their own, or the cube of their bodies.

@@ -12,7 +12,7 @@
 #include "fuzz/energy.hpp"
 #include "language/text/problems.hpp"
 #include "language/text/toml_tree.hpp"
-#include "measure/plan.hpp"
+#include "measure/run.hpp"
 #include "render/svg.hpp"
 #include "run/director.hpp"
 #include "run/tally.hpp"

@@ -103,12 +103,12 @@ class StageBench {
     e.row.workload = stage_.workload;
     e.row.dimension = stage_.dimension();
     e.row.bodies = stage_.bodies();
-    e.row.contestant = who.name();
-    e.row.version = who.version();
+    e.row.contestant = who.name;
+    e.row.version = who.version;
     if (left_out) return refuse(e, "left out", *left_out);
     const BoxSetting start = likely(who, known);
     const BoxSetting best = quickest(who, stage_, start, config_.search);
-    known[{stage_.workload, who.name()}] = {best, stage_.bodies()};
+    known[{stage_.workload, who.name}] = {best, stage_.bodies()};
     warm_up(e, best);
   }
 
@@ -159,12 +159,12 @@ class StageBench {
 
   BoxSetting likely(const BoxContestant& who, const Known& known) const {
     BoxSetting start = who.likely(stage_);
-    const auto found = known.find({stage_.workload, who.name()});
+    const auto found = known.find({stage_.workload, who.name});
     if (found == known.end()) return start;
     const auto& [setting, bodies] = found->second;
     if (setting.second == 0) return setting;
     const double growth = static_cast<double>(stage_.bodies()) / static_cast<double>(bodies);
-    const double children = who.name() == "kd_tree" ? 1 : stage_.dimension();
+    const double children = who.name == "kd_tree" ? 1 : stage_.dimension();
     start = setting;
     start.second += static_cast<int>(std::lround(std::log2(growth) / children));
     return who.has(start) ? start : setting;
@@ -279,11 +279,10 @@ class Bench {
   void gather() {
     all_ = own_box_contestants();
     if (config_.peers)
-      for (auto& who : peer_box_contestants(result_.missing)) all_.push_back(std::move(who));
-    keep_asked_for(all_, config_.only, result_.missing,
-                   [](const auto& who) { return who->name(); });
-    for (const auto& who : all_)
-      result_.contestants.push_back({who->name(), who->version(), who->how()});
+      for (BoxContestant& who : peer_box_contestants(result_.missing))
+        all_.push_back(std::move(who));
+    keep_asked_for(all_, config_.only, result_.missing, [](const auto& who) { return who.name; });
+    for (const auto& who : all_) result_.contestants.push_back({who.name, who.version, who.how});
   }
 
   // From two small worlds of its sort.
@@ -293,8 +292,8 @@ class Bench {
       const BoxStage stage{"", BoxTask::pairs, boxes_of(workload, n, 1, config_.seed),
                            Questions<2>{}};
       for (const auto& who : own_box_contestants())
-        if (who->name() == "sort_and_sweep") {
-          const auto run = who->start(stage, {});
+        if (who.name == "sort_and_sweep") {
+          const auto run = who.start(stage, {});
           run->step(0);
           return static_cast<double>(run->found().size() + 1);
         }
@@ -360,9 +359,9 @@ class Bench {
     StageBench bench(config_, stage);
     std::vector<BoxStage> smaller;
     for (const auto& who : all_) {
-      if (!who->can(stage)) continue;
-      watch_(stage_number_, fmt::format("{}: {} looks for its best setting", words, who->name()));
-      bench.enter(*who, too_slow(*who, stage, smaller, workload), known_);
+      if (!who.can(stage)) continue;
+      watch_(stage_number_, fmt::format("{}: {} looks for its best setting", words, who.name));
+      bench.enter(who, too_slow(who, stage, smaller, workload), known_);
     }
     watch_(stage_number_++, words + ": rounds");
     bench.run_rounds();
@@ -387,7 +386,7 @@ class Bench {
   const BoxBenchConfig& config_;
   const BoxBenchWatch& watch_;
   std::optional<BoxStage> own_;  // of a user's own boxes
-  std::vector<std::unique_ptr<BoxContestant>> all_;
+  std::vector<BoxContestant> all_;
   StageBench::Known known_;
   std::size_t stage_number_ = 0;
 };

@@ -34,27 +34,23 @@ class BoxRun {
   virtual BoxCounts counts() const { return {}; }
 };
 
-class BoxContestant {
- public:
-  virtual ~BoxContestant() = default;
-  virtual std::string name() const = 0;
-  virtual std::string version() const { return {}; }  // of another library; empty for ours
-  virtual std::string how() const { return {}; }      // it is run, of another library
-  virtual bool can(const BoxStage& stage) const = 0;
-  // From which the quickest is looked for.
-  virtual BoxSetting likely(const BoxStage& stage) const = 0;
-  virtual bool has(const BoxSetting& setting) const = 0;
-  virtual std::string words(const BoxSetting& setting) const = 0;  // may be empty
-  // The stage outlives the run.
-  virtual std::unique_ptr<BoxRun> start(const BoxStage& stage, const BoxSetting& setting) const = 0;
-  bool is_peer() const { return !version().empty(); }
+struct BoxContestant {
+  std::string name;
+  std::string version = {};  // of another library; empty for ours
+  std::string how = {};      // it is run, of another library
+  std::function<bool(const BoxStage&)> can;
+  std::function<BoxSetting(const BoxStage&)> likely;  // from which the quickest is looked for
+  std::function<bool(const BoxSetting&)> has;
+  std::function<std::string(const BoxSetting&)> words;  // may be empty
+  // The stage and the contestant outlive the run.
+  std::function<std::unique_ptr<BoxRun>(const BoxStage&, const BoxSetting&)> start;
 };
 
 // Ours: each kind but those whose parts a designer gives (bsp), `auto` first where there is one.
-std::vector<std::unique_ptr<BoxContestant>> own_box_contestants();
+std::vector<BoxContestant> own_box_contestants();
 
 // The libraries whose modules are there; a line in `missing` for each other.
-std::vector<std::unique_ptr<BoxContestant>> peer_box_contestants(std::vector<std::string>& missing);
+std::vector<BoxContestant> peer_box_contestants(std::vector<std::string>& missing);
 
 // Brings pairs into the order of their ids; `bodies` is more than any of these. What others find is
 // ordered by this within their time.

@@ -250,12 +250,10 @@ class Heap : public ErrorMetric {
   }
 
  protected:
-  const std::vector<std::size_t>& bodies() const { return bodies_; }
-  double size() const { return size_; }
-
- private:
   std::vector<std::size_t> bodies_;
   double size_;
+
+ private:
   double quiet_from_;
   EnergyMeter energy_;
   std::vector<BodyState> quiet_;
@@ -285,7 +283,7 @@ class Contained : public Heap {
   void look(const Observation& now) override {
     Heap::look(now);
     out_ = 0;
-    for (const std::size_t i : bodies()) {
+    for (const std::size_t i : bodies_) {
       const Vec<3>& at = now.states[i].position;
       out_ += at.x < container_->lo.x || at.x > container_->hi.x || at.y < container_->lo.y ||
               at.z < container_->lo.z || at.z > container_->hi.z;
@@ -293,7 +291,7 @@ class Contained : public Heap {
   }
   std::optional<std::string> collapse() const override {
     if (out_ == 0) return std::nullopt;
-    return fmt::format("{} of {} bodies have left the container", out_, bodies().size());
+    return fmt::format("{} of {} bodies have left the container", out_, bodies_.size());
   }
 
  private:
@@ -305,7 +303,7 @@ class Contained : public Heap {
 class Standing : public Heap {
  public:
   explicit Standing(const Scenario& scenario) : Heap(scenario, 0.5) {
-    for (const std::size_t i : bodies()) {
+    for (const std::size_t i : bodies_) {
       require_at_rest(scenario, i);
       starts_.push_back(scenario.bodies[i].position);
     }
@@ -314,10 +312,10 @@ class Standing : public Heap {
   void look(const Observation& now) override {
     Heap::look(now);
     for (std::size_t n = 0; n < starts_.size(); ++n)
-      moved_.meet(glm::length(now.states[bodies()[n]].position - starts_[n]));
+      moved_.meet(glm::length(now.states[bodies_[n]].position - starts_[n]));
   }
   std::optional<std::string> collapse() const override {
-    if (!(moved_.value() > size())) return std::nullopt;
+    if (!(moved_.value() > size_)) return std::nullopt;
     return fmt::format("a body has moved by {:.2g} units", moved_.value());
   }
 

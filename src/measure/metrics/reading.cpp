@@ -223,10 +223,6 @@ MetricMaker metrics_of(const Scenario& scenario) {
   return row_of_problem(scenario).metrics(scenario);
 }
 
-std::unique_ptr<ErrorMetric> make_error_metric(const Scenario& scenario) {
-  return metrics_of(scenario)();
-}
-
 void require_problem(const Scenario& scenario) {
   const Problem& problem = row_of_problem(scenario);
   if (problem.require)
