@@ -135,7 +135,7 @@ Chapter mean_chapter(const FrameBenchResult& result) {
 }
 
 Chapter start_chapter(const FrameBenchResult& result) {
-  Table table{"", {{"ms", false}, {"bare context"}, {"first 1280 x 720 file"}, {"ratio"}}};
+  Table table{"", columns_of({"ms|", "bare context", "first 1280 x 720 file", "ratio"})};
   for (const StartTimes& s : result.starts)
     table.lines.push_back(
         {{},
@@ -179,10 +179,8 @@ class FramesBench : public ExperimentOf<FrameBenchResult> {
     return {
         {"FILE", &names_, "scenario files; the default is six of Lantern's in which much moves"},
         rounds_option("repeats; the median counts", c.rounds, 1000),
-        {"--frames",
-         &c.most_frames,
-         "of a sequence, at most; those that differ count",
-         {.value = "N", .least = 2, .most = 10000}}};
+        option("--frames", &c.most_frames, {.value = "N", .least = 2, .most = 10000},
+               "of a sequence, at most; those that differ count")};
   }
   void prepare() override {
     if (names_.empty())

@@ -193,29 +193,21 @@ class PairsBench : public ExperimentOf<BoxBenchResult> {
   Options options() override {
     BoxBenchConfig& c = result_.config;
     return {
-        {"--workload",
-         &workloads_,
-         "only these: uniform, clustered, mixed, thin, coincident, brownian, free_fall, gravity, "
-         "town, or what is asked: rays, first_hits, boxes, balls; uniform_2d is only one of two "
-         "dimensions",
-         {.value = "NAME", .one_each = true}},
-        {"--bodies",
-         &c.bodies,
-         "how many boxes; the default is each workload's own numbers",
-         {.value = "N", .least = 2, .most = 2e7, .one_each = true}},
+        option("--workload", &workloads_, {.value = "NAME", .one_each = true},
+               "only these: uniform, clustered, mixed, thin, coincident, brownian, free_fall, "
+               "gravity, town, or what is asked: rays, first_hits, boxes, balls; uniform_2d is "
+               "only one of two dimensions"),
+        option("--bodies", &c.bodies, {.value = "N", .least = 2, .most = 2e7, .one_each = true},
+               "how many boxes; the default is each workload's own numbers"),
         only_option("only these: quadtree, sort_and_sweep, CGAL, ...", c.only),
-        {"--boxes",
-         &boxes_,
-         "boxes of your own instead: CSV, a line a box (lo_x,lo_y,hi_x,hi_y or named columns), or "
-         ".aabbs of Broadmark",
-         {.value = "FILE", .without = "--workload"}},
+        option("--boxes", &boxes_, {.value = "FILE", .without = "--workload"},
+               "boxes of your own instead: CSV, a line a box (lo_x,lo_y,hi_x,hi_y or named "
+               "columns), or .aabbs of Broadmark"),
         {"--full", &c.full, "up to a million boxes: the better part of an hour"},
         peers_option("without other libraries", c.peers),
-        {"--seconds",
-         &seconds_,
-         "that a contestant is timed at a world, but three rounds at least; the default is 0.1, "
-         "with --full 4",
-         {.value = "S", .above_0 = true}},
+        option("--seconds", &seconds_, {.value = "S", .above_0 = true},
+               "that a contestant is timed at a world, but three rounds at least; the default is "
+               "0.1, with --full 4"),
         longest_option("leave out who needs more seconds a step than this; the default is 1, with "
                        "--full 10",
                        longest_),

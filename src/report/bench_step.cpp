@@ -88,14 +88,8 @@ Table work_table(const std::vector<StepRow>& rows, const std::string& pile) {
 
 // Ours, as exact as each peer and a hundred times more.
 Table comparison_table(const std::vector<StepComparison>& all, const std::string& pile) {
-  Table table{"",
-              {{"as exact as", false},
-               {"of its depth"},
-               {"deepest"},
-               {"its ms"},
-               {"our ms"},
-               {"of its time"},
-               {"by", false}}};
+  Table table{"", columns_of({"as exact as|", "of its depth", "deepest", "its ms", "our ms",
+                              "of its time", "by|"})};
   for (const StepComparison& c : all) {
     if (c.pile != pile) continue;
     const bool is_met = c.our_ms > 0;
@@ -153,24 +147,18 @@ class StepBench : public ExperimentOf<StepBenchResult> {
   Options options() override {
     StepBenchConfig& c = result_.config;
     return {
-        {"--pile",
-         &piles_,
-         "boxes2d:N, balls2d:N, boxes3d:N, balls3d:N; the default is some of 500 and 2,000",
-         {.value = "PILE", .one_each = true}},
-        {"--seconds",
-         &seconds_,
-         "of the fall; the default is 4, with --full 10",
-         {.value = "S", .least = 1, .most = 3600}},
+        option("--pile", &piles_, {.value = "PILE", .one_each = true},
+               "boxes2d:N, balls2d:N, boxes3d:N, balls3d:N; the default is some of 500 and 2,000"),
+        option("--seconds", &seconds_, {.value = "S", .least = 1, .most = 3600},
+               "of the fall; the default is 4, with --full 10"),
         longest_option("a solver ends early at a pile that takes it more seconds than this; the "
                        "default is 20, with --full 600",
                        longest_),
         only_option("only these: soft:8, impulse:100, Box2D, ...", c.only),
         {"--full", &full_, "500, 2,000 and 5,000 boxes and balls in 2D and 3D: hours"},
         peers_option("without other engines", c.peers),
-        {"--broad-phase",
-         &broad_phase_,
-         "ours: sort_and_sweep, quadtree, octree, ...",
-         {.value = "KIND"}}};
+        option("--broad-phase", &broad_phase_, {.value = "KIND"},
+               "ours: sort_and_sweep, quadtree, octree, ...")};
   }
   void prepare() override {
     StepBenchConfig& c = result_.config;

@@ -21,6 +21,15 @@ std::vector<std::size_t> widths_of(const Table& table) {
 
 }  // namespace
 
+std::vector<Table::Column> columns_of(std::initializer_list<std::string> names) {
+  std::vector<Table::Column> columns;
+  for (const std::string& name : names) {
+    const bool is_words = name.ends_with('|');
+    columns.push_back({name.substr(0, name.size() - is_words), !is_words});
+  }
+  return columns;
+}
+
 char machine_letter(std::size_t machine) { return static_cast<char>('A' + machine % 26); }
 
 std::vector<Choice> choices_of(const std::vector<Contestant>& contestants) {

@@ -68,6 +68,9 @@ struct Document {
   std::vector<Chapter> chapters = {};
 };
 
+// Columns of numbers, but for those whose names end in a "|": these are of words.
+std::vector<Table::Column> columns_of(std::initializer_list<std::string> names);
+
 // 'A', 'B', ...
 char machine_letter(std::size_t machine);
 

@@ -155,6 +155,9 @@ PlotPoint level_point(const Timing& timing, double unit, double y);
 
 // --- as a command runs it ---
 
+inline Option option(const char* names, OptionTarget to, OptionTraits is, const char* help) {
+  return {names, to, help, is};
+}
 // What several benches have.
 Option only_option(const char* help, std::vector<std::string>& only);
 Option peers_option(const char* help, bool& peers);

@@ -159,14 +159,8 @@ std::vector<Bar> measured_bars() {
 }
 
 Table table_of(const std::vector<Bar>& bars) {
-  Table table{"",
-              {{"quantity", false},
-               {"bar", false},
-               {"measured", false},
-               {"decades from the bar"},
-               {"", false},
-               {"best seen elsewhere", false},
-               {"read from", false}}};
+  Table table{"", columns_of({"quantity|", "bar|", "measured|", "decades from the bar", "|",
+                              "best seen elsewhere|", "read from|"})};
   for (const Bar& b : bars) {
     const auto met = b.met();
     table.lines.push_back({{},
