@@ -3,7 +3,7 @@
 #pragma once
 
 #include "measure/atlas_peer.hpp"
-#include "measure/bench.hpp"
+#include "measure/row.hpp"
 
 namespace lantern::measure {
 

@@ -3,8 +3,8 @@
 // is look at too many, and that is what is counted here beside the time.
 #pragma once
 
-#include "measure/bench.hpp"
 #include "measure/boxes/worlds.hpp"
+#include "measure/row.hpp"
 
 namespace lantern::measure {
 

@@ -2,7 +2,6 @@
 // other engines, at the same piles in the same run.
 #pragma once
 
-#include "measure/bench.hpp"
 #include "measure/invariants.hpp"
 
 namespace lantern::measure {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "draw/plot.hpp"
-#include "measure/bench.hpp"
+#include "measure/row.hpp"
 
 namespace lantern::report {
 

@@ -2,8 +2,8 @@
 // and what rays, boxes and balls meet.
 #pragma once
 
-#include "measure/bench.hpp"
 #include "measure/boxes/worlds.hpp"
+#include "measure/row.hpp"
 
 namespace lantern::measure {
 
