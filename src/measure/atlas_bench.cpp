@@ -221,6 +221,39 @@ std::vector<TextureSet> sets_of(const AtlasBenchConfig& config) {
   return sets;
 }
 
+// Ours: the taught rule with the tallest texture first; leaves that choose; the same with textures
+// turned. `partly`: what has no place is left out; otherwise packing ends as soon as it is known
+// that not all have one.
+std::vector<AtlasPeer> own_atlas_packers(bool partly) {
+  const auto by = [](OwnPacker::Rule rule) {
+    return [rule = std::move(rule)](std::span<const TextureSize> sizes) {
+      return std::make_unique<OwnPacker>(sizes, rule);
+    };
+  };
+  const auto choosing = [&](bool turn) {
+    return by(
+        [=](auto sizes, const Rect& atlas) { return best_texture(sizes, atlas, turn, partly); });
+  };
+  return {{"first_fit", "", "the taught rule: the tallest first, each into the first leaf it fits",
+           by([=](auto sizes, const Rect& atlas) { return first_fit(sizes, atlas, partly); })},
+          {"best_texture", "", "each free leaf chooses the texture that leaves least of it",
+           choosing(false)},
+          {"best_texture:turn", "", "the same, and textures may be turned by 90 degrees",
+           choosing(true)}};
+}
+
+// Those that `config` asks for, ours first; a line in `missing` for each module that is not there.
+// Throws Refused for names that are none.
+std::vector<AtlasPeer> atlas_contestants(const AtlasBenchConfig& config,
+                                         std::vector<std::string>& missing) {
+  std::vector<AtlasPeer> all = own_atlas_packers(config.atlas.has_value());
+  if (config.peers)
+    for (AtlasPeer& peer : peers_of<AtlasPeer>(kAtlasModules, "lantern_atlas_peers", missing))
+      all.push_back(std::move(peer));
+  keep_asked_for(all, config.only, missing, [](const AtlasPeer& one) { return one.name; });
+  return all;
+}
+
 }  // namespace
 
 // The sets of textures that atlases are measured with, and those of a user's own file.
@@ -264,34 +297,6 @@ TextureSet read_texture_sizes(const std::filesystem::path& file) {
 }
 
 // --- who packs, and what makes a layout right ---
-
-std::vector<AtlasPeer> own_atlas_packers(bool partly) {
-  const auto by = [](OwnPacker::Rule rule) {
-    return [rule = std::move(rule)](std::span<const TextureSize> sizes) {
-      return std::make_unique<OwnPacker>(sizes, rule);
-    };
-  };
-  const auto choosing = [&](bool turn) {
-    return by(
-        [=](auto sizes, const Rect& atlas) { return best_texture(sizes, atlas, turn, partly); });
-  };
-  return {{"first_fit", "", "the taught rule: the tallest first, each into the first leaf it fits",
-           by([=](auto sizes, const Rect& atlas) { return first_fit(sizes, atlas, partly); })},
-          {"best_texture", "", "each free leaf chooses the texture that leaves least of it",
-           choosing(false)},
-          {"best_texture:turn", "", "the same, and textures may be turned by 90 degrees",
-           choosing(true)}};
-}
-
-std::vector<AtlasPeer> atlas_contestants(const AtlasBenchConfig& config,
-                                         std::vector<std::string>& missing) {
-  std::vector<AtlasPeer> all = own_atlas_packers(config.atlas.has_value());
-  if (config.peers)
-    for (AtlasPeer& peer : peers_of<AtlasPeer>(kAtlasModules, "lantern_atlas_peers", missing))
-      all.push_back(std::move(peer));
-  keep_asked_for(all, config.only, missing, [](const AtlasPeer& one) { return one.name; });
-  return all;
-}
 
 void check_layout(std::span<const TextureSize> sizes,
                   std::span<const std::optional<TexturePlace>> places, AtlasRow& row) {

@@ -32,6 +32,17 @@ bool pass_through(const World<D>& world, BodyId a, BodyId b) {
   });
 }
 
+// Of two bodies, at their deepest; 0 if they do not overlap.
+template <int D>
+double overlap_between(const Body<D>& a, const Body<D>& b) {
+  const auto manifold = collide<D>(placed(a), placed(b), 0.0);
+  double depth = 0;
+  if (manifold)
+    for (const ManifoldPoint<D>& point : manifold->points())
+      depth = std::max(depth, -point.separation);
+  return depth;
+}
+
 constexpr double kRoom = 2.5;   // bodies start within so many units of the middle
 constexpr double kTight = 0.8;  // and where they shall overlap, within these
 constexpr int kTries = 20;      // to find a place without overlap
@@ -227,16 +238,6 @@ class SceneMaker {
 }  // namespace
 
 template <int D>
-double overlap_between(const Body<D>& a, const Body<D>& b) {
-  const auto manifold = collide<D>(placed(a), placed(b), 0.0);
-  double depth = 0;
-  if (manifold)
-    for (const ManifoldPoint<D>& point : manifold->points())
-      depth = std::max(depth, -point.separation);
-  return depth;
-}
-
-template <int D>
 double overlap_of(const World<D>& world) {
   const auto& bodies = world.bodies();
   double depth = 0;
@@ -279,8 +280,6 @@ EnergyTrial follow_energy(World<D>& world, double step, int steps, const WatchEn
   return trial;
 }
 
-template double overlap_between(const Body<2>&, const Body<2>&);
-template double overlap_between(const Body<3>&, const Body<3>&);
 template double overlap_of(const World<2>&);
 template double overlap_of(const World<3>&);
 template EnergyTrial follow_energy(World<2>&, double, int, const WatchEnergy&);

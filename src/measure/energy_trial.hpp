@@ -37,10 +37,6 @@ EnergyTrial follow_energy(World<D>& world, double step, int steps, const WatchEn
 template <int D>
 double overlap_of(const World<D>& world);
 
-// Of two bodies, at their deepest; 0 if they do not overlap.
-template <int D>
-double overlap_between(const Body<D>& a, const Body<D>& b);
-
 // Random worlds that hold contacts and joints to the law of energy.
 
 // Runs the world of this seed, flat if it is even: 2 to 12 boxes, balls and capsules of aspects to

@@ -69,11 +69,6 @@ void bench_frames(FrameBenchResult& result, std::vector<FrameSequence> sequences
                   const std::filesystem::path& folder,
                   const std::function<void(std::size_t)>& begun);
 
-// `config.rounds` new processes for each of the two times. Writes one file into `folder` and
-// removes it. Throws BackendError if a process fails.
-StartTimes measure_start(const DrawList& list, const std::filesystem::path& folder,
-                         const FrameBenchConfig& config, bool shaders_known);
-
 std::vector<FrameMean> means_of(const FrameBenchResult& result);
 
 // The file of the scenario that a word means.

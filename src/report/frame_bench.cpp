@@ -87,6 +87,38 @@ class CairoPeer {
   std::optional<CairoPainter> painter_;
 };
 
+// `config.rounds` new processes for each of the two times. Writes one file into `folder` and
+// removes it. Throws BackendError if a process fails.
+StartTimes measure_start(const DrawList& list, const std::filesystem::path& folder,
+                         const FrameBenchConfig& config, bool shaders_known) {
+  const std::filesystem::path path = folder / "first.png";
+  const auto prepare = [&] {
+    if (!shaders_known) ::setenv("MESA_SHADER_CACHE_DISABLE", "1", 1);
+  };
+  const auto bare = [&] {
+    prepare();
+    // Left to the system, as a process would at its end: to take it down is no part of the start.
+    Context::create(config.backend).release();
+  };
+  const auto frame = [&] {
+    prepare();
+    auto renderer = std::make_unique<Renderer>(Context::create(config.backend), 1280, 720);
+    Image image;
+    renderer->draw(list, config.theme, false, image);
+    write_file(path, encode_png(image, PngEffort::fast, {}, 0));
+    static_cast<void>(renderer.release());
+  };
+  if (shaders_known) seconds_in_new_process(frame);  // fills the cache
+  std::vector<double> bare_seconds, frame_seconds;
+  for (int i = 0; i < config.rounds; ++i) {
+    bare_seconds.push_back(seconds_in_new_process(bare));
+    frame_seconds.push_back(seconds_in_new_process(frame));
+  }
+  std::error_code ignored;
+  std::filesystem::remove(path, ignored);
+  return {shaders_known, quantile(bare_seconds, 0.5), quantile(frame_seconds, 0.5)};
+}
+
 struct Round {
   double seconds = 0;
   double bytes = 0;
@@ -253,36 +285,6 @@ void keep_what_differs(FrameSequence& sequence, const FrameBenchConfig& config) 
 }  // namespace
 
 // --- how soon a process has its first picture on the disk ---
-
-StartTimes measure_start(const DrawList& list, const std::filesystem::path& folder,
-                         const FrameBenchConfig& config, bool shaders_known) {
-  const std::filesystem::path path = folder / "first.png";
-  const auto prepare = [&] {
-    if (!shaders_known) ::setenv("MESA_SHADER_CACHE_DISABLE", "1", 1);
-  };
-  const auto bare = [&] {
-    prepare();
-    // Left to the system, as a process would at its end: to take it down is no part of the start.
-    Context::create(config.backend).release();
-  };
-  const auto frame = [&] {
-    prepare();
-    auto renderer = std::make_unique<Renderer>(Context::create(config.backend), 1280, 720);
-    Image image;
-    renderer->draw(list, config.theme, false, image);
-    write_file(path, encode_png(image, PngEffort::fast, {}, 0));
-    static_cast<void>(renderer.release());
-  };
-  if (shaders_known) seconds_in_new_process(frame);  // fills the cache
-  std::vector<double> bare_seconds, frame_seconds;
-  for (int i = 0; i < config.rounds; ++i) {
-    bare_seconds.push_back(seconds_in_new_process(bare));
-    frame_seconds.push_back(seconds_in_new_process(frame));
-  }
-  std::error_code ignored;
-  std::filesystem::remove(path, ignored);
-  return {shaders_known, quantile(bare_seconds, 0.5), quantile(frame_seconds, 0.5)};
-}
 
 void bench_frames(FrameBenchResult& result, std::vector<FrameSequence> sequences,
                   const fs::path& folder, const std::function<void(std::size_t)>& begun) {

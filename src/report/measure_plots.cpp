@@ -21,6 +21,40 @@ PlotPoint point_of(const Row& row, double cost) {
   return point;
 }
 
+// "error: state (“traj”), against: closed form", with the unit of what is not relative.
+std::string error_words(const ProblemRows& problem) {
+  const std::string norm = main_norm(problem);
+  std::string words = norm.empty() ? "error" : "error: " + norm_words(norm);
+  if (!norm.empty() && norm_words(norm) != norm) words += " (“" + norm + "”)";
+  const auto with_norm = std::ranges::find_if(
+      problem.rows, [](const Row& row) { return !row.norms.empty() && row.norms[0].unit != "1"; });
+  if (with_norm != problem.rows.end()) words += ", " + with_norm->norms[0].unit;
+  for (const Row& row : problem.rows)
+    if (!row.reference.empty()) return words + ", against: " + row.reference;
+  return words;
+}
+
+// Whether a count of work is the same for all runs that have it, so that nothing is to be seen.
+bool is_one_count(const ProblemRows& problem, const WorkCount& work) {
+  std::set<double> counts;
+  for (const Row& row : problem.rows)
+    if (const auto count = work.of(row)) counts.insert(*count);
+  return counts.size() == 1;
+}
+
+// Far-off values go to the upper edge too, if there are others.
+void send_far_ones_off(Plot& plot) {
+  const auto far = [](const PlotPoint& p) { return p.at.y > kFarOff; };
+  bool any_near = false, any_far = false;
+  for (const PlotSeries& s : plot.series)
+    for (const PlotPoint& p : s.points)
+      if (!p.beyond) (far(p) ? any_far : any_near) = true;
+  if (!any_near || !any_far) return;
+  for (PlotSeries& s : plot.series)
+    for (PlotPoint& p : s.points) p.beyond = p.beyond || far(p);
+  plot.beyond += ", or beyond 1000";
+}
+
 // What a step costs, the middle of all rows: turns a floor by steps into one by cost.
 std::optional<double> cost_of_step(std::span<const Row> rows, const Cost& cost) {
   std::vector<double> ratios;
@@ -129,30 +163,6 @@ Plot drift_plot(const ProblemRows& problem, const Looks& looks, double step, Sam
 }
 
 }  // namespace
-
-void send_far_ones_off(Plot& plot) {
-  const auto far = [](const PlotPoint& p) { return p.at.y > kFarOff; };
-  bool any_near = false, any_far = false;
-  for (const PlotSeries& s : plot.series)
-    for (const PlotPoint& p : s.points)
-      if (!p.beyond) (far(p) ? any_far : any_near) = true;
-  if (!any_near || !any_far) return;
-  for (PlotSeries& s : plot.series)
-    for (PlotPoint& p : s.points) p.beyond = p.beyond || far(p);
-  plot.beyond += ", or beyond 1000";
-}
-
-std::string error_words(const ProblemRows& problem) {
-  const std::string norm = main_norm(problem);
-  std::string words = norm.empty() ? "error" : "error: " + norm_words(norm);
-  if (!norm.empty() && norm_words(norm) != norm) words += " (“" + norm + "”)";
-  const auto with_norm = std::ranges::find_if(
-      problem.rows, [](const Row& row) { return !row.norms.empty() && row.norms[0].unit != "1"; });
-  if (with_norm != problem.rows.end()) words += ", " + with_norm->norms[0].unit;
-  for (const Row& row : problem.rows)
-    if (!row.reference.empty()) return words + ", against: " + row.reference;
-  return words;
-}
 
 std::pair<Plot, Plot> plots_of(const ProblemRows& problem, const Looks& looks) {
   if (!has_whole_errors(problem)) return {left_plot(problem, looks), right_plot(problem, looks)};
@@ -271,13 +281,6 @@ Plot step_plot(const ProblemRows& problem, const Cost& value, const Looks& looks
   }
   plot.x_name = "step h, seconds";
   return plot;
-}
-
-bool is_one_count(const ProblemRows& problem, const WorkCount& work) {
-  std::set<double> counts;
-  for (const Row& row : problem.rows)
-    if (const auto count = work.of(row)) counts.insert(*count);
-  return counts.size() == 1;
 }
 
 // --- how error and energy go with time ---

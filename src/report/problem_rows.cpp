@@ -5,6 +5,9 @@
 namespace lantern::report {
 namespace {
 
+// It chooses its steps itself, and moves the bodies without the world's step.
+bool is_adaptive(std::string_view method) { return method == "dormand_prince"; }
+
 struct KnownMethod {
   std::string_view name, words;
   int look;

@@ -24,9 +24,6 @@ struct MethodRows {
 };
 std::vector<MethodRows> by_method(const ProblemRows& problem);
 
-// It chooses its steps itself, and moves the bodies without the world's step.
-inline bool is_adaptive(std::string_view method) { return method == "dormand_prince"; }
-
 // "explicit Euler" of "explicit_euler", "soft contacts (16 sub-steps)" of "soft:16"; a peer's name
 // stays as it is.
 std::string method_words(std::string_view method);
@@ -107,12 +104,6 @@ std::string problem_words(const ProblemRows& problem);
 // The scenario's file, without its folder.
 std::string file_name(const ProblemRows& problem);
 
-// "error: state (“traj”), against: closed form", with the unit of what is not relative.
-std::string error_words(const ProblemRows& problem);
-
-// Far-off values go to the upper edge too, if there are others.
-void send_far_ones_off(Plot& plot);
-
 // A method as a line of a plot, without points. `looks` must hold it (looks_of).
 PlotSeries series_of(const MethodRows& method, const Looks& looks);
 
@@ -124,9 +115,6 @@ void put_into_bands(Plot& plot);
 // goes to the upper edge. Where errors are whole numbers, wrong runs are open marks. `looks` must
 // hold every method (looks_of).
 Plot step_plot(const ProblemRows& problem, const Cost& value, const Looks& looks);
-
-// Whether a count of work is the same for all runs that have it, so that nothing is to be seen.
-bool is_one_count(const ProblemRows& problem, const WorkCount& work);
 
 // How runs of a problem go astray with time, of runs with one step: that which most methods share,
 // of several the finest. Series are in the order of by_method, without points for who has no such

@@ -173,6 +173,27 @@ const button=document.createElement('button');button.type='button';button.textCo
 button.onclick=()=>boxes.forEach(b=>{b.checked=wanted(b)});place.append(button);}
 )js";
 
+// The variables of a theme's colours, which the plots below are painted with: "--r3:#a0b1c2;...".
+std::string web_colors(std::string_view name) {
+  const Theme theme = *theme_named(name);
+  std::string text;
+  for (std::size_t role = 1; role < theme.colors.size(); ++role) {
+    const Color& c = theme.colors[role];
+    text += fmt::format("--r{}:#{:02x}{:02x}{:02x};", role, c.r, c.g, c.b);
+  }
+  return text;
+}
+
+// A sample of the series' line and mark, for a legend.
+std::string web_sample(const PlotInk& ink) {
+  DrawList list;
+  draw_plot_line(ink, {1, 7}, {33, 7}, 2, list);
+  draw_plot_mark(ink, {17, 7}, 4.6, false, list);
+  std::string text = "<svg class=\"sample\" viewBox=\"0 0 34 14\" aria-hidden=\"true\">";
+  for (const DrawShape& shape : list.shapes) text += to_tag(shape);
+  return text + "</svg>";
+}
+
 // The colours that the style names, by what they are for.
 std::string named_colors() {
   constexpr std::pair<std::string_view, Role> kNamed[] = {
@@ -360,25 +381,6 @@ class WebPage {
 };
 
 }  // namespace
-
-std::string web_colors(std::string_view name) {
-  const Theme theme = *theme_named(name);
-  std::string text;
-  for (std::size_t role = 1; role < theme.colors.size(); ++role) {
-    const Color& c = theme.colors[role];
-    text += fmt::format("--r{}:#{:02x}{:02x}{:02x};", role, c.r, c.g, c.b);
-  }
-  return text;
-}
-
-std::string web_sample(const PlotInk& ink) {
-  DrawList list;
-  draw_plot_line(ink, {1, 7}, {33, 7}, 2, list);
-  draw_plot_mark(ink, {17, 7}, 4.6, false, list);
-  std::string text = "<svg class=\"sample\" viewBox=\"0 0 34 14\" aria-hidden=\"true\">";
-  for (const DrawShape& shape : list.shapes) text += to_tag(shape);
-  return text + "</svg>";
-}
 
 std::string web_plot(const Plot& plot, const std::vector<std::string>& classes) {
   return PlotWriter(plot, classes).text();

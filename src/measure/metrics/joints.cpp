@@ -31,25 +31,40 @@ Vec<3> far_end(const LinkSpec& link, const std::vector<BodyState>& states) {
   return link.b ? point_of(states[*link.b], link.at_b) : link.at_b;
 }
 
-JointGaps::JointGaps(const Scenario& scenario) {
-  const std::vector<BodyState> states = first_states(scenario);
-  for (const LinkSpec& link : scenario.links) {
-    if (link.kind == LinkSpec::Kind::spring) continue;
-    const bool is_pin = link.kind == LinkSpec::Kind::pin;
-    joints_.push_back({link, is_pin ? 0 : link.rest_length.value_or(distance(link, states))});
-  }
-  if (joints_.empty()) refuse_problem(scenario, "it has no joints");
-}
-
-double JointGaps::distance(const LinkSpec& link, const std::vector<BodyState>& states) {
-  return glm::length(point_of(states[link.a], link.at_a) - far_end(link, states));
-}
-
-void JointGaps::look(const std::vector<BodyState>& states) {
-  for (const Joint& joint : joints_) worst_.meet(distance(joint.link, states) - joint.length);
-}
-
 namespace {
+
+// --- how far the joints of a scenario part, by the states of its bodies alone ---
+
+class JointGaps {
+ public:
+  // Of its pins and rods. Refuses a scenario without any.
+  explicit JointGaps(const Scenario& scenario) {
+    const std::vector<BodyState> states = first_states(scenario);
+    for (const LinkSpec& link : scenario.links) {
+      if (link.kind == LinkSpec::Kind::spring) continue;
+      const bool is_pin = link.kind == LinkSpec::Kind::pin;
+      joints_.push_back({link, is_pin ? 0 : link.rest_length.value_or(distance(link, states))});
+    }
+    if (joints_.empty()) refuse_problem(scenario, "it has no joints");
+  }
+
+  void look(const std::vector<BodyState>& states) {
+    for (const Joint& joint : joints_) worst_.meet(distance(joint.link, states) - joint.length);
+  }
+  double worst() const { return worst_.value(); }  // units, so far
+
+ private:
+  struct Joint {
+    LinkSpec link;
+    double length = 0;  // 0 of a pin
+  };
+  static double distance(const LinkSpec& link, const std::vector<BodyState>& states) {
+    return glm::length(point_of(states[link.a], link.at_a) - far_end(link, states));
+  }
+
+  std::vector<Joint> joints_;
+  Worst worst_;
+};
 
 // --- what swings ---
 

@@ -128,28 +128,7 @@ bool turns(const BodySpec& body);  // contacts may turn it
 // Inertia over m r²: 2/5 of a ball, 1/2 of a disc.
 double roundness(const Scenario& scenario);
 
-// What is read from the states of a run alone: how far joints part, how the energy changes.
-
-// --- how far the joints of a scenario part, by the states of its bodies alone ---
-
-class JointGaps {
- public:
-  // Of its pins and rods. Refuses a scenario without any.
-  explicit JointGaps(const Scenario& scenario);
-
-  void look(const std::vector<BodyState>& states);
-  double worst() const { return worst_.value(); }  // units, so far
-
- private:
-  struct Joint {
-    LinkSpec link;
-    double length = 0;  // 0 of a pin
-  };
-  static double distance(const LinkSpec& link, const std::vector<BodyState>& states);
-
-  std::vector<Joint> joints_;
-  Worst worst_;
-};
+// --- what is read from the states of a run alone ---
 
 // As the bodies are at first.
 std::vector<BodyState> first_states(const Scenario& scenario);
