@@ -148,7 +148,7 @@ class Asked : public BoxRun {
 
 // --- who takes part ---
 
-constexpr int kDeepest = 16;
+constexpr int kMostDepth = 16;
 constexpr std::array kMargins = {0.0, 0.05, 0.1, 0.2, 0.4};
 
 template <int D>
@@ -179,14 +179,14 @@ BoxContestant own_contestant(StructureKind kind) {
     const double children = is_kd ? 2 : std::pow(2.0, stage.dimension());
     const double leaves = std::max(1.0, static_cast<double>(stage.bodies()) / 8);
     return {4, std::clamp(static_cast<int>(std::lround(std::log(leaves) / std::log(children))), 1,
-                          kDeepest)};
+                          kMostDepth)};
   };
   who.has = [=](const BoxSetting& s) {
     if (traits.has(Setting::levels)) return s.first >= 0 && s.first <= 3 && s.second == 0;
     if (traits.has(Setting::margin))
       return s.first >= 0 && s.first < static_cast<int>(kMargins.size()) && s.second == 0;
     if (!traits.splits) return s == BoxSetting{};
-    return s.first >= 1 && s.first <= 9 && s.second >= 1 && s.second <= kDeepest;
+    return s.first >= 1 && s.first <= 9 && s.second >= 1 && s.second <= kMostDepth;
   };
   who.words = [=](const BoxSetting& s) -> std::string {
     if (traits.has(Setting::levels)) return counted(1 << s.first, "level");
