@@ -6,13 +6,11 @@
 
 #include "app/folders/kept_files.hpp"
 #include "app/terminal.hpp"
-#include "base/number.hpp"
-#include "base/counted.hpp"
 #include "base/hash.hpp"
+#include "base/number.hpp"
 #include "draw/theme.hpp"
 #include "render/png.hpp"
 #include "render/renderer.hpp"
-#include "render/seal.hpp"
 #include "render/svg.hpp"
 
 namespace lantern::app {

@@ -10,14 +10,10 @@
 #include <fmt/format.h>
 
 #include "base/number.hpp"
-#include "draw/count_words.hpp"
 #include "draw/font.hpp"
-#include "draw/notes.hpp"
-#include "draw/panels.hpp"
-#include "frame/parts/asked.hpp"
-#include "base/grouped.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
+#include "frame/parts/asked.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -4,12 +4,11 @@
 #include <vector>
 
 #include "draw/marks.hpp"
-#include "draw/panels.hpp"
+#include "draw/panel.hpp"
 #include "draw/pen.hpp"
+#include "draw/world/narrow_marks.hpp"
 #include "frame/parts/asked.hpp"
 #include "frame/parts/motion.hpp"
-#include "draw/panel.hpp"
-#include "draw/world/narrow_marks.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "base/number.hpp"
-#include "base/grouped.hpp"
 #include "language/counts.hpp"
 
 namespace lantern::draw {

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "base/grouped.hpp"
+#include "base/number.hpp"
 #include "draw/legend.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"

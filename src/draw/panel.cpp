@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/check.hpp"
+#include "frame/parts/panels.hpp"
 
 namespace lantern::draw {
 

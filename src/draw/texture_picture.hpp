@@ -2,11 +2,11 @@
 // one hue, so that textures differ without colour too.
 #pragma once
 
-#include "draw/pattern.hpp"
-#include "frame/parts/atlas.hpp"
 #include <cstdint>
+
 #include "draw/draw_list.hpp"
 #include "frame/frame.hpp"
+#include "frame/parts/atlas.hpp"
 
 namespace lantern::draw {
 

@@ -10,10 +10,9 @@
 #include <fmt/format.h>
 
 #include "frame/frame.hpp"
-#include "geometry/vec.hpp"
 #include "frame/parts/asked.hpp"
 #include "frame/parts/panels.hpp"
-#include "geometry/angle.hpp"
+#include "geometry/vec.hpp"
 
 namespace lantern::frame {
 namespace {

@@ -17,7 +17,6 @@
 #include "geometry/flat.hpp"
 #include "geometry/plane.hpp"
 #include "language/code_text.hpp"
-#include "geometry/polygon.hpp"
 #include "language/scenario.hpp"
 #include "physics/world_config.hpp"
 #include "spatial/structure.hpp"

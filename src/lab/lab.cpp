@@ -13,8 +13,8 @@
 #include "base/stop.hpp"
 #include "embedded/version.hpp"
 #include "lab/commands.hpp"
-#include "measure/error_metric.hpp"
 #include "measure/peers.hpp"
+#include "measure/row.hpp"
 #include "report/benches.hpp"
 
 namespace lantern::lab {

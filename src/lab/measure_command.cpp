@@ -8,7 +8,6 @@
 #include "app/report_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
-#include "base/counted.hpp"
 #include "base/json_writer.hpp"
 #include "base/number.hpp"
 #include "base/stop.hpp"
@@ -16,13 +15,11 @@
 #include "lab/commands.hpp"
 #include "language/method.hpp"
 #include "measure/peers.hpp"
-#include "measure/plan.hpp"
-#include "measure/problems.hpp"
+#include "measure/run.hpp"
 #include "report/benches.hpp"
+#include "report/document.hpp"
 #include "report/measure_document.hpp"
-#include "report/measure_files.hpp"
 #include "report/pages.hpp"
-#include "report/words.hpp"
 
 namespace lantern::lab {
 namespace {

@@ -9,7 +9,7 @@
 #include "base/stop.hpp"
 #include "base/suggest.hpp"
 #include "lab/commands.hpp"
-#include "measure/stability_map.hpp"
+#include "measure/stress.hpp"
 #include "report/pages.hpp"
 #include "report/stress_tables.hpp"
 

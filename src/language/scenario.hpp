@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-#include "geometry/angle.hpp"
+#include "geometry/vec.hpp"
 #include "language/specs.hpp"
 
 namespace lantern::language {

@@ -1,24 +1,69 @@
 #include "measure/atlas_bench.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
+#include <charconv>
 #include <numeric>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "atlas/atlas.hpp"
-#include "base/clock.hpp"
-#include "base/stop.hpp"
-#include "base/timing.hpp"
-#include "measure/peer_modules.hpp"
+#include "base/file.hpp"
+#include "base/number.hpp"
+#include "base/random.hpp"
+#include "measure/csv_file.hpp"
+#include "measure/peers.hpp"
 
 namespace lantern::measure {
-
-// --- who packs, and what makes a layout right ---
-
 namespace {
+
+constexpr std::size_t kMostSizesBytes = std::size_t{256} << 20;
+constexpr int kLongestSide = 65536;  // pixels
+constexpr const char* kLineAdvice = "a texture is a line WIDTH,HEIGHT in pixels: 64,32";
+
+struct SetDoc {
+  std::string_view name, words;
+  TextureSize least, most;
+  bool powers = false;  // of two, by exponents
+};
+constexpr SetDoc kSets[] = {
+    {"square", "width and height 1 ... 64", {1, 1}, {64, 64}},
+    {"powers", "width and height powers of two, 1 ... 64", {0, 0}, {6, 6}, true},
+    {"tall", "width 2 ... 9, height 10 ... 209", {2, 10}, {9, 209}},
+    {"glyphs", "width 6 ... 19, height 12 ... 21", {6, 12}, {19, 21}},
+};
+
+int pixels_in(const CsvFile& csv, const CsvCell& cell) {
+  int value = 0;
+  const char* end = cell.text.data() + cell.text.size();
+  const auto [at, error] = std::from_chars(cell.text.data(), end, value);
+  if (error != std::errc() || at != end)
+    csv.fail(cell.column, fmt::format("{} is no whole number of pixels", in_quotes(cell.text)),
+             kLineAdvice);
+  if (value < 1 || value > kLongestSide)
+    csv.fail(cell.column, fmt::format("{} pixels", value),
+             fmt::format("a texture has 1 to {} pixels each way", kLongestSide));
+  return value;
+}
+
+std::vector<TextureSize> sizes_in(CsvFile csv) {
+  constexpr std::array<std::string_view, 2> kColumns{"width", "height"};
+  std::vector<TextureSize> sizes;
+  std::vector<std::size_t> columns;
+  csv.each_line([&](const std::vector<CsvCell>& cells) {
+    if (cells.size() != 2)
+      csv.fail(cells.back().column,
+               fmt::format("{}, where 2 are expected", counted(cells.size(), "value")),
+               kLineAdvice);
+    if (columns.empty()) {
+      const char begins = cells[0].text.empty() ? '-' : cells[0].text[0];
+      const bool is_number = begins == '-' || (begins >= '0' && begins <= '9');
+      columns = is_number ? std::vector<std::size_t>{0, 1}
+                          : csv.named(cells, kColumns, "the columns are width and height");
+      if (!is_number) return;
+    }
+    std::array<int, 2> size{};
+    for (std::size_t i = 0; i < 2; ++i) size[columns[i]] = pixels_in(csv, cells[i]);
+    sizes.push_back({size[0], size[1]});
+  });
+  return sizes;
+}
 
 using Places = std::vector<std::optional<TexturePlace>>;
 
@@ -88,70 +133,6 @@ Packed best_texture(std::span<const TextureSize> sizes, const Rect& leaf, bool t
 constexpr PeerModule kAtlasModules[] = {
     {"stb_rect_pack", "lantern_peer_atlas_stb.so", "libstb-dev"},
 };
-
-}  // namespace
-
-std::vector<AtlasPeer> own_atlas_packers(bool partly) {
-  const auto by = [](OwnPacker::Rule rule) {
-    return [rule = std::move(rule)](std::span<const TextureSize> sizes) {
-      return std::make_unique<OwnPacker>(sizes, rule);
-    };
-  };
-  const auto choosing = [&](bool turn) {
-    return by(
-        [=](auto sizes, const Rect& atlas) { return best_texture(sizes, atlas, turn, partly); });
-  };
-  return {{"first_fit", "", "the taught rule: the tallest first, each into the first leaf it fits",
-           by([=](auto sizes, const Rect& atlas) { return first_fit(sizes, atlas, partly); })},
-          {"best_texture", "", "each free leaf chooses the texture that leaves least of it",
-           choosing(false)},
-          {"best_texture:turn", "", "the same, and textures may be turned by 90 degrees",
-           choosing(true)}};
-}
-
-std::vector<AtlasPeer> atlas_contestants(const AtlasBenchConfig& config,
-                                         std::vector<std::string>& missing) {
-  std::vector<AtlasPeer> all = own_atlas_packers(config.atlas.has_value());
-  if (config.peers)
-    for (AtlasPeer& peer : peers_of<AtlasPeer>(kAtlasModules, "lantern_atlas_peers", missing))
-      all.push_back(std::move(peer));
-  keep_asked_for(all, config.only, missing, [](const AtlasPeer& one) { return one.name; });
-  return all;
-}
-
-void check_layout(std::span<const TextureSize> sizes,
-                  std::span<const std::optional<TexturePlace>> places, AtlasRow& row) {
-  std::vector<Rect> rects;
-  std::int64_t area = 0;
-  for (std::size_t i = 0; i < std::min(sizes.size(), places.size()); ++i) {
-    if (!places[i]) continue;
-    const auto& [r, turned] = *places[i];
-    rects.push_back(r);
-    area += std::int64_t{r.width} * r.height;
-    row.turned += turned;
-    row.wrong_sizes +=
-        sizes[i] != (turned ? TextureSize{r.height, r.width} : TextureSize{r.width, r.height});
-    row.outside += r.x < 0 || r.y < 0 || r.x + r.width > row.width || r.y + r.height > row.height;
-  }
-  row.packed = rects.size();
-  row.fill = static_cast<double>(area) / (static_cast<double>(row.width) * row.height);
-  // Sorted by x, only those that begin before a texture ends can lie over it.
-  std::ranges::sort(rects, {}, &Rect::x);
-  for (std::size_t i = 0; i < rects.size(); ++i) {
-    stop_if_asked();
-    const Rect& a = rects[i];
-    for (std::size_t j = i + 1; j < rects.size() && rects[j].x < a.x + a.width; ++j)
-      row.overlaps += rects[j].y < a.y + a.height && a.y < rects[j].y + rects[j].height;
-  }
-  if (row.overlaps + row.outside + row.wrong_sizes == 0) return;
-  row.status = "wrong";
-  row.reason = fmt::format("{} overlaps, {} outside, {} of another size", row.overlaps, row.outside,
-                           row.wrong_sizes);
-}
-
-// --- the rounds ---
-
-namespace {
 
 constexpr double kTurnSeconds = 0.004;  // of calls in one turn
 constexpr double kSearchSeconds = 1.0;  // that searches of one contestant are timed at a set
@@ -241,7 +222,114 @@ std::vector<TextureSet> sets_of(const AtlasBenchConfig& config) {
   return sets;
 }
 
+// Ours: the taught rule with the tallest texture first; leaves that choose; the same with textures
+// turned. `partly`: what has no place is left out; otherwise packing ends as soon as it is known
+// that not all have one.
+std::vector<AtlasPeer> own_atlas_packers(bool partly) {
+  const auto by = [](OwnPacker::Rule rule) {
+    return [rule = std::move(rule)](std::span<const TextureSize> sizes) {
+      return std::make_unique<OwnPacker>(sizes, rule);
+    };
+  };
+  const auto choosing = [&](bool turn) {
+    return by(
+        [=](auto sizes, const Rect& atlas) { return best_texture(sizes, atlas, turn, partly); });
+  };
+  return {{"first_fit", "", "the taught rule: the tallest first, each into the first leaf it fits",
+           by([=](auto sizes, const Rect& atlas) { return first_fit(sizes, atlas, partly); })},
+          {"best_texture", "", "each free leaf chooses the texture that leaves least of it",
+           choosing(false)},
+          {"best_texture:turn", "", "the same, and textures may be turned by 90 degrees",
+           choosing(true)}};
+}
+
+// Those that `config` asks for, ours first; a line in `missing` for each module that is not there.
+// Throws Refused for names that are none.
+std::vector<AtlasPeer> atlas_contestants(const AtlasBenchConfig& config,
+                                         std::vector<std::string>& missing) {
+  std::vector<AtlasPeer> all = own_atlas_packers(config.atlas.has_value());
+  if (config.peers)
+    for (AtlasPeer& peer : peers_of<AtlasPeer>(kAtlasModules, "lantern_atlas_peers", missing))
+      all.push_back(std::move(peer));
+  keep_asked_for(all, config.only, missing, [](const AtlasPeer& one) { return one.name; });
+  return all;
+}
+
 }  // namespace
+
+// The sets of textures that atlases are measured with, and those of a user's own file.
+
+const std::vector<std::string_view>& texture_set_names() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> all;
+    for (const SetDoc& doc : kSets) all.push_back(doc.name);
+    return all;
+  }();
+  return names;
+}
+
+std::string texture_set_words(std::string_view name) {
+  const auto doc = std::ranges::find(kSets, name, &SetDoc::name);
+  return doc == std::end(kSets) ? std::string() : std::string(doc->words) + ", evenly spread";
+}
+
+TextureSet texture_set(std::string_view name, std::size_t count, std::uint64_t seed) {
+  const auto doc = std::ranges::find(kSets, name, &SetDoc::name);
+  if (doc == std::end(kSets))
+    throw Refused(
+        with_suggestion(fmt::format("there is no set '{}'", name), name, texture_set_names()));
+  TextureSet set{std::string(name), {}};
+  Random random(seed);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto width = static_cast<int>(random.whole(doc->least.width, doc->most.width));
+    const auto height = static_cast<int>(random.whole(doc->least.height, doc->most.height));
+    set.sizes.push_back(doc->powers ? TextureSize{1 << width, 1 << height}
+                                    : TextureSize{width, height});
+  }
+  return set;
+}
+
+TextureSet read_texture_sizes(const std::filesystem::path& file) {
+  const std::string text = read_input(file, kMostSizesBytes);
+  TextureSet set{file.stem().string(), sizes_in(CsvFile(file.string(), text))};
+  if (set.sizes.empty())
+    throw Refused(fmt::format("{}: it has no texture; a line is WIDTH,HEIGHT", file.string()));
+  return set;
+}
+
+// --- who packs, and what makes a layout right ---
+
+void check_layout(std::span<const TextureSize> sizes,
+                  std::span<const std::optional<TexturePlace>> places, AtlasRow& row) {
+  std::vector<Rect> rects;
+  std::int64_t area = 0;
+  for (std::size_t i = 0; i < std::min(sizes.size(), places.size()); ++i) {
+    if (!places[i]) continue;
+    const auto& [r, turned] = *places[i];
+    rects.push_back(r);
+    area += std::int64_t{r.width} * r.height;
+    row.turned += turned;
+    row.wrong_sizes +=
+        sizes[i] != (turned ? TextureSize{r.height, r.width} : TextureSize{r.width, r.height});
+    row.outside += r.x < 0 || r.y < 0 || r.x + r.width > row.width || r.y + r.height > row.height;
+  }
+  row.packed = rects.size();
+  row.fill = static_cast<double>(area) / (static_cast<double>(row.width) * row.height);
+  // Sorted by x, only those that begin before a texture ends can lie over it.
+  std::ranges::sort(rects, {}, &Rect::x);
+  for (std::size_t i = 0; i < rects.size(); ++i) {
+    stop_if_asked();
+    const Rect& a = rects[i];
+    for (std::size_t j = i + 1; j < rects.size() && rects[j].x < a.x + a.width; ++j)
+      row.overlaps += rects[j].y < a.y + a.height && a.y < rects[j].y + rects[j].height;
+  }
+  if (row.overlaps + row.outside + row.wrong_sizes == 0) return;
+  row.status = "wrong";
+  row.reason = fmt::format("{} overlaps, {} outside, {} of another size", row.overlaps, row.outside,
+                           row.wrong_sizes);
+}
+
+// --- the rounds ---
 
 std::size_t atlas_bench_stages(const AtlasBenchConfig& config) {
   if (config.own) return 1;

@@ -2,16 +2,8 @@
 // same textures in the same run, in turns.
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <functional>
-#include <optional>
-#include <string>
-#include <string_view>
-#include <vector>
-
 #include "measure/atlas_peer.hpp"
-#include "measure/bench.hpp"
+#include "measure/row.hpp"
 
 namespace lantern::measure {
 
@@ -84,16 +76,6 @@ void bench_atlases(AtlasBenchResult& result, const AtlasBenchWatch& watch);
 // The fullest peer at the set of a row (of equally full ones the quickest), and null if there is
 // none.
 const AtlasRow* fullest_peer(const std::vector<AtlasRow>& rows, const AtlasRow& at);
-
-// Ours: the taught rule with the tallest texture first; leaves that choose; the same with textures
-// turned. `partly`: what has no place is left out; otherwise packing ends as soon as it is known
-// that not all have one.
-std::vector<AtlasPeer> own_atlas_packers(bool partly);
-
-// Those that `config` asks for, ours first; a line in `missing` for each module that is not there.
-// Throws Refused for names that are none.
-std::vector<AtlasPeer> atlas_contestants(const AtlasBenchConfig& config,
-                                         std::vector<std::string>& missing);
 
 // Counts overlaps, textures that lie outside, and sizes that are not theirs, and fills in what else
 // is known of a layout.

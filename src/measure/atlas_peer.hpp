@@ -3,13 +3,8 @@
 // headers.
 #pragma once
 
-#include <cstdint>
 #include <functional>
-#include <memory>
-#include <optional>
-#include <span>
 #include <string>
-#include <vector>
 
 #include "atlas/packer.hpp"
 #include "rooms.hpp"

@@ -3,14 +3,6 @@
 // measured: it is built with nothing of Lantern but headers.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <span>
-#include <string>
-#include <vector>
-
-#include "geometry/ray.hpp"
 #include "spatial/broad_phase.hpp"
 #include "spatial/query.hpp"
 

@@ -1,14 +1,10 @@
 #include "measure/broad_phase_cost.hpp"
 
-#include <algorithm>
 #include <iterator>
 #include <numeric>
 #include <tuple>
 
-#include <fmt/format.h>
-
 #include "base/memory.hpp"
-#include "base/stop.hpp"
 #include "spatial/pairs.hpp"
 
 namespace lantern::measure {

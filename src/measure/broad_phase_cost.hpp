@@ -3,17 +3,9 @@
 // is look at too many, and that is what is counted here beside the time.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <span>
-#include <string>
-#include <vector>
-
-#include "base/timing.hpp"
-#include "measure/bench.hpp"
 #include "measure/boxes/worlds.hpp"
 #include "spatial/pairs.hpp"
+#include "measure/row.hpp"
 
 namespace lantern::measure {
 

@@ -2,11 +2,6 @@
 #pragma once
 
 #include <algorithm>
-#include <span>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/error.hpp"
+#include "geometry/random_vec.hpp"
 #include "physics/forces.hpp"
 
 namespace lantern::measure {
@@ -35,8 +36,7 @@ bool pass_through(const World<D>& world, BodyId a, BodyId b) {
   });
 }
 
-}  // namespace
-
+// Of two bodies, at their deepest; 0 if they do not overlap.
 template <int D>
 double overlap_between(const Body<D>& a, const Body<D>& b) {
   const auto manifold = collide<D>(placed(a), placed(b), 0.0);
@@ -46,6 +46,200 @@ double overlap_between(const Body<D>& a, const Body<D>& b) {
       depth = std::max(depth, -point.separation);
   return depth;
 }
+
+constexpr double kRoom = 2.5;   // bodies start within so many units of the middle
+constexpr double kTight = 0.8;  // and where they shall overlap, within these
+constexpr int kTries = 20;      // to find a place without overlap
+constexpr std::array kMethods = {Integrator::semi_implicit_euler, Integrator::velocity_verlet,
+                                 Integrator::runge_kutta_4, Integrator::implicit_midpoint,
+                                 Integrator::implicit_euler};
+
+// Which extremes a scene has.
+struct Extremes {
+  bool slender, spinning, heavy, still, overlapping, jointed, pushed;
+};
+
+template <int D>
+class SceneMaker {
+ public:
+  SceneMaker(std::uint64_t seed, ContactMethod method)
+      : random_(seed),
+        extremes_{coin(), coin(), coin(), one_in(4), one_in(4), one_in(3), one_in(6)},
+        world_(config(method)),
+        step_(power(1.0 / 240, 1.0 / 10)) {
+    put_surroundings();
+    const std::int64_t count = random_.whole(2, one_in(3) ? 3 : 12);
+    for (std::int64_t i = 0; i < count; ++i) put_body();
+    if (extremes_.pushed && !placed_.empty()) push();
+  }
+
+  EnergyTrial run(const WatchEnergy& watch) {
+    const int steps = std::clamp(static_cast<int>(1.5 / step_), 30, 240);
+    return follow_energy<D>(world_, step_, steps, watch);
+  }
+
+  std::string text(std::uint64_t seed) const {
+    const WorldConfig<D>& config = world_.config();
+    std::string text =
+        fmt::format("seed {}: {}D, {}, h {:.3g}, {} sub-steps, {} sweeps, {} bodies, {} joints",
+                    seed, D, to_string(config.integrator), step_, config.sub_steps,
+                    config.iterations, placed_.size(), world_.joints().size());
+    const std::pair<bool, const char*> all[] = {
+        {config.gravity.y < 0, "gravity"},
+        {has_floor_, "floor"},
+        {has_walls_, "walls"},
+        {extremes_.slender, "slender"},
+        {extremes_.still, "still"},
+        {extremes_.spinning && !extremes_.still, "spinning"},
+        {extremes_.heavy, "mass ratios"},
+        {extremes_.overlapping, "overlapping"},
+        {extremes_.pushed, "pushed"}};
+    for (const auto& [has, what] : all)
+      if (has) text += fmt::format(", {}", what);
+    return text;
+  }
+
+ private:
+  bool one_in(int n) { return random_.whole(1, n) == 1; }
+  bool coin() { return one_in(2); }
+  double power(double lo, double hi) {  // as likely in any decade
+    return lo * std::pow(hi / lo, random_.unit());
+  }
+  double part() { return one_in(3) ? 0 : one_in(3) ? 1 : random_.unit(); }  // 0, 1, or between
+
+  WorldConfig<D> config(ContactMethod method) {
+    WorldConfig<D> config;
+    config.contacts = method;
+    if (coin()) config.gravity.y = -10;
+    config.integrator = kMethods[static_cast<std::size_t>(random_.whole(0, kMethods.size() - 1))];
+    config.sub_steps = static_cast<int>(random_.whole(1, 16));
+    config.iterations = static_cast<int>(random_.whole(1, 50));
+    return config;
+  }
+
+  void put_surroundings() {
+    const auto put = [&](const Vec<D>& normal, const Vec<D>& at) {
+      Body<D> body{.name = "side", .shape = HalfSpace<D>{normal}, .kind = BodyKind::static_body};
+      body.position = at;
+      body.material = {part(), random_.unit()};
+      world_.add(body);
+    };
+    Vec<D> up(0.0), right(0.0);
+    up.y = 1;
+    right.x = 1;
+    has_floor_ = !one_in(4);
+    has_walls_ = one_in(4);
+    if (has_floor_) put(up, -up * kRoom);
+    if (has_walls_) put(right, -right * kRoom);
+    if (has_walls_) put(-right, right * kRoom);
+  }
+
+  Shape<D> shape() {
+    const double size = random_.between(0.2, 1);
+    const double thin = extremes_.slender ? size / power(1, 1000) : size * random_.between(0.3, 1);
+    const std::int64_t kind = random_.whole(0, 3);
+    if (kind == 0) return Sphere{size};
+    if (kind == 1) return Capsule{thin, size};
+    Vec<D> half(thin);
+    half.x = size;
+    if (kind == 2) half[D - 2] = size;  // a plate, of a solid world
+    return OrientedBox<D>{half};
+  }
+
+  Rotation<D> orientation() {
+    if constexpr (D == 2)
+      return {random_.between(-3, 3)};
+    else
+      return turned(Rotation<3>{}, random_direction<3>(random_) * random_.between(0, 3));
+  }
+
+  Spin<D> spin() {
+    const double rate = extremes_.spinning ? power(1, 1e4) : random_.unit();
+    if constexpr (D == 2)
+      return coin() ? rate : -rate;
+    else
+      return random_direction<3>(random_) * rate;
+  }
+
+  // A point of the body where a joint may hold it, in its own axes: on the way to its end.
+  Vec<D> hold(const Shape<D>& shape) {
+    const Core<D> core = visit_shape<D>(
+        shape, [](const Core<D>& c) { return c; }, [](auto&) { return Core<D>{}; });
+    return core.half * random_.between(-1, 1);
+  }
+
+  void put_body() {
+    Body<D> body{.name = fmt::format("b{}", placed_.size()), .shape = shape()};
+    body.orientation = orientation();
+    if (!extremes_.still) body.velocity = random_direction<D>(random_) * random_.between(0, 10);
+    body.mass = extremes_.heavy ? power(1, 1e6) : 1;
+    body.material = {part(), part()};
+    std::optional<Joint<D>> joint = new_joint(body);
+    bool free = false;
+    for (int i = 0; i < kTries && !free; ++i) {
+      if (!joint || joint->kind == JointKind::distance || i > 0)
+        body.position = random_point<D>(random_, -1, 1) * (extremes_.overlapping ? kTight : kRoom);
+      else
+        body.position = pinned(body, *joint);
+      if (i > 0 && joint && joint->kind == JointKind::pin) joint.reset();
+      free = extremes_.overlapping || depth_of(body, joint ? joint->a : kNobody) <= 0;
+    }
+    if (!free) return;
+    const BodyId id = world_.add(body);
+    if (!extremes_.still) world_.set_angular_velocity(id, spin());
+    placed_.push_back(id);
+    if (joint) tie(*joint, id);
+  }
+
+  // To the body before; it waits for the place of the other one.
+  std::optional<Joint<D>> new_joint(const Body<D>& body) {
+    if (!extremes_.jointed || placed_.empty() || one_in(3)) return std::nullopt;
+    Joint<D> joint{.kind = coin() ? JointKind::pin : JointKind::distance, .a = placed_.back()};
+    joint.at_a = hold(world_.find(joint.a)->shape);
+    joint.at_b = hold(body.shape);
+    return joint;
+  }
+
+  Vec<D> end_of(const Body<D>& body, const Vec<D>& at) {
+    return body.position + matrix(body.orientation) * at;
+  }
+
+  Vec<D> pinned(const Body<D>& body, const Joint<D>& joint) {
+    return end_of(*world_.find(joint.a), joint.at_a) - matrix(body.orientation) * joint.at_b;
+  }
+
+  void tie(Joint<D> joint, BodyId id) {
+    joint.b = id;
+    if (joint.kind == JointKind::distance)
+      joint.length = glm::length(end_of(*world_.find(joint.a), joint.at_a) -
+                                 end_of(*world_.find(id), joint.at_b));
+    world_.add_joint(joint);
+  }
+
+  double depth_of(const Body<D>& body, BodyId joined) const {
+    double depth = 0;
+    for (const Body<D>& other : world_.bodies())
+      if (other.id != joined) depth += overlap_between(other, body);
+    return depth;
+  }
+
+  void push() {
+    const Body<D>& body = *world_.find(placed_.front());
+    const double force = random_.between(1, 20) * body.mass;
+    world_.push(body.id, random_direction<D>(random_) * force, body.position);
+  }
+
+  static constexpr BodyId kNobody = std::numeric_limits<BodyId>::max();
+
+  Random random_;
+  Extremes extremes_;
+  World<D> world_;
+  double step_;
+  bool has_floor_ = false, has_walls_ = false;
+  std::vector<BodyId> placed_;
+};
+
+}  // namespace
 
 template <int D>
 double overlap_of(const World<D>& world) {
@@ -90,11 +284,19 @@ EnergyTrial follow_energy(World<D>& world, double step, int steps, const WatchEn
   return trial;
 }
 
-template double overlap_between(const Body<2>&, const Body<2>&);
-template double overlap_between(const Body<3>&, const Body<3>&);
 template double overlap_of(const World<2>&);
 template double overlap_of(const World<3>&);
 template EnergyTrial follow_energy(World<2>&, double, int, const WatchEnergy&);
 template EnergyTrial follow_energy(World<3>&, double, int, const WatchEnergy&);
+
+EnergyTrial random_trial(std::uint64_t seed, ContactMethod method, const WatchEnergy& watch) {
+  if (seed % 2 == 0) return SceneMaker<2>(seed, method).run(watch);
+  return SceneMaker<3>(seed, method).run(watch);
+}
+
+std::string random_scene_text(std::uint64_t seed) {
+  if (seed % 2 == 0) return SceneMaker<2>(seed, ContactMethod::soft).text(seed);
+  return SceneMaker<3>(seed, ContactMethod::soft).text(seed);
+}
 
 }  // namespace lantern::measure

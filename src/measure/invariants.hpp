@@ -2,13 +2,6 @@
 // alone: by the same formulas for Lantern and for every peer.
 #pragma once
 
-#include <cstddef>
-#include <functional>
-#include <span>
-#include <vector>
-
-#include "frame/body_state.hpp"
-#include "language/scenario.hpp"
 #include "measure/row.hpp"
 
 namespace lantern::measure {

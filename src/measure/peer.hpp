@@ -2,12 +2,6 @@
 // (src/peers), loaded only when it is measured: it is built with nothing of Lantern but headers.
 #pragma once
 
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "measure/simulation.hpp"
 
 namespace lantern::measure {

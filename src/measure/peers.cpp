@@ -1,17 +1,27 @@
 #include "measure/peers.hpp"
 
-#include <algorithm>
-#include <utility>
+#include <filesystem>
 
 #include <fmt/format.h>
 
-#include "geometry/flat.hpp"
+#include "measure/boxes/bench.hpp"
 #include "measure/peer.hpp"
-#include "measure/peer_modules.hpp"
 #include "physics/body.hpp"
 
 namespace lantern::measure {
 namespace {
+
+namespace fs = std::filesystem;
+
+// Where the module is; empty if it was not built. Beside the program, or above the tests' folder: a
+// folder above a program may be that of another build.
+fs::path place_of(const PeerModule& module) {
+  std::error_code error;
+  const fs::path here = fs::read_symlink("/proc/self/exe", error).parent_path();
+  const fs::path home = here.filename() == "tests" ? here.parent_path() : here;
+  const fs::path file = home / "peers" / module.file;
+  return fs::is_regular_file(file, error) ? file : fs::path();
+}
 
 // As World::add derives it.
 template <int D>
@@ -121,6 +131,16 @@ constexpr PeerModule kModules[] = {
 };
 
 }  // namespace
+
+std::optional<Library> load_module(const PeerModule& module, std::vector<std::string>& missing) {
+  const fs::path path = place_of(module);
+  if (!path.empty()) return Library({path.c_str()});
+  missing.push_back(
+      fmt::format("{}: not built in; apt-get install {} and build again: an installed Lantern has "
+                  "no engines beside it",
+                  module.name, module.package));
+  return std::nullopt;
+}
 
 std::vector<std::unique_ptr<Solver>> load_peers(std::vector<std::string>& missing) {
   std::vector<std::unique_ptr<Solver>> solvers;

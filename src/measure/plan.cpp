@@ -1,14 +1,7 @@
-#include "measure/plan.hpp"
-
-#include <algorithm>
-#include <limits>
-
-#include <fmt/format.h>
-
-#include "base/error.hpp"
-#include "measure/dormand_prince_solver.hpp"
-#include "measure/lantern_solver.hpp"
+#include "embedded/problems.hpp"
 #include "measure/peers.hpp"
+#include "measure/run.hpp"
+#include "measure/solvers.hpp"
 
 namespace lantern::measure {
 namespace {
@@ -131,13 +124,6 @@ std::vector<PeerRecord> Plan::peers() const {
   return records;
 }
 
-std::vector<std::string> Plan::peers_there() const {
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < peers_; ++i)
-    names.push_back(fmt::format("{} {}", solvers_[i]->name(), solvers_[i]->version()));
-  return names;
-}
-
 double Plan::longest() const {
   if (options_.longest) return *options_.longest;
   if (options_.effort == Effort::quick) return 0.1;
@@ -192,6 +178,20 @@ std::vector<Row> Plan::run(std::span<const Job> jobs, const std::function<void(d
   }
   time_in_turn(trials, runs, [&](std::size_t i) { told(expected[i]); });
   return rows;
+}
+
+std::vector<std::string_view> problem_names() {
+  std::vector<std::string_view> names;
+  for (const auto& [name, text] : problem::files()) names.push_back(name);
+  std::ranges::sort(names);
+  return names;
+}
+
+Scenario known_problem(std::string_view name) {
+  for (const auto& [known, text] : problem::files())
+    if (known == name) return parse_scenario(text, fmt::format("scenarios/problems/{}.toml", name));
+  LANTERN_CHECK(name, ==, std::string_view("a known problem"));
+  return Scenario(ScenarioSpec());
 }
 
 }  // namespace lantern::measure

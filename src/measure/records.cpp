@@ -1,5 +1,9 @@
 #include "measure/records.hpp"
 
+#include <fstream>
+
+#include "embedded/lab_version.hpp"
+
 namespace lantern::measure {
 
 void CsvTable::add(std::string_view field) {
@@ -51,6 +55,30 @@ void JsonFields::write(std::string_view name, const std::vector<DriftSample>& sa
     json_.end_object();
   }
   json_.end_array();
+}
+
+namespace {
+
+std::string compiler() {
+#if defined(__clang__)
+  return fmt::format("clang {}.{}.{}", __clang_major__, __clang_minor__, __clang_patchlevel__);
+#else
+  return fmt::format("gcc {}.{}.{}", __GNUC__, __GNUC_MINOR__, __GNUC_PATCHLEVEL__);
+#endif
+}
+
+std::string processor() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+}  // namespace
+
+Circumstances here() {
+  return {
+      std::string(kVersion), std::string(kLabHash), compiler(), LANTERN_FLAGS, processor(), 1, ""};
 }
 
 }  // namespace lantern::measure

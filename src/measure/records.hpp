@@ -6,16 +6,6 @@
 // back (report/measure_json.cpp).
 #pragma once
 
-#include <cmath>
-#include <concepts>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
-#include <fmt/format.h>
-
 #include "base/json_writer.hpp"
 #include "measure/row.hpp"
 
@@ -31,6 +21,13 @@ struct Field {
   Field(const char* in_json, const char* in_csv, const char* in_group = "")
       : name(in_json), column(in_csv), group(in_group) {}
 };
+
+// Visits fields that are called alike in JSON and in CSV: names, each before its value.
+template <class Visit, class Value, class... Rest>
+void visit_fields(Visit& visit, const char* name, Value&& value, Rest&&... rest) {
+  visit(Field(name), std::forward<Value>(value));
+  if constexpr (sizeof...(rest) > 0) visit_fields(visit, std::forward<Rest>(rest)...);
+}
 
 // A hash, written as 16 digits: many readers would round so large a number.
 template <class T>

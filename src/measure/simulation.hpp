@@ -3,12 +3,6 @@
 // the same states, so that one metric fits them all.
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "frame/body_state.hpp"
 #include "language/scenario.hpp"
 #include "physics/world_config.hpp"

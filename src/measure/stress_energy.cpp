@@ -1,10 +1,7 @@
 // Contacts and joints never make energy: needles, plates, spins, mass ratios, overlaps, many steps
 // and sub-steps, and random worlds. What is known to make some is shown to.
-#include <cmath>
 
-#include <fmt/format.h>
-
-#include "measure/random_scene.hpp"
+#include "measure/energy_trial.hpp"
 #include "measure/stress_scene.hpp"
 
 namespace lantern::measure {

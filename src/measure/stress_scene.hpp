@@ -1,14 +1,6 @@
 // Worlds that the stress cases share, and their figures.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <initializer_list>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "base/error.hpp"
 #include "geometry/not_finite.hpp"
 #include "measure/stress.hpp"
 #include "physics/forces.hpp"

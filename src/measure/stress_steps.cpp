@@ -1,10 +1,6 @@
 // Steps of every length, and numbers that overflow.
-#include <cmath>
-#include <span>
 
-#include <fmt/format.h>
-
-#include "geometry/not_finite.hpp"
+#include "base/random.hpp"
 #include "measure/stress_scene.hpp"
 
 namespace lantern::measure {
@@ -147,6 +143,123 @@ double blow_up() {
   return silent;
 }
 
+// Nothing collides.
+template <int D>
+WorldConfig<D> config_of(Integrator method, double gravity = 0) {
+  return {.gravity = at<D>(0, -gravity),
+          .integrator = method,
+          .contacts = ContactMethod::none,
+          .may_sleep = false};
+}
+
+// k/m from 1e6 to 1e10 at 1/60 s: omega h from 17 to 1700. The largest relative gain of energy in
+// any step of 10 s.
+template <Integrator Method>
+StressResult stiff_spring() {
+  double worst = 0;
+  std::string where;
+  for (const double stiffness : {1e6, 1e7, 1e8, 1e9, 1e10})
+    for (const double zeta : {0.0, 1e-6, 1.0, 1e3}) {
+      World<2> world = oscillator_world(Method, std::sqrt(stiffness), zeta, 1, 0);
+      const double gain = energy_gain(world, 600);
+      if (gain > worst) where = fmt::format("worst at k/m {:g}, damping ratio {}", stiffness, zeta);
+      worst = largest(worst, gain);
+    }
+  return at_most(1e-11, worst, "relative", where.empty() ? "no step gains any" : where);
+}
+
+// Drag c/m = 1e4 at 1/60 s, a hundred times beyond what explicit methods bear: a body thrown at
+// 1 m/s never gets faster, and turns no more than its own speed about.
+template <Integrator Method>
+double stiff_drag() {
+  return worst_over({1e2, 1e3, 1e4}, [](double drag) {
+    World<3> world(config_of<3>(Method));
+    world.add({.shape = Sphere{0.5}, .velocity = {0.6, 0, 0.8}, .mass = 1, .linear_drag = drag});
+    return worst_after_steps(world, 600, kStep,
+                             [&] { return glm::length(world.bodies()[0].velocity); });
+  });
+}
+
+// A chain of masses along the x axis, soft and hard springs by turns.
+World<2> unequal_chain_of(int links, const WorldConfig<2>& config) {
+  World<2> world(config);
+  world.add(make_anchor<2>());
+  for (int i = 1; i <= links; ++i) {
+    world.add({.shape = Sphere{0.05}, .position = {0.1 * i, 0}, .mass = 1});
+    world.add_spring({.a = static_cast<BodyId>(i - 1),
+                      .b = static_cast<BodyId>(i),
+                      .rest_length = 0.1,
+                      .stiffness = i % 2 == 0 ? 1e10 : 1e2});
+  }
+  return world;
+}
+
+// Its masses are thrown along it, so slowly that none passes another one: linear, with frequencies
+// from 1 to 1e5. The largest gain of energy in 10 s.
+template <Integrator Method>
+double unequal_chain() {
+  World<2> world = unequal_chain_of(100, config_of<2>(Method));
+  Random random(3);
+  for (BodyId i = 1; i <= 100; ++i) world.set_velocity(i, {random.between(-0.01, 0.01), 0});
+  return energy_gain(world, 600);
+}
+
+// It falls from the level and swings: far from linear.
+StressResult unequal_rope(int links) {
+  World<2> world = unequal_chain_of(links, config_of<2>(Integrator::implicit_euler, kGravity));
+  const double scale = kGravity * 0.1 * links * (links + 1) / 2;  // J, of the whole fall
+  double before = total_energy(world);
+  const double worst = worst_after_steps(world, 60, kStep, [&] {
+    const double after = total_energy(world);
+    return (after - std::exchange(before, after)) / scale;
+  });
+  return at_most(1e-9, worst, "of m g l", fmt::format("most in a step of 1 s; {} masses", links));
+}
+
+// Points chosen by chance and stiff springs between them, stretched and compressed by up to 1 %:
+// the implicit method finds its step every time, and gains no energy.
+double stiff_nets() {
+  Random random(7);
+  double worst = 0;
+  for (int round = 0; round < 20; ++round) {
+    World<2> world(config_of<2>(Integrator::implicit_euler));
+    const double stiffness = 100 * std::ldexp(1.0, static_cast<int>(random.whole(0, 26)));
+    for (int i = 0; i < 12; ++i) {
+      Body<2> mass = make_ball<2>({random.between(-1, 1), random.between(-1, 1)});
+      mass.velocity = {random.between(-5, 5), 0};
+      mass.mass = random.between(0.1, 2);
+      if (i == 0) {
+        mass.kind = BodyKind::static_body;
+        mass.velocity = {0, 0};
+      }
+      world.add(mass);
+    }
+    for (BodyId i = 0; i < 12; ++i)
+      for (BodyId j = i + 1; j < 12; ++j) {
+        if (random.unit() >= 0.4) continue;
+        const double apart = glm::length(world.bodies()[j].position - world.bodies()[i].position);
+        world.add_spring({.a = i,
+                          .b = j,
+                          .rest_length = random.between(0.99, 1.01) * apart,
+                          .stiffness = stiffness,
+                          .damping = round % 3 * 10.0});
+      }
+    worst = largest(worst, energy_gain(world, 20));
+  }
+  return worst;
+}
+
+// A bob on a spring of k/m = 1e8 in place of a rod, from 90 degrees: its length may not wander, nor
+// its energy grow. An explicit method would need steps below 2e-4 s.
+double stiff_pendulum() {
+  World<2> world(config_of<2>(Integrator::implicit_euler, kGravity));
+  world.add(make_anchor<2>());
+  world.add({.shape = Sphere{0.1}, .position = {1, 0}, .mass = 1, .may_turn = false});
+  world.add_spring({.b = 1, .rest_length = 1, .stiffness = 1e8});
+  return worst_after_steps(world, 600, kStep,
+                           [&] { return std::abs(glm::length(world.bodies()[1].position) - 1); });
+}
+
 }  // namespace
 
 std::vector<StressCase> step_cases() {
@@ -170,6 +283,42 @@ std::vector<StressCase> step_cases() {
       {"blow_up", kGroup, "A spring beyond its method's limit ends the run, naming body and step.",
        none_above(0, "runs", "of 4 explicit methods that do not end naming body and step",
                   blow_up)}};
+}
+
+// Stiff springs, drag and chains, at steps far beyond what an explicit method bears.
+
+std::vector<StressCase> stiff_cases() {
+  using enum Integrator;
+  constexpr const char* kGroup = "stiff";
+  constexpr const char* kSpring =
+      "A spring of k/m = 1e6 ... 1e10 gains no energy at h = 1/60 s, at any damping.";
+  constexpr const char* kDrag = "Drag of c/m = 1e4 at h = 1/60 s makes no body faster.";
+  constexpr const char* kChain = "A chain of springs of ratio 1e8 gains no energy at h = 1/60 s.";
+  constexpr const char* kRope =
+      "A rope of springs of ratio 1e8 swings at h = 1/60 s and gains no energy.";
+  const auto drag = [](auto fastest) {
+    return none_above(1 + 1e-12, "x the start", "c/m 1e2, 1e3, 1e4", fastest);
+  };
+  // Places around 10 m are rounded by 1e-15, which k h turns into 1e-7 m/s a step.
+  const auto chain = [](auto gain) {
+    return none_above(1e-7, "relative", "energy gained in 10 s; 100 masses, k = 1e2 and 1e10",
+                      gain);
+  };
+  return {
+      {"stiff_spring_implicit_midpoint", kGroup, kSpring, stiff_spring<implicit_midpoint>},
+      {"stiff_spring_implicit_euler", kGroup, kSpring, stiff_spring<implicit_euler>},
+      {"stiff_drag_velocity_verlet", kGroup, kDrag, drag(stiff_drag<velocity_verlet>)},
+      {"stiff_drag_implicit_midpoint", kGroup, kDrag, drag(stiff_drag<implicit_midpoint>)},
+      {"stiff_drag_implicit_euler", kGroup, kDrag, drag(stiff_drag<implicit_euler>)},
+      {"unequal_chain_implicit_midpoint", kGroup, kChain, chain(unequal_chain<implicit_midpoint>)},
+      {"unequal_chain_implicit_euler", kGroup, kChain, chain(unequal_chain<implicit_euler>)},
+      {"unequal_rope", kGroup, kRope, [] { return unequal_rope(100); }},
+      {"unequal_rope_of_1000", kGroup, kRope, [] { return unequal_rope(1000); }, true},
+      {"stiff_nets", kGroup, "Nets of stiff springs find their implicit step and gain no energy.",
+       none_above(1e-9, "relative", "most above the start; 20 nets of 12 masses, k to 6.7e9",
+                  stiff_nets)},
+      {"stiff_pendulum", kGroup, "A spring of k/m = 1e8 holds a pendulum's length like a rod.",
+       none_above(0.01, "m", "the rod's length, 10 s at 1/60 s", stiff_pendulum)}};
 }
 
 }  // namespace lantern::measure

@@ -1,14 +1,6 @@
 // Spatial structures at the ends of what boxes can be: every broad phase against brute force.
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 #include <set>
 
-#include <fmt/format.h>
-
-#include "base/random.hpp"
-#include "geometry/not_finite.hpp"
 #include "geometry/random_vec.hpp"
 #include "measure/broad_phase_cost.hpp"
 #include "measure/stress_scene.hpp"

@@ -5,9 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "base/number.hpp"
 #include "base/printable.hpp"
-#include "base/counted.hpp"
-#include "base/markup.hpp"
 #include "publish/packed.hpp"
 
 namespace lantern::publish {

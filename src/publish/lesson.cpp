@@ -7,12 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/check.hpp"
-#include "base/counted.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
+#include "base/number.hpp"
 #include "base/printable.hpp"
-#include "base/markup.hpp"
 #include "base/stop.hpp"
 #include "draw/keys.hpp"
 #include "draw/theme.hpp"

@@ -10,7 +10,6 @@
 #include "base/printable.hpp"
 #include "base/stop.hpp"
 #include "draw/font.hpp"
-#include "base/utf8.hpp"
 #include "render/canvas.hpp"
 
 namespace lantern::render {

@@ -9,11 +9,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "base/check.hpp"
 #include "base/hash.hpp"
 #include "base/number.hpp"
-#include "base/check.hpp"
-#include "base/counted.hpp"
-#include "base/utf8.hpp"
+#include "base/printable.hpp"
 
 namespace lantern::render {
 namespace {

@@ -1,27 +1,16 @@
 // `bench atlas`: how full texture atlases become, and how soon.
-#include <algorithm>
 #include <charconv>
 
-#include <fmt/format.h>
-
-#include "measure/atlas_bench.hpp"
 #include "report/benches.hpp"
 
 namespace lantern::measure {
 
 template <class Visit>
 void each_field(const AtlasRow& row, Visit&& visit) {
-  visit(Field("set"), row.set);
-  visit(Field("textures"), row.textures);
-  visit(Field("contestant"), row.contestant);
-  visit(Field("version"), row.version);
-  visit(Field("status"), row.status);
-  visit(Field("reason"), row.reason);
-  visit(Field("width"), row.width);
-  visit(Field("height"), row.height);
-  visit(Field("fill"), row.fill);
-  visit(Field("packed"), row.packed);
-  visit(Field("turned"), row.turned);
+  visit_fields(visit, "set", row.set, "textures", row.textures, "contestant", row.contestant,
+               "version", row.version, "status", row.status, "reason", row.reason, "width",
+               row.width, "height", row.height, "fill", row.fill, "packed", row.packed, "turned",
+               row.turned);
   each_timing(row.timing, "seconds", "interquartile_range", "seconds_interquartile_range", visit);
   const bool searched = row.searching.repeats > 0;
   visit(Field("median", "search_seconds_median", "search_seconds"),
@@ -30,12 +19,8 @@ void each_field(const AtlasRow& row, Visit&& visit) {
         IfTimed(row.searching.lower_quartile, searched));
   visit(Field("upper_quartile", "search_seconds_upper_quartile", "search_seconds"),
         IfTimed(row.searching.upper_quartile, searched));
-  visit(Field("sides_tried"), row.sides);
-  visit(Field("leaf_tests"), row.leaf_tests);
-  visit(Field("bytes"), row.bytes);
-  visit(Field("overlaps"), row.overlaps);
-  visit(Field("outside"), row.outside);
-  visit(Field("wrong_sizes"), row.wrong_sizes);
+  visit_fields(visit, "sides_tried", row.sides, "leaf_tests", row.leaf_tests, "bytes", row.bytes,
+               "overlaps", row.overlaps, "outside", row.outside, "wrong_sizes", row.wrong_sizes);
 }
 
 }  // namespace lantern::measure
@@ -132,22 +117,14 @@ class AtlasBench : public ExperimentOf<AtlasBenchResult> {
   Options options() override {
     AtlasBenchConfig& c = result_.config;
     c.counts.clear();
-    return {{"--set",
-             &c.sets,
-             "only these: square, powers, tall, glyphs",
-             {.value = "NAME", .one_each = true}},
-            {"--count",
-             &c.counts,
-             "textures of each set; the default is 500 and 5000",
-             {.value = "N", .least = 1, .most = 1e6, .one_each = true}},
-            {"--sizes",
-             &sizes_,
-             "textures of your own instead: CSV, a line WIDTH,HEIGHT each",
-             {.value = "FILE", .without = "--set,--count"}},
-            {"--size",
-             &atlas_,
-             "into an atlas of this size; the default is the smallest square",
-             {.value = "WxH"}},
+    return {option("--set", &c.sets, {.value = "NAME", .one_each = true},
+                   "only these: square, powers, tall, glyphs"),
+            option("--count", &c.counts, {.value = "N", .least = 1, .most = 1e6, .one_each = true},
+                   "textures of each set; the default is 500 and 5000"),
+            option("--sizes", &sizes_, {.value = "FILE", .without = "--set,--count"},
+                   "textures of your own instead: CSV, a line WIDTH,HEIGHT each"),
+            option("--size", &atlas_, {.value = "WxH"},
+                   "into an atlas of this size; the default is the smallest square"),
             only_option("only these: first_fit, best_texture, stb_rect_pack, ...", c.only),
             peers_option("without other packers", c.peers),
             rounds_option("turns of each contestant; medians count", c.rounds),
@@ -168,7 +145,6 @@ class AtlasBench : public ExperimentOf<AtlasBenchResult> {
                        set.sizes.size()));
     });
   }
-  Texts texts() const override { return texts_of(result_); }
   bool is_good() const override {
     return std::ranges::none_of(result_.rows,
                                 [](const AtlasRow& row) { return row.status == "wrong"; });

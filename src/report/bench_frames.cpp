@@ -1,7 +1,5 @@
 // `bench frames`: how fast frames become files, beside cairo.
-#include <algorithm>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <thread>
 
@@ -16,34 +14,27 @@ namespace lantern::report {
 
 template <class Visit>
 void each_field(const FrameRow& row, Visit&& visit) {
-  visit(Field("sequence"), row.sequence);
-  visit(Field("writer"), row.writer);
-  visit(Field("frames"), row.frames);
-  visit(Field("frames_per_second"), row.frames_per_second);
-  visit(Field("lower_quartile"), row.lower_quartile);
-  visit(Field("upper_quartile"), row.upper_quartile);
-  visit(Field("against_cairo"), row.against_cairo);
-  visit(Field("bytes_per_file"), row.bytes_per_file);
+  visit_fields(visit, "sequence", row.sequence, "writer", row.writer, "frames", row.frames,
+               "frames_per_second", row.frames_per_second, "lower_quartile", row.lower_quartile,
+               "upper_quartile", row.upper_quartile, "against_cairo", row.against_cairo,
+               "bytes_per_file", row.bytes_per_file);
   const auto counted = [](const std::optional<std::uint64_t>& count) {
     return count ? std::optional(static_cast<double>(*count)) : std::nullopt;
   };
-  visit(Field("pixels_drawn"), counted(row.pixels_drawn));
-  visit(Field("bands_packed"), counted(row.bands_packed));
-  visit(Field("bands_kept"), counted(row.bands_kept));
+  visit_fields(visit, "pixels_drawn", counted(row.pixels_drawn), "bands_packed",
+               counted(row.bands_packed), "bands_kept", counted(row.bands_kept));
 }
 
 template <class Visit>
 void each_field(const FrameMean& mean, Visit&& visit) {
-  visit(Field("writer"), mean.writer);
-  visit(Field("against_cairo"), mean.against_cairo);
-  visit(Field("bytes_per_file"), mean.bytes_per_file);
+  visit_fields(visit, "writer", mean.writer, "against_cairo", mean.against_cairo, "bytes_per_file",
+               mean.bytes_per_file);
 }
 
 template <class Visit>
 void each_field(const StartTimes& s, Visit&& visit) {
-  visit(Field("shaders_known"), s.shaders_known);
-  visit(Field("bare_context_seconds"), s.bare_context);
-  visit(Field("first_file_seconds"), s.first_file);
+  visit_fields(visit, "shaders_known", s.shaders_known, "bare_context_seconds", s.bare_context,
+               "first_file_seconds", s.first_file);
 }
 
 namespace {
@@ -146,7 +137,7 @@ Chapter mean_chapter(const FrameBenchResult& result) {
 }
 
 Chapter start_chapter(const FrameBenchResult& result) {
-  Table table{"", {{"ms", false}, {"bare context"}, {"first 1280 x 720 file"}, {"ratio"}}};
+  Table table{"", columns_of({"ms|", "bare context", "first 1280 x 720 file", "ratio"})};
   for (const StartTimes& s : result.starts)
     table.lines.push_back(
         {{},
@@ -190,10 +181,8 @@ class FramesBench : public ExperimentOf<FrameBenchResult> {
     return {
         {"FILE", &names_, "scenario files; the default is six of Lantern's in which much moves"},
         rounds_option("repeats; the median counts", c.rounds, 1000),
-        {"--frames",
-         &c.most_frames,
-         "of a sequence, at most; those that differ count",
-         {.value = "N", .least = 2, .most = 10000}}};
+        option("--frames", &c.most_frames, {.value = "N", .least = 2, .most = 10000},
+               "of a sequence, at most; those that differ count")};
   }
   void prepare() override {
     if (names_.empty())
@@ -214,7 +203,6 @@ class FramesBench : public ExperimentOf<FrameBenchResult> {
       tell(fmt::format("sequence {} of {}, {}", i + 1, stages(), sequences_[i].name));
     });
   }
-  Texts texts() const override { return texts_of(result_); }
 
  private:
   FrameSequence sequence_of(const std::string& file) const {

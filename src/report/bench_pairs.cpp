@@ -1,39 +1,21 @@
 // `bench pairs`: all pairs of moving boxes, and what rays, boxes and balls meet.
-#include <algorithm>
-#include <set>
 
-#include <fmt/format.h>
-
-#include "measure/boxes/worlds.hpp"
 #include "report/benches.hpp"
-#include "report/words.hpp"
 
 namespace lantern::measure {
 
 template <class Visit>
 void each_field(const BoxBenchRow& row, Visit&& visit) {
-  visit(Field("workload"), row.workload);
-  visit(Field("dimension"), row.dimension);
-  visit(Field("bodies"), row.bodies);
-  visit(Field("contestant"), row.contestant);
-  visit(Field("version"), row.version);
-  visit(Field("setting"), row.setting);
-  visit(Field("status"), row.status);
-  visit(Field("reason"), row.reason);
+  visit_fields(visit, "workload", row.workload, "dimension", row.dimension, "bodies", row.bodies,
+               "contestant", row.contestant, "version", row.version, "setting", row.setting,
+               "status", row.status, "reason", row.reason);
   each_timing(row.timing, "seconds", "iqr", "seconds_iqr", visit);
   const bool timed = row.timing.repeats > 0;
   visit(Field("wall", "seconds_wall", "seconds"), IfTimed(row.wall, timed));
-  visit(Field("found"), row.found);
-  visit(Field("missed"), row.missed);
-  visit(Field("invented"), row.invented);
-  visit(Field("checked"), row.checked);
-  visit(Field("allocations"), row.allocations);
-  visit(Field("bytes"), row.bytes);
-  visit(Field("pair_tests"), row.counts.pair_tests);
-  visit(Field("box_tests"), row.counts.box_tests);
-  visit(Field("nodes_visited"), row.counts.nodes_visited);
-  visit(Field("nodes"), row.counts.nodes);
-  visit(Field("entries"), row.counts.entries);
+  visit_fields(visit, "found", row.found, "missed", row.missed, "invented", row.invented, "checked",
+               row.checked, "allocations", row.allocations, "bytes", row.bytes, "pair_tests",
+               row.counts.pair_tests, "box_tests", row.counts.box_tests, "nodes_visited",
+               row.counts.nodes_visited, "nodes", row.counts.nodes, "entries", row.counts.entries);
 }
 
 }  // namespace lantern::measure
@@ -211,29 +193,21 @@ class PairsBench : public ExperimentOf<BoxBenchResult> {
   Options options() override {
     BoxBenchConfig& c = result_.config;
     return {
-        {"--workload",
-         &workloads_,
-         "only these: uniform, clustered, mixed, thin, coincident, brownian, free_fall, gravity, "
-         "town, or what is asked: rays, first_hits, boxes, balls; uniform_2d is only one of two "
-         "dimensions",
-         {.value = "NAME", .one_each = true}},
-        {"--bodies",
-         &c.bodies,
-         "how many boxes; the default is each workload's own numbers",
-         {.value = "N", .least = 2, .most = 2e7, .one_each = true}},
+        option("--workload", &workloads_, {.value = "NAME", .one_each = true},
+               "only these: uniform, clustered, mixed, thin, coincident, brownian, free_fall, "
+               "gravity, town, or what is asked: rays, first_hits, boxes, balls; uniform_2d is "
+               "only one of two dimensions"),
+        option("--bodies", &c.bodies, {.value = "N", .least = 2, .most = 2e7, .one_each = true},
+               "how many boxes; the default is each workload's own numbers"),
         only_option("only these: quadtree, sort_and_sweep, CGAL, ...", c.only),
-        {"--boxes",
-         &boxes_,
-         "boxes of your own instead: CSV, a line a box (lo_x,lo_y,hi_x,hi_y or named columns), or "
-         ".aabbs of Broadmark",
-         {.value = "FILE", .without = "--workload"}},
+        option("--boxes", &boxes_, {.value = "FILE", .without = "--workload"},
+               "boxes of your own instead: CSV, a line a box (lo_x,lo_y,hi_x,hi_y or named "
+               "columns), or .aabbs of Broadmark"),
         {"--full", &c.full, "up to a million boxes: the better part of an hour"},
         peers_option("without other libraries", c.peers),
-        {"--seconds",
-         &seconds_,
-         "that a contestant is timed at a world, but three rounds at least; the default is 0.1, "
-         "with --full 4",
-         {.value = "S", .above_0 = true}},
+        option("--seconds", &seconds_, {.value = "S", .above_0 = true},
+               "that a contestant is timed at a world, but three rounds at least; the default is "
+               "0.1, with --full 4"),
         longest_option("leave out who needs more seconds a step than this; the default is 1, with "
                        "--full 10",
                        longest_),
@@ -257,7 +231,6 @@ class PairsBench : public ExperimentOf<BoxBenchResult> {
       tell(fmt::format("world {} of {}, {}", stage + 1, stages(), words));
     });
   }
-  Texts texts() const override { return texts_of(result_); }
   bool is_good() const override { return std::ranges::all_of(result_.rows, &BoxBenchRow::is_good); }
 
  private:

@@ -1,7 +1,4 @@
 // `bench step`: what a step of many bodies costs, and how exact it is.
-#include <algorithm>
-
-#include <fmt/format.h>
 
 #include "base/number.hpp"
 #include "base/suggest.hpp"
@@ -11,26 +8,17 @@ namespace lantern::measure {
 
 template <class Visit>
 void each_field(const StepRow& row, Visit&& visit) {
-  visit(Field("pile"), row.pile);
-  visit(Field("solver"), row.solver);
-  visit(Field("version"), row.version);
-  visit(Field("status"), row.status);
-  visit(Field("reason"), row.reason);
-  visit(Field("simulated_seconds"), row.simulated);
+  visit_fields(visit, "pile", row.pile, "solver", row.solver, "version", row.version, "status",
+               row.status, "reason", row.reason, "simulated_seconds", row.simulated);
   visit(Field("mean", "mean_ms", "step_ms"), row.mean);
   visit(Field("median", "median_ms", "step_ms"), row.median);
   visit(Field("lower_quartile", "lower_quartile_ms", "step_ms"), row.lower_quartile);
   visit(Field("upper_quartile", "upper_quartile_ms", "step_ms"), row.upper_quartile);
   visit(Field("last_second", "last_second_ms", "step_ms"), row.last_second);
   visit(Field("wall", "wall_ms", "step_ms"), row.wall);
-  visit(Field("deepest"), row.end.deepest);
-  visit(Field("mean_depth"), row.end.mean);
-  visit(Field("touching_pairs"), row.end.touching);
-  visit(Field("outside"), row.end.outside);
-  visit(Field("creep"), row.creep);
-  visit(Field("most_creep"), row.most_creep);
-  visit(Field("energy_lost"), row.lost);
-  visit(Field("energy_gained"), row.gained);
+  visit_fields(visit, "deepest", row.end.deepest, "mean_depth", row.end.mean, "touching_pairs",
+               row.end.touching, "outside", row.end.outside, "creep", row.creep, "most_creep",
+               row.most_creep, "energy_lost", row.lost, "energy_gained", row.gained);
   for (const WorldCounter& counter : kWorldCounters) {
     const std::string name(counter.name);
     visit(Field(name.c_str(), name.c_str(), "work"), row.work.*counter.count);
@@ -39,13 +27,8 @@ void each_field(const StepRow& row, Visit&& visit) {
 
 template <class Visit>
 void each_field(const StepComparison& c, Visit&& visit) {
-  visit(Field("pile"), c.pile);
-  visit(Field("peer"), c.peer);
-  visit(Field("of_its_penetration"), c.of);
-  visit(Field("deepest"), c.deepest);
-  visit(Field("peer_ms"), c.peer_ms);
-  visit(Field("our_ms"), c.our_ms);
-  visit(Field("by"), c.by);
+  visit_fields(visit, "pile", c.pile, "peer", c.peer, "of_its_penetration", c.of, "deepest",
+               c.deepest, "peer_ms", c.peer_ms, "our_ms", c.our_ms, "by", c.by);
 }
 
 }  // namespace lantern::measure
@@ -106,14 +89,8 @@ Table work_table(const std::vector<StepRow>& rows, const std::string& pile) {
 
 // Ours, as exact as each peer and a hundred times more.
 Table comparison_table(const std::vector<StepComparison>& all, const std::string& pile) {
-  Table table{"",
-              {{"as exact as", false},
-               {"of its depth"},
-               {"deepest"},
-               {"its ms"},
-               {"our ms"},
-               {"of its time"},
-               {"by", false}}};
+  Table table{"", columns_of({"as exact as|", "of its depth", "deepest", "its ms", "our ms",
+                              "of its time", "by|"})};
   for (const StepComparison& c : all) {
     if (c.pile != pile) continue;
     const bool is_met = c.our_ms > 0;
@@ -171,24 +148,18 @@ class StepBench : public ExperimentOf<StepBenchResult> {
   Options options() override {
     StepBenchConfig& c = result_.config;
     return {
-        {"--pile",
-         &piles_,
-         "boxes2d:N, balls2d:N, boxes3d:N, balls3d:N; the default is some of 500 and 2,000",
-         {.value = "PILE", .one_each = true}},
-        {"--seconds",
-         &seconds_,
-         "of the fall; the default is 4, with --full 10",
-         {.value = "S", .least = 1, .most = 3600}},
+        option("--pile", &piles_, {.value = "PILE", .one_each = true},
+               "boxes2d:N, balls2d:N, boxes3d:N, balls3d:N; the default is some of 500 and 2,000"),
+        option("--seconds", &seconds_, {.value = "S", .least = 1, .most = 3600},
+               "of the fall; the default is 4, with --full 10"),
         longest_option("a solver ends early at a pile that takes it more seconds than this; the "
                        "default is 20, with --full 600",
                        longest_),
         only_option("only these: soft:8, impulse:100, Box2D, ...", c.only),
         {"--full", &full_, "500, 2,000 and 5,000 boxes and balls in 2D and 3D: hours"},
         peers_option("without other engines", c.peers),
-        {"--broad-phase",
-         &broad_phase_,
-         "ours: sort_and_sweep, quadtree, octree, ...",
-         {.value = "KIND"}}};
+        option("--broad-phase", &broad_phase_, {.value = "KIND"},
+               "ours: sort_and_sweep, quadtree, octree, ...")};
   }
   void prepare() override {
     StepBenchConfig& c = result_.config;
@@ -230,7 +201,6 @@ class StepBench : public ExperimentOf<StepBenchResult> {
                        100 * share));
     });
   }
-  Texts texts() const override { return texts_of(result_); }
 
  private:
   std::vector<std::string> piles_;

@@ -1,9 +1,5 @@
 #include "report/document.hpp"
 
-#include <algorithm>
-
-#include <fmt/format.h>
-
 namespace lantern::report {
 namespace {
 
@@ -24,6 +20,15 @@ std::vector<std::size_t> widths_of(const Table& table) {
 }
 
 }  // namespace
+
+std::vector<Table::Column> columns_of(std::initializer_list<std::string> names) {
+  std::vector<Table::Column> columns;
+  for (const std::string& name : names) {
+    const bool is_words = name.ends_with('|');
+    columns.push_back({name.substr(0, name.size() - is_words), !is_words});
+  }
+  return columns;
+}
 
 char machine_letter(std::size_t machine) { return static_cast<char>('A' + machine % 26); }
 
@@ -90,6 +95,44 @@ std::string to_text(const Document& document) {
     for (const std::string& note : chapter.notes) text += folded(note);
   }
   return text;
+}
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return text;
+}
+
+std::string capital(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z')
+    text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
+std::string seconds_text(double seconds) {
+  if (!std::isfinite(seconds)) return "?";
+  const double size = std::abs(seconds);
+  if (size >= 1 || size == 0) return fmt::format("{:.3g} s", seconds);
+  if (size >= 0.9995e-4) return fmt::format("{:.3g} ms", seconds * 1e3);
+  if (size >= 0.9995e-7) return fmt::format("{:.3g} µs", seconds * 1e6);
+  return fmt::format("{:.3g} ns", seconds * 1e9);
+}
+
+std::string figure(double number) {
+  if (!std::isfinite(number)) return "?";
+  const double size = std::abs(number);
+  if (size == 0) return "0";
+  if (size >= 0.9995e-3 && size < 1e5) {
+    if (size >= 999.5) return fmt::format("{:.0f}", number);
+    return fmt::format("{:.3g}", number);
+  }
+  std::string text = fmt::format("{:.2e}", number);
+  const std::size_t e = text.find('e');
+  std::string lead = text.substr(0, e);
+  while (lead.back() == '0') lead.pop_back();
+  if (lead.back() == '.') lead.pop_back();
+  return fmt::format("{}e{}", lead, std::stoi(text.substr(e + 1)));
 }
 
 }  // namespace lantern::report

@@ -2,12 +2,8 @@
 // terminal and the web page are written from the same ones.
 #pragma once
 
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "draw/plot.hpp"
-#include "measure/bench.hpp"
+#include "measure/row.hpp"
 
 namespace lantern::report {
 
@@ -72,6 +68,9 @@ struct Document {
   std::vector<Chapter> chapters = {};
 };
 
+// Columns of numbers, but for those whose names end in a "|": these are of words.
+std::vector<Table::Column> columns_of(std::initializer_list<std::string> names);
+
 // 'A', 'B', ...
 char machine_letter(std::size_t machine);
 
@@ -92,5 +91,27 @@ std::string to_text(const Document& document);
 // the chapters with their plots and tables. Without network, fonts or libraries; without scripts
 // all is shown and everything but the three buttons works. The same document gives the same bytes.
 std::string to_html(const Document& document);
+
+// Numbers and names as reports write them.
+
+// "12 s", "0.8 ms", "41 µs".
+std::string seconds_text(double seconds);
+// "1e-6", "3.2e-9", "0.012": three figures, as one types them.
+std::string figure(double number);
+
+// "a", "a and b", "a, b and c".
+std::string listed(const std::vector<std::string>& names);
+
+// With a capital at its beginning, if that is a letter of ASCII.
+std::string capital(std::string text);
+
+// Plots in a web page: what draw_plot draws, with colours by style sheet, and each series in a
+// group of its own class, so that a reader can choose what to see.
+
+// The plot without its title and the name of y, which the page writes. `classes` has one class list
+// for each of its series. Runs that failed are open marks at the upper edge, errors of 0 on a strip
+// below a logarithmic scale, spreads whiskers. Slopes, which the series' names tell, are left out.
+// Every mark has a title with its numbers.
+std::string web_plot(const Plot& plot, const std::vector<std::string>& classes);
 
 }  // namespace lantern::report

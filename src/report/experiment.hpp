@@ -2,13 +2,6 @@
 // of members (each_field) makes CSV and JSON, one list of columns the tables of terminal and page.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <memory>
-#include <optional>
-#include <string>
-#include <vector>
-
 #include "base/option.hpp"
 #include "measure/records.hpp"
 #include "report/document.hpp"
@@ -17,9 +10,7 @@ namespace lantern::measure {
 
 template <class Visit>
 void each_field(const Contestant& one, Visit&& visit) {
-  visit(Field("name"), one.name);
-  visit(Field("version"), one.version);
-  visit(Field("how"), one.how);
+  visit_fields(visit, "name", one.name, "version", one.version, "how", one.how);
 }
 
 }  // namespace lantern::measure
@@ -164,6 +155,9 @@ PlotPoint level_point(const Timing& timing, double unit, double y);
 
 // --- as a command runs it ---
 
+inline Option option(const char* names, OptionTarget to, OptionTraits is, const char* help) {
+  return {names, to, help, is};
+}
 // What several benches have.
 Option only_option(const char* help, std::vector<std::string>& only);
 Option peers_option(const char* help, bool& peers);
@@ -198,20 +192,6 @@ class Experiment {
   virtual std::string complaint() const { return ""; }  // at the end
   virtual void set_circumstances(Circumstances circumstances, std::string command) = 0;
   virtual std::vector<std::string> missing() const = 0;  // peers that are not there: a line each
-};
-
-// One whose result is a BenchResult.
-template <class Result>
-class ExperimentOf : public Experiment {
- public:
-  void set_circumstances(Circumstances circumstances, std::string command) override {
-    result_.circumstances = std::move(circumstances);
-    result_.command = std::move(command);
-  }
-  std::vector<std::string> missing() const override { return result_.missing; }
-
- protected:
-  Result result_;
 };
 
 }  // namespace lantern::report

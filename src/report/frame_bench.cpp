@@ -1,37 +1,15 @@
-#include "report/frame_bench.hpp"
-
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <cstdlib>
-#include <exception>
-#include <functional>
-#include <memory>
-#include <mutex>
-#include <span>
 #include <system_error>
-#include <thread>
-#include <utility>
-#include <vector>
 
-#include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "base/clock.hpp"
-#include "base/error.hpp"
-#include "base/file.hpp"
-#include "base/stop.hpp"
-#include "base/timing.hpp"
+#include "render/cairo_painter.hpp"
 #include "render/pipeline.hpp"
-#include "render/png.hpp"
-#include "render/renderer.hpp"
-#include "report/cairo_peer.hpp"
+#include "report/benches.hpp"
 
 namespace lantern::report {
-
-// --- how soon a process has its first picture on the disk ---
-
 namespace {
 
 // Runs `work` in a process of its own, which has loaded no graphics library yet; gives the seconds
@@ -68,8 +46,49 @@ double seconds_in_new_process(const std::function<void()>& work) {
   return seconds;
 }
 
-}  // namespace
+namespace fs = std::filesystem;
 
+// The same draw lists through cairo and its own PNG writer: what Lantern's speed is measured
+// against. Needs libcairo.so.2, which is loaded when asked for. Geometry, colours and text are
+// Lantern's own, the text as outlines.
+class CairoPeer {
+ public:
+  // Throws BackendError, naming the package to install, if there is no cairo.
+  CairoPeer(int width, int height) : width_(width), height_(height) {
+    constexpr int kRgb24 = 1;
+    surface_ = cairo().image_surface_create(kRgb24, width, height);
+    cairo().require(cairo().surface_status(surface_));
+    context_ = cairo().create(surface_);
+    painter_.emplace(context_, CairoPainter::For::pixels);
+  }
+  ~CairoPeer() {
+    if (context_) cairo().destroy(context_);
+    cairo().surface_destroy(surface_);
+  }
+  CairoPeer(const CairoPeer&) = delete;
+  CairoPeer& operator=(const CairoPeer&) = delete;
+
+  static std::string version() { return cairo().version_string(); }
+  void draw(const DrawList& list, const Theme& theme) {
+    painter_->draw(list, theme, true, Canvas(list.page, width_, height_));
+  }
+  // By cairo_surface_write_to_png. Throws IoError.
+  void write_png(const fs::path& path) {
+    const int status = cairo().surface_write_to_png(surface_, path.c_str());
+    if (status != 0)
+      throw IoError(
+          fmt::format("cannot write '{}': {}", path.string(), cairo().status_to_string(status)));
+  }
+
+ private:
+  int width_, height_;
+  void* surface_ = nullptr;
+  void* context_ = nullptr;
+  std::optional<CairoPainter> painter_;
+};
+
+// `config.rounds` new processes for each of the two times. Writes one file into `folder` and
+// removes it. Throws BackendError if a process fails.
 StartTimes measure_start(const DrawList& list, const std::filesystem::path& folder,
                          const FrameBenchConfig& config, bool shaders_known) {
   const std::filesystem::path path = folder / "first.png";
@@ -99,11 +118,6 @@ StartTimes measure_start(const DrawList& list, const std::filesystem::path& fold
   std::filesystem::remove(path, ignored);
   return {shaders_known, quantile(bare_seconds, 0.5), quantile(frame_seconds, 0.5)};
 }
-
-// --- sequences, written by each in turns ---
-namespace {
-
-namespace fs = std::filesystem;
 
 struct Round {
   double seconds = 0;
@@ -269,6 +283,8 @@ void keep_what_differs(FrameSequence& sequence, const FrameBenchConfig& config) 
 }
 
 }  // namespace
+
+// --- how soon a process has its first picture on the disk ---
 
 void bench_frames(FrameBenchResult& result, std::vector<FrameSequence> sequences,
                   const fs::path& folder, const std::function<void(std::size_t)>& begun) {

@@ -1,15 +1,8 @@
 #include "report/measure_document.hpp"
 
-#include <algorithm>
-#include <map>
-#include <optional>
 #include <tuple>
-#include <utility>
 
-#include <fmt/format.h>
-
-#include "report/measure_plots.hpp"
-#include "report/words.hpp"
+#include "report/problem_rows.hpp"
 
 namespace lantern::report {
 namespace {
@@ -237,15 +230,8 @@ class Writer {
   static Table best_table(const SharedProblem& problem) {
     const WorkCount work = work_count(problem.any());
     const std::string norm = main_norm(problem.any());
-    Table table{"",
-                {{"method", false},
-                 {"runs ok"},
-                 {"order"},
-                 {norm.empty() ? "least error" : norm},
-                 {"step, s"},
-                 {"time"},
-                 {work.name},
-                 {"not ok", false}}};
+    Table table{"", columns_of({"method|", "runs ok", "order", norm.empty() ? "least error" : norm,
+                                "step, s", "time", work.name, "not ok|"})};
     problem.each([&](std::size_t machine, const ProblemRows& rows) {
       for (const MethodRows& method : by_method(rows))
         table.lines.push_back({{method.method, machine}, best_of(method, work_count(rows))});
@@ -254,18 +240,9 @@ class Writer {
   }
 
   static Table runs_table(const SharedProblem& problem) {
-    Table table{"All runs",
-                {{"method", false},
-                 {"step, s"},
-                 {"error"},
-                 {"time (quartiles)"},
-                 {"steps"},
-                 {"force evaluations"},
-                 {"constraint rows"},
-                 {"energy drift"},
-                 {"penetration"},
-                 {"status", false},
-                 {"", false}}};
+    Table table{"All runs", columns_of({"method|", "step, s", "error", "time (quartiles)", "steps",
+                                        "force evaluations", "constraint rows", "energy drift",
+                                        "penetration", "status|", "|"})};
     table.folded = true;
     problem.each([&](std::size_t machine, const ProblemRows& rows) {
       for (const MethodRows& method : by_method(rows))

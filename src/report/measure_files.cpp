@@ -1,15 +1,8 @@
-#include "report/measure_files.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <type_traits>
-
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "language/scenario.hpp"
 #include "measure/records.hpp"
+#include "report/measure_document.hpp"
 
 // Where the rows are, since they are found by the rows' type.
 namespace lantern::measure {
@@ -19,19 +12,10 @@ namespace lantern::measure {
 template <class R, class Visit>
 requires std::same_as<std::remove_const_t<R>, Row>
 void each_field(R& row, Visit&& visit) {
-  visit(Field("problem"), row.problem);
-  visit(Field("family"), row.family);
-  visit(Field("variant"), row.variant);
-  visit(Field("file"), row.file);
-  visit(Field("text_hash"), Hashed(row.text_hash));
-  visit(Field("method"), row.method);
-  visit(Field("version"), row.version);
-  visit(Field("step"), row.step);
-  visit(Field("status"), row.status);
-  visit(Field("reference"), row.reference);
-  visit(Field("reference_error"), row.reference_error);
-  visit(Field("reason"), row.reason);
-  visit(Field("norms"), row.norms);
+  visit_fields(visit, "problem", row.problem, "family", row.family, "variant", row.variant, "file",
+               row.file, "text_hash", Hashed(row.text_hash), "method", row.method, "version",
+               row.version, "step", row.step, "status", row.status, "reference", row.reference,
+               "reference_error", row.reference_error, "reason", row.reason, "norms", row.norms);
   visit(Field("energy", "drift_energy", "drift"), row.drift.energy);
   visit(Field("momentum", "drift_momentum", "drift"), row.drift.momentum);
   visit(Field("angular_momentum", "drift_angular_momentum", "drift"), row.drift.angular_momentum);
@@ -49,27 +33,17 @@ void each_field(R& row, Visit&& visit) {
 template <class C, class Visit>
 requires std::same_as<std::remove_const_t<C>, Circumstances>
 void each_field(C& c, Visit&& visit) {
-  visit(Field("version"), c.version);
-  visit(Field("sources"), c.sources);
-  visit(Field("compiler"), c.compiler);
-  visit(Field("flags"), c.flags);
-  visit(Field("processor"), c.processor);
-  visit(Field("seed"), c.seed);
-  visit(Field("effort"), c.effort);
+  visit_fields(visit, "version", c.version, "sources", c.sources, "compiler", c.compiler, "flags",
+               c.flags, "processor", c.processor, "seed", c.seed, "effort", c.effort);
 }
 
 template <class P, class Visit>
 requires std::same_as<std::remove_const_t<P>, PeerRecord>
 void each_field(P& peer, Visit&& visit) {
-  visit(Field("method"), peer.name);
-  visit(Field("version"), peer.version);
-  visit(Field("precision"), peer.settings.precision);
-  visit(Field("integrator"), peer.settings.integrator);
-  visit(Field("solver"), peer.settings.solver);
-  visit(Field("iterations"), peer.settings.iterations);
-  visit(Field("joints"), peer.settings.joints);
-  visit(Field("flags"), peer.settings.flags);
-  visit(Field("source"), peer.settings.source);
+  visit_fields(visit, "method", peer.name, "version", peer.version, "precision",
+               peer.settings.precision, "integrator", peer.settings.integrator, "solver",
+               peer.settings.solver, "iterations", peer.settings.iterations, "joints",
+               peer.settings.joints, "flags", peer.settings.flags, "source", peer.settings.source);
 }
 
 }  // namespace lantern::measure

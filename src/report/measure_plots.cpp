@@ -1,14 +1,7 @@
-#include "report/measure_plots.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <set>
-#include <span>
-#include <utility>
 
-#include <fmt/format.h>
-
-#include "report/words.hpp"
+#include "report/document.hpp"
+#include "report/problem_rows.hpp"
 
 namespace lantern::report {
 namespace {
@@ -26,6 +19,40 @@ PlotPoint point_of(const Row& row, double cost) {
     point.spread =
         Box<2>{{row.timing.lower_quartile, point.at.y}, {row.timing.upper_quartile, point.at.y}};
   return point;
+}
+
+// "error: state (“traj”), against: closed form", with the unit of what is not relative.
+std::string error_words(const ProblemRows& problem) {
+  const std::string norm = main_norm(problem);
+  std::string words = norm.empty() ? "error" : "error: " + norm_words(norm);
+  if (!norm.empty() && norm_words(norm) != norm) words += " (“" + norm + "”)";
+  const auto with_norm = std::ranges::find_if(
+      problem.rows, [](const Row& row) { return !row.norms.empty() && row.norms[0].unit != "1"; });
+  if (with_norm != problem.rows.end()) words += ", " + with_norm->norms[0].unit;
+  for (const Row& row : problem.rows)
+    if (!row.reference.empty()) return words + ", against: " + row.reference;
+  return words;
+}
+
+// Whether a count of work is the same for all runs that have it, so that nothing is to be seen.
+bool is_one_count(const ProblemRows& problem, const WorkCount& work) {
+  std::set<double> counts;
+  for (const Row& row : problem.rows)
+    if (const auto count = work.of(row)) counts.insert(*count);
+  return counts.size() == 1;
+}
+
+// Far-off values go to the upper edge too, if there are others.
+void send_far_ones_off(Plot& plot) {
+  const auto far = [](const PlotPoint& p) { return p.at.y > kFarOff; };
+  bool any_near = false, any_far = false;
+  for (const PlotSeries& s : plot.series)
+    for (const PlotPoint& p : s.points)
+      if (!p.beyond) (far(p) ? any_far : any_near) = true;
+  if (!any_near || !any_far) return;
+  for (PlotSeries& s : plot.series)
+    for (PlotPoint& p : s.points) p.beyond = p.beyond || far(p);
+  plot.beyond += ", or beyond 1000";
 }
 
 // What a step costs, the middle of all rows: turns a floor by steps into one by cost.
@@ -102,31 +129,40 @@ Plot right_plot(const ProblemRows& problem, const Looks& looks) {
   return plot;
 }
 
-}  // namespace
-
-void send_far_ones_off(Plot& plot) {
-  const auto far = [](const PlotPoint& p) { return p.at.y > kFarOff; };
-  bool any_near = false, any_far = false;
-  for (const PlotSeries& s : plot.series)
-    for (const PlotPoint& p : s.points)
-      if (!p.beyond) (far(p) ? any_far : any_near) = true;
-  if (!any_near || !any_far) return;
-  for (PlotSeries& s : plot.series)
-    for (PlotPoint& p : s.points) p.beyond = p.beyond || far(p);
-  plot.beyond += ", or beyond 1000";
-}
-
-std::string error_words(const ProblemRows& problem) {
-  const std::string norm = main_norm(problem);
-  std::string words = norm.empty() ? "error" : "error: " + norm_words(norm);
-  if (!norm.empty() && norm_words(norm) != norm) words += " (“" + norm + "”)";
-  const auto with_norm = std::ranges::find_if(
-      problem.rows, [](const Row& row) { return !row.norms.empty() && row.norms[0].unit != "1"; });
-  if (with_norm != problem.rows.end()) words += ", " + with_norm->norms[0].unit;
+// Nothing if no run has samples.
+std::optional<double> shared_step(const ProblemRows& problem) {
+  std::map<double, std::size_t> runs;  // of each step
   for (const Row& row : problem.rows)
-    if (!row.reference.empty()) return words + ", against: " + row.reference;
-  return words;
+    if (!row.samples.empty()) ++runs[row.step];
+  const auto most = std::ranges::max_element(
+      runs, {}, [](const auto& entry) { return std::pair(entry.second, -entry.first); });
+  return most == runs.end() ? std::nullopt : std::optional(most->first);
 }
+
+// The value of a sample; nothing for one that has none.
+using SampleValue = std::optional<double> (*)(const DriftSample&);
+constexpr SampleValue kError = [](const DriftSample& s) { return std::optional(s.error); };
+constexpr SampleValue kEnergy = [](const DriftSample& s) { return s.energy; };
+
+Plot drift_plot(const ProblemRows& problem, const Looks& looks, double step, SampleValue value) {
+  Plot plot;
+  plot.x_name = fmt::format("seconds since the start, in steps of {} s", figure(step));
+  for (const MethodRows& method : by_method(problem)) {
+    PlotSeries& series = plot.series.emplace_back(series_of(method, looks));
+    const auto row = std::ranges::find(method.rows, step, &Row::step);
+    if (row == method.rows.end()) continue;
+    for (const DriftSample& sample : row->samples)
+      if (const auto y = value(sample)) {
+        PlotPoint point{{sample.time, *y}};
+        point.beyond = !std::isfinite(*y);
+        series.points.push_back(point);
+      }
+  }
+  send_far_ones_off(plot);
+  return plot;
+}
+
+}  // namespace
 
 std::pair<Plot, Plot> plots_of(const ProblemRows& problem, const Looks& looks) {
   if (!has_whole_errors(problem)) return {left_plot(problem, looks), right_plot(problem, looks)};
@@ -247,51 +283,7 @@ Plot step_plot(const ProblemRows& problem, const Cost& value, const Looks& looks
   return plot;
 }
 
-bool is_one_count(const ProblemRows& problem, const WorkCount& work) {
-  std::set<double> counts;
-  for (const Row& row : problem.rows)
-    if (const auto count = work.of(row)) counts.insert(*count);
-  return counts.size() == 1;
-}
-
 // --- how error and energy go with time ---
-
-namespace {
-
-// Nothing if no run has samples.
-std::optional<double> shared_step(const ProblemRows& problem) {
-  std::map<double, std::size_t> runs;  // of each step
-  for (const Row& row : problem.rows)
-    if (!row.samples.empty()) ++runs[row.step];
-  const auto most = std::ranges::max_element(
-      runs, {}, [](const auto& entry) { return std::pair(entry.second, -entry.first); });
-  return most == runs.end() ? std::nullopt : std::optional(most->first);
-}
-
-// The value of a sample; nothing for one that has none.
-using SampleValue = std::optional<double> (*)(const DriftSample&);
-constexpr SampleValue kError = [](const DriftSample& s) { return std::optional(s.error); };
-constexpr SampleValue kEnergy = [](const DriftSample& s) { return s.energy; };
-
-Plot drift_plot(const ProblemRows& problem, const Looks& looks, double step, SampleValue value) {
-  Plot plot;
-  plot.x_name = fmt::format("seconds since the start, in steps of {} s", figure(step));
-  for (const MethodRows& method : by_method(problem)) {
-    PlotSeries& series = plot.series.emplace_back(series_of(method, looks));
-    const auto row = std::ranges::find(method.rows, step, &Row::step);
-    if (row == method.rows.end()) continue;
-    for (const DriftSample& sample : row->samples)
-      if (const auto y = value(sample)) {
-        PlotPoint point{{sample.time, *y}};
-        point.beyond = !std::isfinite(*y);
-        series.points.push_back(point);
-      }
-  }
-  send_far_ones_off(plot);
-  return plot;
-}
-
-}  // namespace
 
 std::optional<DriftPlots> drift_plots(const ProblemRows& problem, const Looks& looks) {
   const auto step = shared_step(problem);

@@ -1,18 +1,7 @@
 #include "report/pages.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <functional>
-
-#include <fmt/format.h>
-
-#include "base/check.hpp"
 #include "draw/font.hpp"
-#include "draw/labels.hpp"
-#include "draw/plot_marks.hpp"
 #include "report/measure_document.hpp"
-#include "report/measure_plots.hpp"
-#include "report/words.hpp"
 
 namespace lantern::report {
 namespace {

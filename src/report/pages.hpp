@@ -1,18 +1,9 @@
 // Whole pages of a report, as pictures.
 #pragma once
 
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "draw/draw_list.hpp"
-#include "draw/plot.hpp"
 #include "measure/broad_phase_cost.hpp"
-#include "measure/row.hpp"
-#include "measure/stability_map.hpp"
-#include "report/bars.hpp"
 #include "report/problem_rows.hpp"
+#include "report/stress_tables.hpp"
 
 namespace lantern::report {
 

@@ -1,19 +1,12 @@
 #include "report/problem_rows.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <functional>
-#include <set>
-#include <utility>
-
-#include <fmt/format.h>
-
-#include "draw/plot_marks.hpp"
-#include "report/words.hpp"
+#include "report/document.hpp"
 
 namespace lantern::report {
 namespace {
+
+// It chooses its steps itself, and moves the bodies without the world's step.
+bool is_adaptive(std::string_view method) { return method == "dormand_prince"; }
 
 struct KnownMethod {
   std::string_view name, words;

@@ -2,14 +2,7 @@
 // which work is counted.
 #pragma once
 
-#include <functional>
-#include <map>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <vector>
-
+#include "draw/plot.hpp"
 #include "measure/row.hpp"
 
 namespace lantern::report {
@@ -30,9 +23,6 @@ struct MethodRows {
   std::string name() const;  // "explicit Euler", "Bullet:10 3.24"
 };
 std::vector<MethodRows> by_method(const ProblemRows& problem);
-
-// It chooses its steps itself, and moves the bodies without the world's step.
-inline bool is_adaptive(std::string_view method) { return method == "dormand_prince"; }
 
 // "explicit Euler" of "explicit_euler", "soft contacts (16 sub-steps)" of "soft:16"; a peer's name
 // stays as it is.
@@ -95,5 +85,45 @@ std::vector<std::size_t> pareto_front(std::span<const Row> rows, const Cost& cos
 
 // Seconds of a whole run; nothing for a row that was not timed.
 std::optional<double> seconds_of(const Row& row);
+
+// A problem's error against what it costs, and against time.
+
+// One plot of a problem: its methods as series, the observed order behind each name if
+// `with_orders`, runs that failed at the upper edge, the estimated rounding floor, the Pareto
+// front. `looks` must hold every method (looks_of).
+Plot cost_plot(const ProblemRows& problem, const Cost& cost, const Looks& looks, bool with_orders);
+
+// The two plots of a problem: error against seconds and against counted work. Runs that are only
+// right or wrong are shown by their outcome, and what they cost against the step: in seconds, or
+// where none is timed in work. Their series are in the order of by_method.
+std::pair<Plot, Plot> plots_of(const ProblemRows& problem, const Looks& looks);
+
+// "oscillator, stiff" of oscillator_stiff; only the name where the variant is plain.
+std::string problem_words(const ProblemRows& problem);
+
+// The scenario's file, without its folder.
+std::string file_name(const ProblemRows& problem);
+
+// A method as a line of a plot, without points. `looks` must hold it (looks_of).
+PlotSeries series_of(const MethodRows& method, const Looks& looks);
+
+// Of a plot whose errors are whole numbers: bands "exact", "off by 1", "off by 2 to 9", ..., as
+// many as its points need, each wrong point with its number beside it.
+void put_into_bands(Plot& plot);
+
+// A value of each run against its step: its seconds, say. Nothing is left out, what is not finite
+// goes to the upper edge. Where errors are whole numbers, wrong runs are open marks. `looks` must
+// hold every method (looks_of).
+Plot step_plot(const ProblemRows& problem, const Cost& value, const Looks& looks);
+
+// How runs of a problem go astray with time, of runs with one step: that which most methods share,
+// of several the finest. Series are in the order of by_method, without points for who has no such
+// run.
+struct DriftPlots {
+  Plot error;   // the main norm so far, against seconds since the start
+  Plot energy;  // its drift so far; without points where the problem does not keep it
+};
+// Nothing if no run has samples.
+std::optional<DriftPlots> drift_plots(const ProblemRows& problem, const Looks& looks);
 
 }  // namespace lantern::report

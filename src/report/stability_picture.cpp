@@ -1,14 +1,8 @@
-#include <array>
-#include <cmath>
-#include <string>
-#include <string_view>
 
 #include "draw/axis.hpp"
 #include "draw/font.hpp"
-#include "draw/labels.hpp"
 #include "draw/pen.hpp"
 #include "report/pages.hpp"
-#include "report/problem_rows.hpp"
 
 namespace lantern::report {
 namespace {

@@ -205,9 +205,9 @@ void ScreenStage::light(std::size_t element) {
 bool ScreenStage::bind(std::size_t element) {
   FrameWay& way = screen_.ways.back();
   const bool binds = binder_.bind(way.from_atlas ? kAtlasImage : elements_[element].image);
-  screen_.bound = way.from_atlas ? kNone : *binder_.bound();
+  screen_.bound = way.from_atlas ? kNone : *binder_.bound;
   screen_.atlas_bound = way.from_atlas;
-  way.bindings = binder_.bindings();
+  way.bindings = binder_.bindings;
   way.draws.push_back({static_cast<std::uint32_t>(element), binds, false});
   light(element);
   return binds;
@@ -228,8 +228,8 @@ void ScreenStage::end() {
 void ScreenStage::picture(Frame& frame) const {
   frame.add<FrameScreen>() = screen_;
   if (screen_.ways.empty()) return;
-  frame.add_count("bindings", binder_.bindings());
-  frame.add_count("draws", binder_.draws());
+  frame.add_count("bindings", binder_.bindings);
+  frame.add_count("draws", binder_.draws);
 }
 
 }  // namespace lantern::run

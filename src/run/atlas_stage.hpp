@@ -5,7 +5,6 @@
 #include <unordered_map>
 
 #include "atlas/atlas.hpp"
-#include "atlas/binder.hpp"
 #include "base/work.hpp"
 #include "frame/parts/atlas.hpp"
 
@@ -62,7 +61,7 @@ class ScreenStage {
   void end();
 
   std::size_t texture_of(std::size_t element) const { return elements_[element].image; }
-  std::uint64_t bindings() const { return binder_.bindings(); }
+  std::uint64_t bindings() const { return binder_.bindings; }
   void picture(Frame& frame) const;
 
  private:

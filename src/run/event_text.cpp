@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "base/counted.hpp"
+#include "base/number.hpp"
 
 namespace lantern::run {
 namespace {

@@ -6,13 +6,10 @@
 
 #include "base/error.hpp"
 #include "base/stop.hpp"
-#include "frame/comparison.hpp"
 #include "frame/frame.hpp"
 #include "geometry/flat.hpp"
 #include "language/code_text.hpp"
 #include "language/counts.hpp"
-#include "run/comparison.hpp"
-#include "language/script/caption.hpp"
 #include "run/panel.hpp"
 #include "run/shown.hpp"
 

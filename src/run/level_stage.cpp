@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 
 #include "base/check.hpp"
-#include "base/counted.hpp"
 #include "base/error.hpp"
+#include "base/number.hpp"
+#include "frame/parts/level.hpp"
+#include "frame/parts/panels.hpp"
 #include "spatial/pairs.hpp"
 
 namespace lantern::run {
@@ -235,9 +237,9 @@ LevelStage::NodeOfSector LevelStage::picture_nodes(const LevelBsp& level, bool h
 
 void LevelStage::picture_sights(const NodeOfSector& nodes, Frame& frame) const {
   if (!seen_) return;
-  for (const Portal& p : seen_->portals())
+  for (const Portal& p : seen_->portals)
     frame.add<FrameLevel>().portals.push_back({p.line.a, p.line.b, nodes[p.a], nodes[p.b]});
-  for (const Sight& s : seen_->sights())
+  for (const Sight& s : seen_->sights)
     if (s.from == viewer_ || s.to == viewer_)
       frame.add<FrameLevel>().sights.push_back({s.line.a, s.line.b, nodes[s.from], nodes[s.to]});
 }
@@ -249,7 +251,7 @@ void LevelStage::picture_matrix(Frame& frame) const {
   matrix.rows.assign(n, std::string(n, '.'));
   for (std::uint32_t a = 0; seen_ && a < n; ++a)
     for (std::uint32_t b = 0; b < n; ++b)
-      if (a < seen_->done() || b < seen_->done()) matrix.rows[a][b] = seen_->sees(a, b) ? '1' : '0';
+      if (a < seen_->done || b < seen_->done) matrix.rows[a][b] = seen_->sees(a, b) ? '1' : '0';
   matrix.lit = shown_ == Answer::sights ? place_->sector : viewer_;
 }
 
@@ -303,10 +305,10 @@ void LevelStage::count_answers(const NodeOfSector& nodes, bool holds_bodies, Fra
     frame.add_count("bodies_here", bodies_in([&](auto s) { return s == place_->sector; }));
   }
   if (!seen_) return;
-  const std::uint64_t n = seen_->sectors();
-  frame.add_count("portals", seen_->portals().size());
-  frame.add_count("portals_tested", seen_->portals_tested());
-  frame.add_count("visible_pairs", seen_->sights().size());
+  const std::uint64_t n = seen_->sectors;
+  frame.add_count("portals", seen_->portals.size());
+  frame.add_count("portals_tested", seen_->portals_tested);
+  frame.add_count("visible_pairs", seen_->sights.size());
   if (!place_ || !visibility_) return;
   const auto sees = [&](std::uint32_t s) { return seen_->sees(place_->sector, s); };
   std::uint64_t seen = 0;

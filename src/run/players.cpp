@@ -77,7 +77,7 @@ BroadPhaseConfig<D> broad_phase_of(const StructureSpec& spec, const Box<D>& boun
   config.bounds = bounds;
   config.capacity = spec.capacity;
   config.max_depth = spec.max_depth;
-  config.eager_children = spec.children == Children::eager;
+  config.eager_children = spec.eager_children;
   config.no_progress_stop = spec.no_progress_stop;
   config.margin = spec.margin;
   config.following = spec.following;

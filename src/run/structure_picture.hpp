@@ -8,8 +8,10 @@
 
 #include "base/stop.hpp"
 #include "frame/frame.hpp"
+#include "frame/parts/panels.hpp"
 #include "physics/world.hpp"
 #include "run/engine.hpp"
+#include "spatial/pair_search.hpp"
 #include "spatial/pairs.hpp"
 
 namespace lantern::run {
@@ -67,7 +69,7 @@ inline std::string settings_text(const StructureSpec& s, int sweep_axis) {
   if (traits.is_plain) return "the lecture's own code, " + limits + split;
   if (traits.is_fitted) return "fitted to its bodies, " + limits + split;
   return fmt::format("{}, {}{}{}", limits,
-                     s.children == Children::eager ? "all children made" : "children on demand",
+                     s.eager_children ? "all children made" : "children on demand",
                      s.no_progress_stop ? ", stops without progress" : "", split);
 }
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "base/counted.hpp"
+#include "base/number.hpp"
 #include "run/event_text.hpp"
 #include "run/script_run.hpp"
 

@@ -5,12 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "base/check.hpp"
 #include "physics/body.hpp"
 #include "physics/forces.hpp"
-#include "base/check.hpp"
-#include "physics/energy.hpp"
 #include "physics/joint.hpp"
-#include "physics/mass.hpp"
 #include "run/watcher.hpp"
 
 namespace lantern::run {

@@ -5,7 +5,6 @@
 #include <map>
 
 #include "frame/frame.hpp"
-#include "physics/energy.hpp"
 #include "physics/forces.hpp"
 #include "physics/joint.hpp"
 #include "run/players.hpp"

@@ -11,7 +11,7 @@
 #include "draw/page.hpp"
 #include "fuzz/energy.hpp"
 #include "language/text/problems.hpp"
-#include "measure/plan.hpp"
+#include "measure/run.hpp"
 #include "render/svg.hpp"
 #include "run/director.hpp"
 #include "run/tally.hpp"

@@ -20,7 +20,7 @@ std::vector<const BoxWorkload*> all_of(BoxTask task) {
   return all;
 }
 
-std::vector<std::unique_ptr<BoxContestant>> everybody() {
+std::vector<BoxContestant> everybody() {
   std::vector<std::string> missing;
   auto all = own_box_contestants();
   for (auto& peer : peer_box_contestants(missing)) all.push_back(std::move(peer));
@@ -59,15 +59,15 @@ TEST(BoxContest, EverybodyFindsWhatBruteForceFinds) {
       std::vector<BoxTruth> truths;
       for (const std::size_t frame : frames) truths.emplace_back(stage, frame);
       for (const auto& who : everybody()) {
-        if (!who->can(stage)) continue;
-        for (const BoxSetting& setting : {who->likely(stage), BoxSetting{1, 0}}) {
-          if (!who->has(setting)) continue;
-          const auto run = who->start(stage, setting);
+        if (!who.can(stage)) continue;
+        for (const BoxSetting& setting : {who.likely(stage), BoxSetting{1, 0}}) {
+          if (!who.has(setting)) continue;
+          const auto run = who.start(stage, setting);
           for (std::size_t i = 0; i < frames.size(); ++i) {
             run->step(frames[i]);
             const auto verdict = truths[i].judge(run->found());
             EXPECT_EQ(verdict.missed + verdict.invented, 0u)
-                << workload->name << " " << who->name() << " " << frames[i];
+                << workload->name << " " << who.name << " " << frames[i];
             EXPECT_TRUE(std::ranges::is_sorted(run->found()));
           }
         }
@@ -176,7 +176,7 @@ std::string work_of(const BoxContestant& who, const BoxStage& stage) {
   }
   const BoxCounts c = run->counts();
   const auto told = [](const std::optional<double>& n) { return n ? fmt::format("{}", *n) : "-"; };
-  return fmt::format("{} {} {} {} {} {} {} {} {}", stage.workload, who.name(), run->found().size(),
+  return fmt::format("{} {} {} {} {} {} {} {} {}", stage.workload, who.name, run->found().size(),
                      told(c.pair_tests), told(c.box_tests), told(c.nodes_visited), told(c.nodes),
                      told(c.entries), *run->allocations() - before);
 }
@@ -191,7 +191,7 @@ TEST(CountedWork, IsAsRecorded) {
   for (const BoxWorkload* workload : all_of(BoxTask::pairs)) {
     const BoxStage stage = stage_of(*workload, 300, 1);
     for (const auto& who : own_box_contestants())
-      if (who->can(stage)) all += work_of(*who, stage) + "\n";
+      if (who.can(stage)) all += work_of(who, stage) + "\n";
   }
   if (std::getenv("LANTERN_SET_COUNTED_WORK") != nullptr) std::ofstream(file) << all;
   std::ifstream in(file);

@@ -132,7 +132,7 @@ class Noting : public Simulation {
 
 TEST(Billiards, AreTurnedRoundOnceInTheMiddle) {
   const Scenario scenario = problem("billiards");
-  const auto metric = make_error_metric(scenario);
+  const auto metric = metrics_of(scenario)();
   Noting simulation;
   for (std::uint32_t i = 0; i <= scenario.problem->samples; ++i) {
     const Observation now = at_start(scenario);
@@ -256,7 +256,7 @@ TEST(Stack, TakesASkinForAPartOfTheShape) {
 TEST(Stack, SaysThatItFell) {
   const Scenario scenario = problem("stack");
   const auto ends = [&](double down) {
-    const auto metric = make_error_metric(scenario);
+    const auto metric = metrics_of(scenario)();
     metric->look(at_start(scenario));
     Observation now = at_start(scenario);
     now.time = 10;

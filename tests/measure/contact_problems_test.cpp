@@ -44,7 +44,7 @@ TEST(ContactProblems, RefuseWhatIsAnother) {
   for (const Case& c : cases) {
     SCOPED_TRACE(std::string(c.file) + ", " + c.says);
     try {
-      make_error_metric(problem(c.file, c.changes));
+      metrics_of(problem(c.file, c.changes))();
       ADD_FAILURE() << "it was taken";
     } catch (const Refused& refused) {
       EXPECT_NE(std::string(refused.what()).find(c.says), std::string::npos) << refused.what();

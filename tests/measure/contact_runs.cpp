@@ -67,7 +67,7 @@ Norms run(const Scenario& scenario, const std::string& method, double step) {
   const double h = between / static_cast<double>(steps);
   const Scenario moved = moved_by(scenario, method_named(method).value(), h);
   EngineRun simulation(moved);
-  const auto metric = make_error_metric(moved);
+  const auto metric = metrics_of(moved)();
   Observation now;
   for (std::uint32_t i = 0; i <= spec.samples; ++i) {
     if (i > 0) simulation.advance(steps);

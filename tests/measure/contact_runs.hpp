@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "measure/error_metric.hpp"
+#include "measure/row.hpp"
 
 namespace lantern::measure {
 
@@ -28,7 +28,7 @@ Norms run(const Scenario& scenario, const std::string& method, double step);
 // Looks at the start, and at what `moved` makes of it at each sample.
 template <class F>
 Norms looked_at(const Scenario& scenario, F&& moved) {
-  const auto metric = make_error_metric(scenario);
+  const auto metric = metrics_of(scenario)();
   metric->look(at_start(scenario));
   const ProblemSpec& spec = *scenario.problem;
   for (std::uint32_t i = 1; i <= spec.samples; ++i) {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "measure/random_scene.hpp"
+#include "measure/energy_trial.hpp"
 
 namespace lantern::measure {
 namespace {

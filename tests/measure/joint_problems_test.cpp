@@ -42,7 +42,7 @@ TEST(JointProblems, RefuseWhatIsAnother) {
   for (const Case& c : cases) {
     SCOPED_TRACE(std::string(c.file) + ", " + c.says);
     try {
-      make_error_metric(problem(c.file, c.changes));
+      metrics_of(problem(c.file, c.changes))();
       ADD_FAILURE() << "it was taken";
     } catch (const Refused& refused) {
       EXPECT_NE(std::string(refused.what()).find(c.says), std::string::npos) << refused.what();
@@ -135,7 +135,7 @@ TEST(JointProblems, PlatesAndBallsGoAsTheyShould) {
 
 std::optional<std::string> collapse_of(const char* file, void (*change)(Observation&)) {
   const Scenario scenario = problem(file);
-  const auto metric = make_error_metric(scenario);
+  const auto metric = metrics_of(scenario)();
   Observation now = at_start(scenario);
   metric->look(now);
   change(now);

@@ -5,7 +5,7 @@
 
 #include "measure/contact_runs.hpp"
 #include "measure/peer_scenes.hpp"
-#include "measure/plan.hpp"
+#include "measure/run.hpp"
 
 namespace lantern::measure {
 namespace {

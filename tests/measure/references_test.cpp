@@ -7,7 +7,6 @@
 #include "geometry/elliptic.hpp"
 #include "measure/forms/closed_forms.hpp"
 #include "measure/forms/dormand_prince.hpp"
-#include "measure/forms/precise.hpp"
 
 namespace lantern::measure {
 namespace {

@@ -1,4 +1,6 @@
 // Runs and what is told of them.
+#include "measure/run.hpp"
+
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -8,10 +10,8 @@
 #include "base/error.hpp"
 #include "base/stop.hpp"
 #include "measure/contact_runs.hpp"
-#include "measure/lantern_solver.hpp"
-#include "measure/plan.hpp"
-#include "measure/problems.hpp"
 #include "measure/scenes.hpp"
+#include "measure/solvers.hpp"
 
 namespace lantern::measure {
 namespace {

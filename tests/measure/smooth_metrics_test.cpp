@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "measure/error_metric.hpp"
-#include "measure/problems.hpp"
+#include "measure/row.hpp"
+#include "measure/run.hpp"
 
 namespace lantern::measure {
 namespace {
@@ -38,7 +38,7 @@ std::string ball(const std::string& more) {
 
 std::string refusal(const Scenario& scenario) {
   try {
-    make_error_metric(scenario);
+    metrics_of(scenario)();
   } catch (const Refused& refused) {
     return refused.what();
   }
@@ -58,7 +58,7 @@ BodyState at(Vec<3> position, Vec<3> velocity) {
 }
 
 double error_at(const Scenario& scenario, double time, const std::vector<BodyState>& states) {
-  const auto metric = make_error_metric(scenario);
+  const auto metric = metrics_of(scenario)();
   metric->look({time, states, 0});
   return metric->norms().front().value;
 }
@@ -101,7 +101,7 @@ TEST(SmoothMetrics, ReadMassesSpringsAndGravity) {
 
 TEST(SmoothMetrics, TheWorstMomentCounts) {
   const Scenario fall = scene("projectile", "gravity = [0, -10]", ball("position = [0, 0]"));
-  const auto metric = make_error_metric(fall);
+  const auto metric = metrics_of(fall)();
   metric->look({0, {at({0.5, 0, 0}, {0, 0, 0})}, 0});
   metric->look({0, {at({0, 0, 0}, {0, 0, 0})}, 0});
   EXPECT_NEAR(metric->norms().front().value, 0.1, 1e-15) << "it falls by 5 in the second";
@@ -109,7 +109,7 @@ TEST(SmoothMetrics, TheWorstMomentCounts) {
 
 TEST(SmoothMetrics, WhatIsNotANumberStaysSo) {
   const Scenario fall = scene("projectile", "gravity = [0, -10]", ball("position = [0, 0]"));
-  const auto metric = make_error_metric(fall);
+  const auto metric = metrics_of(fall)();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   metric->look({0, {at({nan, 0, 0}, {0, 0, 0})}, 0});
   metric->look({0, {at({0, 0, 0}, {0, 0, 0})}, 0});
@@ -167,7 +167,7 @@ TEST(SmoothMetrics, RefuseWhatIsNotTheProblem) {
 
 TEST(SmoothMetrics, TheRodsDriftIsANormOfItsOwn) {
   const Scenario swing = scene("pendulum", "gravity = [0, -10]", kPulled + kRod);
-  const auto metric = make_error_metric(swing);
+  const auto metric = metrics_of(swing)();
   metric->look({0, {at({1.001, 0, 0}, {0, 0, 0})}, 0});
   const std::vector<Norm> norms = metric->norms();
   ASSERT_EQ(norms.size(), 2u);

@@ -6,11 +6,9 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "measure/dormand_prince_solver.hpp"
 #include "measure/forms/closed_forms.hpp"
-#include "measure/lantern_solver.hpp"
-#include "measure/problems.hpp"
 #include "measure/run.hpp"
+#include "measure/solvers.hpp"
 #include "physics/body.hpp"
 
 namespace lantern::measure {

@@ -1,12 +1,11 @@
 // What one step does to a damped spring, against the methods' own formulas.
-#include "measure/stability_map.hpp"
-
 #include <cmath>
 #include <limits>
 
 #include <gtest/gtest.h>
 
 #include "base/stop.hpp"
+#include "measure/stress.hpp"
 
 namespace lantern::measure {
 namespace {

@@ -7,8 +7,8 @@
 #include "draw/layout_check.hpp"
 #include "render/canvas.hpp"
 #include "report/measure_document.hpp"
-#include "report/measure_plots.hpp"
 #include "report/pages.hpp"
+#include "report/problem_rows.hpp"
 #include "report/sample_rows.hpp"
 
 namespace lantern::report {

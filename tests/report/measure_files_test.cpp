@@ -1,5 +1,3 @@
-#include "report/measure_files.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "draw/layout_check.hpp"
-#include "report/measure_plots.hpp"
+#include "report/problem_rows.hpp"
 #include "report/sample_rows.hpp"
 
 namespace lantern::report {

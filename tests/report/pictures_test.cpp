@@ -8,8 +8,8 @@
 #include "render/png.hpp"
 #include "render/renderer.hpp"
 #include "render/svg.hpp"
-#include "report/measure_plots.hpp"
 #include "report/pages.hpp"
+#include "report/problem_rows.hpp"
 #include "report/sample_rows.hpp"
 
 namespace lantern::report {

@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include "report/document.hpp"
 #include "report/measure_document.hpp"
 #include "report/problem_rows.hpp"
 #include "report/sample_rows.hpp"
-#include "report/web_plot.hpp"
 
 namespace lantern::report {
 namespace {

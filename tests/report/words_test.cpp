@@ -1,8 +1,8 @@
-#include "report/words.hpp"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
+
+#include "report/document.hpp"
 
 namespace lantern::report {
 namespace {

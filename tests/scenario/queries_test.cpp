@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include "frame/parts/asked.hpp"
-#include "geometry/frustum.hpp"
 #include "geometry/ray.hpp"
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"

@@ -6,7 +6,6 @@
 #include "spatial/pairs.hpp"
 #include "spatial/picture.hpp"
 #include "spatial/trees/lecture_quadtree.hpp"
-#include "spatial/trees/orthtree.hpp"
 #include "spatial/worlds.hpp"
 
 namespace lantern::spatial {

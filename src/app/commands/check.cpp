@@ -9,10 +9,8 @@
 #include "app/run_scenario.hpp"
 #include "app/terminal.hpp"
 #include "base/json_writer.hpp"
-#include "base/number.hpp"
-#include "base/counted.hpp"
-#include "base/grouped.hpp"
 #include "base/memory.hpp"
+#include "base/number.hpp"
 #include "run/tally.hpp"
 
 namespace lantern::app {
@@ -174,7 +172,7 @@ int explain_scenario(const ExplainOptions& options) {
   }
   std::vector<std::vector<std::string>> rows;
   for (const StageTally& stage : stages)
-    rows.push_back({stage.used() ? "uses" : "leaves out", std::string(stage.stage), told(stage)});
+    rows.push_back({stage.used() ? "uses" : "leaves out", stage.stage, told(stage)});
   print(fmt::format("{}: {}\n\n{}\nCounted in a run without pixels: {} in {:.2g} s.\n",
                     scenario.name, scenario.title, table(rows), counted(report.frames, "frame"),
                     seconds));

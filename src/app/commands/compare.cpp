@@ -10,7 +10,6 @@
 #include "app/output/sinks.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
-#include "base/counted.hpp"
 #include "base/json_writer.hpp"
 #include "base/number.hpp"
 #include "render/png.hpp"

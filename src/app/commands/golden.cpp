@@ -7,9 +7,9 @@
 #include "app/folders/kept_files.hpp"
 #include "app/progress.hpp"
 #include "app/terminal.hpp"
-#include "base/counted.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
+#include "base/number.hpp"
 #include "embedded/version.hpp"
 
 namespace lantern::app {

@@ -11,7 +11,6 @@
 #include "app/terminal.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
-#include "base/counted.hpp"
 #include "base/json_writer.hpp"
 #include "base/number.hpp"
 #include "base/stop.hpp"

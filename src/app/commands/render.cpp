@@ -8,7 +8,6 @@
 #include "app/progress.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
-#include "base/counted.hpp"
 #include "base/json_writer.hpp"
 #include "base/number.hpp"
 #include "base/stop.hpp"

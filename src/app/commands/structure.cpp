@@ -9,11 +9,9 @@
 #include "app/report_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
-#include "base/counted.hpp"
 #include "base/json_writer.hpp"
 #include "base/number.hpp"
 #include "base/suggest.hpp"
-#include "spatial/structure_bench.hpp"
 #include "spatial/structure_trial.hpp"
 
 namespace lantern::app {

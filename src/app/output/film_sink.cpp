@@ -8,7 +8,6 @@
 #include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/printable.hpp"
-#include "base/utf8.hpp"
 #include "publish/film.hpp"
 #include "render/renderer.hpp"
 

@@ -8,7 +8,6 @@
 #include "app/progress.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
-#include "base/grouped.hpp"
 #include "base/memory.hpp"
 #include "base/number.hpp"
 #include "draw/page.hpp"

@@ -9,9 +9,8 @@
 #include "atlas/atlas.hpp"
 #include "base/json_writer.hpp"
 #include "base/stop.hpp"
-#include "draw/staging.hpp"
-#include "draw/axis_ranges.hpp"
 #include "draw/page.hpp"
+#include "draw/staging.hpp"
 #include "render/pipeline.hpp"
 
 namespace lantern::app {

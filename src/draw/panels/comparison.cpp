@@ -14,8 +14,6 @@
 #include <vector>
 
 #include "base/number.hpp"
-#include "draw/count_words.hpp"
-#include "base/grouped.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 #include "frame/parts/panels.hpp"

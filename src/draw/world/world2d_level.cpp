@@ -6,9 +6,8 @@
 #include <fmt/format.h>
 
 #include "draw/world/world2d_parts.hpp"
-#include "geometry/plane.hpp"
 #include "frame/parts/level.hpp"
-#include "geometry/segment.hpp"
+#include "geometry/plane.hpp"
 
 namespace lantern::draw {
 namespace {

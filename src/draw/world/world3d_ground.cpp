@@ -6,9 +6,8 @@
 #include "draw/keys.hpp"
 #include "draw/number_text.hpp"
 #include "draw/world/world3d_parts.hpp"
-#include "geometry/plane.hpp"
 #include "frame/parts/asked.hpp"
-#include "geometry/polygon.hpp"
+#include "geometry/plane.hpp"
 
 namespace lantern::draw {
 namespace {

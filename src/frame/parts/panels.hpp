@@ -4,7 +4,7 @@
 
 #include "frame/frame.hpp"
 #include "language/code_text.hpp"
-#include "spatial/structure_work.hpp"
+#include "spatial/broad_phase.hpp"
 
 namespace lantern::frame {
 

@@ -8,7 +8,6 @@
 #include "base/check.hpp"
 #include "geometry/vec.hpp"
 #include "language/language.hpp"
-#include "geometry/angle.hpp"
 #include "language/scenario.hpp"
 
 namespace lantern::language {

@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include "base/number.hpp"
-#include "language/script/caption.hpp"
-#include "base/grouped.hpp"
 #include "language/script/script_reading.hpp"
 
 namespace lantern::language {

@@ -1,27 +1,11 @@
 #include "measure/boxes/bench.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <limits>
-#include <map>
-#include <memory>
-#include <optional>
 #include <set>
-#include <string>
-#include <utility>
-#include <vector>
 
-#include <fmt/format.h>
 #include <malloc.h>
 
-#include "base/clock.hpp"
-#include "base/error.hpp"
 #include "base/hash.hpp"
 #include "base/memory.hpp"
-#include "base/stop.hpp"
-#include "base/timing.hpp"
 
 namespace lantern::measure {
 namespace {
@@ -119,12 +103,12 @@ class StageBench {
     e.row.workload = stage_.workload;
     e.row.dimension = stage_.dimension();
     e.row.bodies = stage_.bodies();
-    e.row.contestant = who.name();
-    e.row.version = who.version();
+    e.row.contestant = who.name;
+    e.row.version = who.version;
     if (left_out) return refuse(e, "left out", *left_out);
     const BoxSetting start = likely(who, known);
     const BoxSetting best = quickest(who, stage_, start, config_.search);
-    known[{stage_.workload, who.name()}] = {best, stage_.bodies()};
+    known[{stage_.workload, who.name}] = {best, stage_.bodies()};
     warm_up(e, best);
   }
 
@@ -175,12 +159,12 @@ class StageBench {
 
   BoxSetting likely(const BoxContestant& who, const Known& known) const {
     BoxSetting start = who.likely(stage_);
-    const auto found = known.find({stage_.workload, who.name()});
+    const auto found = known.find({stage_.workload, who.name});
     if (found == known.end()) return start;
     const auto& [setting, bodies] = found->second;
     if (setting.second == 0) return setting;
     const double growth = static_cast<double>(stage_.bodies()) / static_cast<double>(bodies);
-    const double children = who.name() == "kd_tree" ? 1 : stage_.dimension();
+    const double children = who.name == "kd_tree" ? 1 : stage_.dimension();
     start = setting;
     start.second += static_cast<int>(std::lround(std::log2(growth) / children));
     return who.has(start) ? start : setting;
@@ -268,6 +252,12 @@ class StageBench {
   std::vector<Entry> entries_;
 };
 
+const std::vector<std::uint64_t>& bodies_of(const BoxWorkload& workload,
+                                            const BoxBenchConfig& config) {
+  if (!config.bodies.empty()) return config.bodies;
+  return config.full ? workload.full : workload.bodies;
+}
+
 class Bench {
  public:
   Bench(BoxBenchResult& result, const BoxBenchWatch& watch)
@@ -281,25 +271,18 @@ class Bench {
   void run() {
     if (own_) return run(*own_, nullptr);
     for (const BoxWorkload* workload : config_.workloads)
-      for (const std::uint64_t bodies : bodies_of(*workload))
+      for (const std::uint64_t bodies : bodies_of(*workload, config_))
         run(stage_of(*workload, bodies, config_.seed), workload);
   }
 
  private:
-  const std::vector<std::uint64_t>& bodies_of(const BoxWorkload& workload) const {
-    return !config_.bodies.empty() ? config_.bodies
-           : config_.full          ? workload.full
-                                   : workload.bodies;
-  }
-
   void gather() {
     all_ = own_box_contestants();
     if (config_.peers)
-      for (auto& who : peer_box_contestants(result_.missing)) all_.push_back(std::move(who));
-    keep_asked_for(all_, config_.only, result_.missing,
-                   [](const auto& who) { return who->name(); });
-    for (const auto& who : all_)
-      result_.contestants.push_back({who->name(), who->version(), who->how()});
+      for (BoxContestant& who : peer_box_contestants(result_.missing))
+        all_.push_back(std::move(who));
+    keep_asked_for(all_, config_.only, result_.missing, [](const auto& who) { return who.name; });
+    for (const auto& who : all_) result_.contestants.push_back({who.name, who.version, who.how});
   }
 
   // From two small worlds of its sort.
@@ -309,8 +292,8 @@ class Bench {
       const BoxStage stage{"", BoxTask::pairs, boxes_of(workload, n, 1, config_.seed),
                            Questions<2>{}};
       for (const auto& who : own_box_contestants())
-        if (who->name() == "sort_and_sweep") {
-          const auto run = who->start(stage, {});
+        if (who.name == "sort_and_sweep") {
+          const auto run = who.start(stage, {});
           run->step(0);
           return static_cast<double>(run->found().size() + 1);
         }
@@ -333,7 +316,7 @@ class Bench {
                           static_cast<double>(sampled) * share * share);
     }
     for (const BoxWorkload* workload : config_.workloads)
-      for (const std::uint64_t bodies : bodies_of(*workload))
+      for (const std::uint64_t bodies : bodies_of(*workload, config_))
         require_room(workload->name, bodies, bodies < 8 ? 0 : pairs_of(*workload, bodies));
   }
 
@@ -376,9 +359,9 @@ class Bench {
     StageBench bench(config_, stage);
     std::vector<BoxStage> smaller;
     for (const auto& who : all_) {
-      if (!who->can(stage)) continue;
-      watch_(stage_number_, fmt::format("{}: {} looks for its best setting", words, who->name()));
-      bench.enter(*who, too_slow(*who, stage, smaller, workload), known_);
+      if (!who.can(stage)) continue;
+      watch_(stage_number_, fmt::format("{}: {} looks for its best setting", words, who.name));
+      bench.enter(who, too_slow(who, stage, smaller, workload), known_);
     }
     watch_(stage_number_++, words + ": rounds");
     bench.run_rounds();
@@ -403,7 +386,7 @@ class Bench {
   const BoxBenchConfig& config_;
   const BoxBenchWatch& watch_;
   std::optional<BoxStage> own_;  // of a user's own boxes
-  std::vector<std::unique_ptr<BoxContestant>> all_;
+  std::vector<BoxContestant> all_;
   StageBench::Known known_;
   std::size_t stage_number_ = 0;
 };
@@ -414,9 +397,7 @@ std::size_t box_stages(const BoxBenchConfig& config) {
   if (config.own) return 1;
   std::size_t stages = 0;
   for (const BoxWorkload* workload : config.workloads)
-    stages += !config.bodies.empty() ? config.bodies.size()
-              : config.full          ? workload->full.size()
-                                     : workload->bodies.size();
+    stages += bodies_of(*workload, config).size();
   return stages;
 }
 

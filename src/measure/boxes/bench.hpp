@@ -2,16 +2,93 @@
 // and what rays, boxes and balls meet.
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <optional>
-#include <string>
-#include <vector>
-
-#include "measure/bench.hpp"
-#include "measure/boxes/contest.hpp"
+#include "measure/boxes/worlds.hpp"
+#include "measure/row.hpp"
 
 namespace lantern::measure {
+
+// Who takes part in `bench pairs`, and what is to be found.
+
+// What a contestant can be set to. Two numbers whose neighbours are like it: of our trees the
+// capacity 2^first and the depth limit `second`, of others the place in a list.
+struct BoxSetting {
+  int first = 0, second = 0;
+  auto operator<=>(const BoxSetting&) const = default;
+};
+
+// What was counted in the last step; nothing where nobody counts.
+struct BoxCounts {
+  std::optional<double> pair_tests, box_tests, nodes_visited, nodes, entries;
+};
+
+// A contestant with one setting on one stage.
+class BoxRun {
+ public:
+  virtual ~BoxRun() = default;
+  // Of pairs: the boxes of that frame become these, and all their pairs are found. Else all
+  // questions are asked once. Throws Refused as the structure does.
+  virtual void step(std::size_t frame) = 0;
+  // Of the last step, in order: pairs, or (number of the question, body).
+  virtual const std::vector<Pair>& found() const = 0;
+  virtual std::optional<std::uint64_t> allocations() const { return std::nullopt; }  // so far
+  virtual BoxCounts counts() const { return {}; }
+};
+
+struct BoxContestant {
+  std::string name;
+  std::string version = {};  // of another library; empty for ours
+  std::string how = {};      // it is run, of another library
+  std::function<bool(const BoxStage&)> can;
+  std::function<BoxSetting(const BoxStage&)> likely;  // from which the quickest is looked for
+  std::function<bool(const BoxSetting&)> has;
+  std::function<std::string(const BoxSetting&)> words;  // may be empty
+  // The stage and the contestant outlive the run.
+  std::function<std::unique_ptr<BoxRun>(const BoxStage&, const BoxSetting&)> start;
+};
+
+// Ours: each kind but those whose parts a designer gives (bsp), `auto` first where there is one.
+std::vector<BoxContestant> own_box_contestants();
+
+// The libraries whose modules are there; a line in `missing` for each other.
+std::vector<BoxContestant> peer_box_contestants(std::vector<std::string>& missing);
+
+// Brings pairs into the order of their ids; `bodies` is more than any of these. What others find is
+// ordered by this within their time.
+void into_order(std::vector<Pair>& pairs, std::uint32_t bodies);
+
+// --- what is to be found on a stage: by comparing all with all where that is possible, else by a
+// sample and by each other ---
+
+// Up to so many bodies all pairs are compared; beyond, those of a sample.
+inline constexpr std::size_t kMostForced = 20000, kSample = 2000;
+
+class BoxTruth {
+ public:
+  // Of the stage as it is at the frame.
+  BoxTruth(const BoxStage& stage, std::size_t frame);
+
+  struct Verdict {
+    std::uint64_t missed = 0, invented = 0;
+  };
+  // `found` in order and without repeats.
+  Verdict judge(std::span<const Pair> found) const;
+
+  // Whether only the pairs of a sample are known.
+  bool is_sample() const { return is_sample_; }
+  std::string words() const;  // "brute force"
+
+ private:
+  template <int D>
+  void force(const BoxStage& stage, std::size_t frame);
+  template <int D>
+  void force_sample(Boxes<D> boxes);
+  template <int D>
+  void answer(const BoxStage& stage);
+
+  bool is_sample_ = false;
+  std::size_t stride_ = 1;  // each such body is in the sample
+  std::vector<Pair> truth_;
+};
 
 struct BoxBenchConfig {
   std::vector<const BoxWorkload*> workloads;

@@ -1,16 +1,11 @@
-#include "measure/boxes/contest.hpp"
-
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <numeric>
 
 #include <fmt/format.h>
 
 #include "base/number.hpp"
 #include "base/stop.hpp"
+#include "measure/boxes/bench.hpp"
 #include "measure/broad_phase_cost.hpp"
-#include "measure/peer_modules.hpp"
 #include "measure/peers.hpp"
 #include "spatial/box_table.hpp"
 #include "spatial/query.hpp"
@@ -158,98 +153,88 @@ class Asked : public BoxRun {
 
 // --- who takes part ---
 
-class OwnContestantOf : public BoxContestant {
- public:
-  explicit OwnContestantOf(StructureKind kind) : kind_(kind), traits_(traits_of(kind)) {}
+constexpr int kMostDepth = 16;
+constexpr std::array kMargins = {0.0, 0.05, 0.1, 0.2, 0.4};
 
-  std::string name() const override { return std::string(to_string(kind_)); }
-  bool can(const BoxStage& stage) const override { return is_possible(kind_, stage.dimension()); }
+template <int D>
+std::unique_ptr<BoxRun> own_run(StructureKind kind, const BoxStage& stage, const BoxSetting& s) {
+  const StructureTraits traits = traits_of(kind);
+  BroadPhaseConfig<D> config;
+  config.kind = kind;
+  config.build = Build::at_once;
+  config.bounds = updates_in<D>(stage).bounds;
+  if (traits.has(Setting::levels)) config.levels = 1u << s.first;
+  if (traits.has(Setting::margin)) config.margin = kMargins[static_cast<std::size_t>(s.first)];
+  if (traits.splits) {
+    config.capacity = 1u << s.first;
+    config.max_depth = static_cast<std::uint32_t>(s.second);
+  }
+  if (stage.task == BoxTask::pairs) return std::make_unique<OwnPairs<D>>(stage, config);
+  return std::make_unique<Asked<D>>(stage, std::make_unique<OwnOracle<D>>(config));
+}
 
+BoxContestant own_contestant(StructureKind kind) {
+  const StructureTraits traits = traits_of(kind);
+  BoxContestant who{.name = std::string(to_string(kind))};
+  who.can = [=](const BoxStage& stage) { return is_possible(kind, stage.dimension()); };
   // Leaves of 16 that are about as large as their bodies' shares of the world.
   // Of a grid 2^first levels; of an aabb_tree one of the margins.
-  BoxSetting likely(const BoxStage& stage) const override {
-    if (!traits_.splits) return {};
-    const double children = name() == "kd_tree" ? 2 : std::pow(2.0, stage.dimension());
+  who.likely = [=, is_kd = who.name == "kd_tree"](const BoxStage& stage) -> BoxSetting {
+    if (!traits.splits) return {};
+    const double children = is_kd ? 2 : std::pow(2.0, stage.dimension());
     const double leaves = std::max(1.0, static_cast<double>(stage.bodies()) / 8);
     return {4, std::clamp(static_cast<int>(std::lround(std::log(leaves) / std::log(children))), 1,
-                          kDeepest)};
-  }
-  bool has(const BoxSetting& s) const override {
-    if (traits_.has(Setting::levels)) return s.first >= 0 && s.first <= 3 && s.second == 0;
-    if (traits_.has(Setting::margin))
+                          kMostDepth)};
+  };
+  who.has = [=](const BoxSetting& s) {
+    if (traits.has(Setting::levels)) return s.first >= 0 && s.first <= 3 && s.second == 0;
+    if (traits.has(Setting::margin))
       return s.first >= 0 && s.first < static_cast<int>(kMargins.size()) && s.second == 0;
-    if (!traits_.splits) return s == BoxSetting{};
-    return s.first >= 1 && s.first <= 9 && s.second >= 1 && s.second <= kDeepest;
-  }
-  std::string words(const BoxSetting& s) const override {
-    if (traits_.has(Setting::levels)) return counted(1 << s.first, "level");
-    if (traits_.has(Setting::margin))
+    if (!traits.splits) return s == BoxSetting{};
+    return s.first >= 1 && s.first <= 9 && s.second >= 1 && s.second <= kMostDepth;
+  };
+  who.words = [=](const BoxSetting& s) -> std::string {
+    if (traits.has(Setting::levels)) return counted(1 << s.first, "level");
+    if (traits.has(Setting::margin))
       return fmt::format("margin {:g}", kMargins[static_cast<std::size_t>(s.first)]);
-    return traits_.splits ? fmt::format("capacity {}, depth limit {}", 1 << s.first, s.second) : "";
-  }
-  std::unique_ptr<BoxRun> start(const BoxStage& stage, const BoxSetting& setting) const override {
-    if (stage.dimension() == 2) return start_in<2>(stage, setting);
-    return start_in<3>(stage, setting);
-  }
+    return traits.splits ? fmt::format("capacity {}, depth limit {}", 1 << s.first, s.second) : "";
+  };
+  who.start = [=](const BoxStage& stage, const BoxSetting& s) {
+    return stage.dimension() == 2 ? own_run<2>(kind, stage, s) : own_run<3>(kind, stage, s);
+  };
+  return who;
+}
 
- private:
-  static constexpr int kDeepest = 16;
-  static constexpr std::array kMargins = {0.0, 0.05, 0.1, 0.2, 0.4};
+template <int D>
+std::unique_ptr<BoxRun> peer_run(const BoxPeer& peer, const BoxPeer::Maker<PairFinder<D>>& finder,
+                                 const BoxPeer::Maker<Oracle<D>>& oracle, const BoxStage& stage,
+                                 const BoxSetting& setting) {
+  const auto place = static_cast<std::size_t>(setting.first);
+  if (stage.task != BoxTask::pairs) return std::make_unique<Asked<D>>(stage, oracle(place));
+  return std::make_unique<PeerPairs<D>>(stage, peer, finder(place));
+}
 
-  template <int D>
-  std::unique_ptr<BoxRun> start_in(const BoxStage& stage, const BoxSetting& setting) const {
-    BroadPhaseConfig<D> config;
-    config.kind = kind_;
-    config.build = Build::at_once;
-    config.bounds = updates_in<D>(stage).bounds;
-    if (traits_.has(Setting::levels)) config.levels = 1u << setting.first;
-    if (traits_.has(Setting::margin))
-      config.margin = kMargins[static_cast<std::size_t>(setting.first)];
-    if (traits_.splits) {
-      config.capacity = 1u << setting.first;
-      config.max_depth = static_cast<std::uint32_t>(setting.second);
-    }
-    if (stage.task == BoxTask::pairs) return std::make_unique<OwnPairs<D>>(stage, config);
-    return std::make_unique<Asked<D>>(stage, std::make_unique<OwnOracle<D>>(config));
-  }
-
-  StructureKind kind_;
-  StructureTraits traits_;
-};
-
-class PeerContestant : public BoxContestant {
- public:
-  explicit PeerContestant(BoxPeer peer) : peer_(std::move(peer)) {}
-
-  std::string name() const override { return peer_.name; }
-  std::string version() const override { return peer_.version; }
-  std::string how() const override { return peer_.how; }
-  bool can(const BoxStage& stage) const override {
+BoxContestant peer_contestant(BoxPeer told) {
+  const auto peer = std::make_shared<const BoxPeer>(std::move(told));
+  BoxContestant who{.name = peer->name, .version = peer->version, .how = peer->how};
+  who.can = [peer](const BoxStage& stage) {
     const bool flat = stage.dimension() == 2;
-    if (stage.task == BoxTask::pairs) return flat ? bool(peer_.pairs_2d) : bool(peer_.pairs_3d);
-    return flat ? bool(peer_.oracle_2d) : bool(peer_.oracle_3d);
-  }
-  BoxSetting likely(const BoxStage&) const override { return {}; }
-  bool has(const BoxSetting& s) const override {
-    return s.second == 0 && s.first >= 0 && s.first < static_cast<int>(peer_.settings.size());
-  }
-  std::string words(const BoxSetting& s) const override {
-    return peer_.settings[static_cast<std::size_t>(s.first)];
-  }
-  std::unique_ptr<BoxRun> start(const BoxStage& stage, const BoxSetting& setting) const override {
-    const auto place = static_cast<std::size_t>(setting.first);
-    const bool flat = stage.dimension() == 2;
-    if (stage.task != BoxTask::pairs) {
-      if (flat) return std::make_unique<Asked<2>>(stage, peer_.oracle_2d(place));
-      return std::make_unique<Asked<3>>(stage, peer_.oracle_3d(place));
-    }
-    if (flat) return std::make_unique<PeerPairs<2>>(stage, peer_, peer_.pairs_2d(place));
-    return std::make_unique<PeerPairs<3>>(stage, peer_, peer_.pairs_3d(place));
-  }
-
- private:
-  BoxPeer peer_;
-};
+    if (stage.task == BoxTask::pairs) return flat ? bool(peer->pairs_2d) : bool(peer->pairs_3d);
+    return flat ? bool(peer->oracle_2d) : bool(peer->oracle_3d);
+  };
+  who.likely = [](const BoxStage&) { return BoxSetting{}; };
+  who.has = [peer](const BoxSetting& s) {
+    return s.second == 0 && s.first >= 0 && s.first < static_cast<int>(peer->settings.size());
+  };
+  who.words = [peer](const BoxSetting& s) {
+    return peer->settings[static_cast<std::size_t>(s.first)];
+  };
+  who.start = [peer](const BoxStage& stage, const BoxSetting& s) {
+    return stage.dimension() == 2 ? peer_run<2>(*peer, peer->pairs_2d, peer->oracle_2d, stage, s)
+                                  : peer_run<3>(*peer, peer->pairs_3d, peer->oracle_3d, stage, s);
+  };
+  return who;
+}
 
 constexpr PeerModule kBoxModules[] = {
     {"CGAL", "lantern_peer_boxes_cgal.so", "libcgal-dev"},
@@ -260,21 +245,20 @@ constexpr PeerModule kBoxModules[] = {
 
 }  // namespace
 
-std::vector<std::unique_ptr<BoxContestant>> own_box_contestants() {
-  std::vector<std::unique_ptr<BoxContestant>> all;
+std::vector<BoxContestant> own_box_contestants() {
+  std::vector<BoxContestant> all;
   const auto automatic = structure_named("auto");
-  if (automatic) all.push_back(std::make_unique<OwnContestantOf>(*automatic));
+  if (automatic) all.push_back(own_contestant(*automatic));
   for (const StructureKind kind : known_structures())
     if (!traits_of(kind).has(Setting::planes) && kind != automatic)
-      all.push_back(std::make_unique<OwnContestantOf>(kind));
+      all.push_back(own_contestant(kind));
   return all;
 }
 
-std::vector<std::unique_ptr<BoxContestant>> peer_box_contestants(
-    std::vector<std::string>& missing) {
-  std::vector<std::unique_ptr<BoxContestant>> all;
+std::vector<BoxContestant> peer_box_contestants(std::vector<std::string>& missing) {
+  std::vector<BoxContestant> all;
   for (BoxPeer& peer : peers_of<BoxPeer>(kBoxModules, "lantern_box_peers", missing))
-    all.push_back(std::make_unique<PeerContestant>(std::move(peer)));
+    all.push_back(peer_contestant(std::move(peer)));
   return all;
 }
 

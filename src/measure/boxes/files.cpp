@@ -1,13 +1,5 @@
-#include <algorithm>
-#include <array>
-#include <bit>
 #include <charconv>
 #include <cstring>
-#include <optional>
-#include <string>
-#include <string_view>
-
-#include <fmt/format.h>
 
 #include "base/error.hpp"
 #include "base/file.hpp"

@@ -1,23 +1,10 @@
 #include "measure/boxes/worlds.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-
-#include <fmt/format.h>
-
 #include "base/check.hpp"
-#include "base/error.hpp"
-#include "base/random.hpp"
-#include "base/stop.hpp"
-#include "geometry/flat.hpp"
 #include "geometry/random_vec.hpp"
 #include "run/director.hpp"
 
 namespace lantern::measure {
-
-// --- seeded scenes and those of scenarios ---
-
 namespace {
 
 struct NamedSort {
@@ -46,40 +33,6 @@ BoxUpdates<D> updates_of(const Scenario& scenario, const Frame& frame) {
                                frame.bodies[i].is_static, true});
   return scene;
 }
-
-}  // namespace
-
-std::vector<BoxScene> seeded_box_scenes(std::size_t bodies, std::uint64_t seed) {
-  std::vector<BoxScene> scenes;
-  for (const NamedSort& sort : kSorts) scenes.push_back(seeded<2>(sort, bodies, seed));
-  for (const NamedSort& sort : kSorts) scenes.push_back(seeded<3>(sort, bodies, seed));
-  return scenes;
-}
-
-BoxScene box_scene_of(const Scenario& scenario) {
-  Frame fullest;
-  Work work;
-  direct(scenario, Pace::step, work, [&](const Frame& frame) {
-    if (frame.bodies.size() > fullest.bodies.size() &&
-        (fullest.bodies.empty() || !traits_of(scenario.steps[frame.step].verb).passes_time))
-      fullest = frame;
-    return fullest.bodies.empty() || !traits_of(scenario.steps[frame.step].verb).passes_time;
-  });
-  if (fullest.bodies.size() < 2)
-    throw ScenarioError(diagnose(scenario, {scenario.file, 0, 0},
-                                 "fewer than two of its bodies enter, so there is no pair"));
-  BoxScene scene{
-      scenario.name, fmt::format("the {} boxes of {}", fullest.bodies.size(), scenario.name), {}};
-  if (scenario.world.dimension == 2)
-    scene.boxes = updates_of<2>(scenario, fullest);
-  else
-    scene.boxes = updates_of<3>(scenario, fullest);
-  return scene;
-}
-
-// --- workloads ---
-
-namespace {
 
 constexpr double kJitter2 = 0.1, kJitter3 = 0.2;  // farthest way an axis and step
 
@@ -259,7 +212,64 @@ class Crowd {
   double fallen_ = 0;
 };
 
+template <int D>
+Questions<D> random_questions(const Box<D>& bounds, std::uint64_t seed) {
+  Random random(seed + 1);
+  const double width = bounds.size().x;
+  const auto anywhere = [&] { return bounds.lo + random_point<D>(random, 0, 1) * bounds.size(); };
+  Questions<D> all;
+  for (std::size_t i = 0; i < kQuestions; ++i) {
+    const Vec<D> from = anywhere();
+    all.rays.push_back({from, random_direction<D>(random) * random.between(0.01, 0.25) * width, 1});
+    all.boxes.push_back(Box<D>::around(anywhere(), random_point<D>(random, 0, 5)));
+    all.balls.push_back({anywhere(), random.between(0, 5)});
+  }
+  return all;
+}
+
+template <int D>
+BoxUpdates<D> each(const BoxUpdates<D>& all, std::size_t part) {
+  BoxUpdates<D> few{all.bounds, {{}}};
+  for (std::size_t i = 0; i < all.frames[0].size(); i += part) {
+    few.frames[0].push_back(all.frames[0][i]);
+    few.frames[0].back().id = static_cast<BodyId>(i / part);
+  }
+  return few;
+}
+
 }  // namespace
+
+// --- seeded scenes and those of scenarios ---
+
+std::vector<BoxScene> seeded_box_scenes(std::size_t bodies, std::uint64_t seed) {
+  std::vector<BoxScene> scenes;
+  for (const NamedSort& sort : kSorts) scenes.push_back(seeded<2>(sort, bodies, seed));
+  for (const NamedSort& sort : kSorts) scenes.push_back(seeded<3>(sort, bodies, seed));
+  return scenes;
+}
+
+BoxScene box_scene_of(const Scenario& scenario) {
+  Frame fullest;
+  Work work;
+  direct(scenario, Pace::step, work, [&](const Frame& frame) {
+    if (frame.bodies.size() > fullest.bodies.size() &&
+        (fullest.bodies.empty() || !traits_of(scenario.steps[frame.step].verb).passes_time))
+      fullest = frame;
+    return fullest.bodies.empty() || !traits_of(scenario.steps[frame.step].verb).passes_time;
+  });
+  if (fullest.bodies.size() < 2)
+    throw ScenarioError(diagnose(scenario, {scenario.file, 0, 0},
+                                 "fewer than two of its bodies enter, so there is no pair"));
+  BoxScene scene{
+      scenario.name, fmt::format("the {} boxes of {}", fullest.bodies.size(), scenario.name), {}};
+  if (scenario.world.dimension == 2)
+    scene.boxes = updates_of<2>(scenario, fullest);
+  else
+    scene.boxes = updates_of<3>(scenario, fullest);
+  return scene;
+}
+
+// --- workloads ---
 
 std::span<const BoxWorkload> box_workloads() { return kWorkloads; }
 
@@ -287,35 +297,6 @@ std::size_t frames_for(std::size_t bodies) {
 }
 
 // --- stages ---
-
-namespace {
-
-template <int D>
-Questions<D> random_questions(const Box<D>& bounds, std::uint64_t seed) {
-  Random random(seed + 1);
-  const double width = bounds.size().x;
-  const auto anywhere = [&] { return bounds.lo + random_point<D>(random, 0, 1) * bounds.size(); };
-  Questions<D> all;
-  for (std::size_t i = 0; i < kQuestions; ++i) {
-    const Vec<D> from = anywhere();
-    all.rays.push_back({from, random_direction<D>(random) * random.between(0.01, 0.25) * width, 1});
-    all.boxes.push_back(Box<D>::around(anywhere(), random_point<D>(random, 0, 5)));
-    all.balls.push_back({anywhere(), random.between(0, 5)});
-  }
-  return all;
-}
-
-template <int D>
-BoxUpdates<D> each(const BoxUpdates<D>& all, std::size_t part) {
-  BoxUpdates<D> few{all.bounds, {{}}};
-  for (std::size_t i = 0; i < all.frames[0].size(); i += part) {
-    few.frames[0].push_back(all.frames[0][i]);
-    few.frames[0].back().id = static_cast<BodyId>(i / part);
-  }
-  return few;
-}
-
-}  // namespace
 
 std::size_t BoxStage::bodies() const {
   return std::visit([](const auto& all) { return all.frames[0].size(); }, scene.boxes);

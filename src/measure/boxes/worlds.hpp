@@ -2,16 +2,7 @@
 // structures apart, those of a scenario, those of `bench pairs`, and a user's own.
 #pragma once
 
-#include <compare>
-#include <cstdint>
 #include <filesystem>
-#include <memory>
-#include <optional>
-#include <span>
-#include <string>
-#include <string_view>
-#include <variant>
-#include <vector>
 
 #include "language/scenario.hpp"
 #include "measure/box_peer.hpp"

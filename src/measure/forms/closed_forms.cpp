@@ -3,17 +3,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include <glm/geometric.hpp>
 
 #include "base/check.hpp"
 #include "base/error.hpp"
 #include "geometry/elliptic.hpp"
-#include "measure/forms/precise.hpp"
 
 namespace lantern::measure {
-
 namespace {
 
 // (1 - e^-z) / z, which is 1 at 0.
@@ -108,6 +105,22 @@ LongQuat naming(const std::array<int, 3>& axis) {
   const bool right_handed = (axis[1] - axis[0] + 3) % 3 == 1;
   for (int i = 0; i < 3; ++i) m[axis[i]][i] = i == 0 && !right_handed ? -1 : 1;
   return glm::quat_cast(m);
+}
+
+using Column = std::vector<long double>;
+
+long double dot(const Column& a, const Column& b) {
+  long double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+void rotate(Column& a, Column& b, long double c, long double s) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    const long double x = a[i], y = b[i];
+    a[i] = c * x - s * y;
+    b[i] = s * x + c * y;
+  }
 }
 
 }  // namespace
@@ -269,26 +282,6 @@ LongQuat FreeTop::orientation(long double time) const {
 LongVec FreeTop::momentum(long double time) const {
   return fixed_ ? momentum_ : glm::conjugate(names_) * named(time);
 }
-
-namespace {
-
-using Column = std::vector<long double>;
-
-long double dot(const Column& a, const Column& b) {
-  long double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
-  return sum;
-}
-
-void rotate(Column& a, Column& b, long double c, long double s) {
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    const long double x = a[i], y = b[i];
-    a[i] = c * x - s * y;
-    b[i] = s * x + c * y;
-  }
-}
-
-}  // namespace
 
 ChainMotion::ChainMotion(const Column& masses, const Column& stiffnesses,
                          const Column& displacements, const Column& velocities) {

@@ -1,12 +1,8 @@
 #include "measure/forms/linkage.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <glm/geometric.hpp>
-
-#include "base/error.hpp"
 
 namespace lantern::measure {
 namespace {

@@ -1,18 +1,32 @@
-// Bodies that slide, roll and topple on the ground, on a slope and on a plate.
-
-#include <algorithm>
-#include <cmath>
-#include <memory>
-
-#include <fmt/format.h>
+// Bodies that slide and roll on the ground, on a slope and on a plate.
 
 #include "measure/metrics/reading.hpp"
 
 namespace lantern::measure {
+namespace {
 
 // --- bodies that are thrown along level ground ---
 
-namespace {
+// A body that is thrown along level ground, and what brakes it.
+struct Thrown {
+  std::size_t body = 0;
+  Vec<3> start{0.0}, heading{0.0};
+  double speed = 0, braking = 0;  // braking: mu g
+};
+
+// Refuses one that does not `go` along it, or has no friction.
+Thrown thrown_along(const Scenario& scenario, const Footing& ground, std::size_t i, double gravity,
+                    const char* go) {
+  const BodySpec& body = scenario.bodies[i];
+  const double speed = glm::length(body.velocity);
+  if (!(speed > 0) || std::abs(glm::dot(body.velocity, ground.normal)) > 1e-12 * speed)
+    refuse_problem(scenario, fmt::format("'{}' does not {} along the ground", body.name, go));
+  const double mu = friction_between(scenario, i, ground.body);
+  if (!(mu > 0)) refuse_problem(scenario, fmt::format("'{}' has no friction", body.name));
+  return {i, body.position, body.velocity / speed, speed, mu * gravity};
+}
+
+constexpr double kStill = 1e-6;  // of its first speed: so slow is stopped, so little slip is none
 
 // Blocks that slide over level ground until friction has stopped them: after v / (mu g) seconds and
 // v^2 / (2 mu g) units, straight on, whatever their heading.
@@ -24,16 +38,12 @@ class Slide : public ErrorMetric {
     for (const std::size_t i : moving_bodies(scenario)) {
       const BodySpec& body = scenario.bodies[i];
       require_on_ground(scenario, ground_, i);
-      const double speed = glm::length(body.velocity);
-      if (!(speed > 0) || std::abs(glm::dot(body.velocity, ground_.normal)) > 1e-12 * speed)
-        refuse_problem(scenario, fmt::format("'{}' does not slide along the ground", body.name));
+      const Thrown thrown = thrown_along(scenario, ground_, i, gravity, "slide");
       const double mu = friction_between(scenario, i, ground_.body);
-      if (!(mu > 0)) refuse_problem(scenario, fmt::format("'{}' has no friction", body.name));
-      const Vec<3> heading = body.velocity / speed;
-      if (turns(body) &&
-          (is_ball(body) || mu * reach_along(body, ground_.normal) > reach_along(body, heading)))
+      if (turns(body) && (is_ball(body) || mu * reach_along(body, ground_.normal) >
+                                               reach_along(body, thrown.heading)))
         refuse_problem(scenario, fmt::format("'{}' would roll or topple", body.name));
-      sliders_.push_back({i, body.position, heading, speed, mu * gravity});
+      sliders_.push_back({thrown});
       if (sliders_.back().time() > scenario.problem->seconds)
         refuse_problem(scenario, fmt::format("'{}' still slides at the end", body.name));
     }
@@ -62,12 +72,7 @@ class Slide : public ErrorMetric {
   }
 
  private:
-  static constexpr double kStill = 1e-6;  // of its first speed: so slow is stopped
-
-  struct Slider {
-    std::size_t body = 0;
-    Vec<3> start{0.0}, heading{0.0};
-    double speed = 0, braking = 0;  // mu g
+  struct Slider : Thrown {
     double time() const { return speed / braking; }
     double distance() const { return speed * speed / (2 * braking); }
   };
@@ -97,13 +102,8 @@ class SlipThenRoll : public ErrorMetric {
       require_on_ground(scenario, ground_, i);
       if (!is_ball(body) || !turns(body) || body.spin != 0)
         refuse_problem(scenario, fmt::format("'{}' is no ball that begins to turn", body.name));
-      const double speed = glm::length(body.velocity);
-      if (!(speed > 0) || std::abs(glm::dot(body.velocity, ground_.normal)) > 1e-12 * speed)
-        refuse_problem(scenario, fmt::format("'{}' does not go along the ground", body.name));
-      const double mu = friction_between(scenario, i, ground_.body);
-      if (!(mu > 0)) refuse_problem(scenario, fmt::format("'{}' has no friction", body.name));
-      balls_.push_back({i, body.position, body.velocity / speed, speed, mu * gravity,
-                        reach_along(body, ground_.normal)});
+      balls_.push_back(
+          {thrown_along(scenario, ground_, i, gravity, "go"), reach_along(body, ground_.normal)});
       if (rolls_after(balls_.back()) > scenario.problem->seconds)
         refuse_problem(scenario, fmt::format("'{}' still slips at the end", body.name));
     }
@@ -132,12 +132,8 @@ class SlipThenRoll : public ErrorMetric {
   }
 
  private:
-  static constexpr double kStill = 1e-6;  // of its first speed: so little slip is none
-
-  struct Ball {
-    std::size_t body = 0;
-    Vec<3> start{0.0}, heading{0.0};
-    double speed = 0, braking = 0, radius = 0;  // braking: mu g
+  struct Ball : Thrown {
+    double radius = 0;
   };
 
   double rolls_after(const Ball& ball) const { return k_ / (1 + k_) * ball.speed / ball.braking; }
@@ -151,14 +147,7 @@ class SlipThenRoll : public ErrorMetric {
   Worst& speed_ = norm("v", "1", "largest error of a velocity, over the first speed");
 };
 
-}  // namespace
-
-MetricMaker slide_metric(const Scenario& s) { return made_of<Slide>(s); }
-MetricMaker slip_then_roll_metric(const Scenario& s) { return made_of<SlipThenRoll>(s); }
-
 // --- bodies that are put on a slope ---
-
-namespace {
 
 // Blocks and balls that are put on a slope. A block stays iff tan a <= mu, else it slides with
 // g (sin a - mu cos a). A ball of inertia k m r^2 rolls with g sin a / (1 + k) iff
@@ -236,93 +225,7 @@ class Incline : public ErrorMetric {
                        "how many stay, slide, roll or slip at the end that should do the opposite");
 };
 
-constexpr double kTopples = 0.1;  // radians: one that leans so far does not come back
-constexpr double kIsTold = 0.2;   // radians that it must have turned by the end of the problem
-
-// Boxes that are put on a slope too rough to slide on. One of half width w and half height h
-// topples over its lower edge iff tan a > w / h: iff its centre is beyond that edge.
-class Topple : public ErrorMetric {
- public:
-  explicit Topple(const Scenario& scenario)
-      : ground_(ground_of(scenario)), slope_(slope_of(scenario, ground_)) {
-    require_links(scenario, 0);
-    for (const std::size_t i : moving_bodies(scenario)) add(scenario, i);
-  }
-
-  void look(const Observation& now) override {
-    double wrong = 0;
-    for (Box& box : boxes_) {
-      const Rotation<3>& r = now.states[box.body].orientation;
-      const Vec<3> leans = matrix(r) * box.up;
-      const double tilt = std::atan2(glm::length(glm::cross(ground_.normal, leans)),
-                                     glm::dot(ground_.normal, leans));
-      if (!(tilt < kTopples)) box.has_toppled = true;
-      if (!box.should) tilt_.meet(tilt);
-      wrong += box.has_toppled != box.should;
-    }
-    wrong_.set(wrong);
-  }
-
- private:
-  struct Box {
-    std::size_t body = 0;
-    Vec<3> up{0.0};  // the normal of the ground in the axes of the body
-    bool should = false;
-    bool has_toppled = false;
-  };
-
-  void add(const Scenario& scenario, std::size_t index) {
-    const BodySpec& body = scenario.bodies[index];
-    const auto refuse = [&](const char* why) {
-      refuse_problem(scenario, fmt::format("'{}' {}", body.name, why));
-    };
-    require_on_ground(scenario, ground_, index);
-    const auto* shape = std::get_if<OrientedBox<3>>(&body.shape);
-    if (!shape || !turns(body)) refuse("is no box that turns");
-    require_at_rest(scenario, index);
-    const double mu = friction_between(scenario, index, ground_.body);
-    if (!(mu * slope_.pull > slope_.push)) refuse("would slide");
-    Box box;
-    box.body = index;
-    const Mat<3> axes = matrix(turned(Rotation<3>(), body.axis * body.angle));
-    box.up = glm::transpose(axes) * ground_.normal;
-    const double w = reach_along(body, slope_.downhill), h = reach_along(body, ground_.normal);
-    double flattest = 1;
-    for (int i = 0; i < 3; ++i)
-      flattest = std::min(flattest, 1 - std::abs(glm::dot(axes[i], ground_.normal)));
-    if (flattest > 1e-9) refuse("does not stand flat on the ground");
-    box.should = slope_.push * h > slope_.pull * w;
-    if (box.should && tilt_after(scenario.problem->seconds, w, h) < kIsTold)
-      refuse("needs more seconds to topple");
-    boxes_.push_back(box);
-  }
-
-  // Of a box that tips over its edge, near to the start: about the edge its inertia over its mass
-  // is 4/3 (w^2 + h^2), and what turns it grows with the angle.
-  double tilt_after(double seconds, double w, double h) const {
-    const double inertia = 4.0 / 3 * (w * w + h * h);
-    const double at_first = (slope_.push * h - slope_.pull * w) / inertia;
-    const double growth = (slope_.pull * h + slope_.push * w) / inertia;
-    return at_first / growth * (std::cosh(std::sqrt(growth) * seconds) - 1);
-  }
-
-  Footing ground_;
-  Slope slope_;
-  std::vector<Box> boxes_;
-  Worst& wrong_ =
-      norm("class", "boxes",
-           "how many stand at the end that should have toppled, or topple that should stand");
-  Worst& tilt_ = norm("tilt", "rad", "largest tilt over the run of a box that should stand");
-};
-
-}  // namespace
-
-MetricMaker incline_metric(const Scenario& s) { return made_of<Incline>(s); }
-MetricMaker topple_metric(const Scenario& s) { return made_of<Topple>(s); }
-
 // --- what rolls and slides on a plate that slides itself ---
-
-namespace {
 
 // A plate on level or sloping ground, which is pulled, and balls and boxes on it, all along one
 // line and from rest. With gravity g along it, and N = m g across, a rider takes from the plate
@@ -475,6 +378,12 @@ class BallOnPlate : public ErrorMetric {
 
 }  // namespace
 
-MetricMaker ball_on_plate_metric(const Scenario& s) { return made_of<BallOnPlate>(s); }
+std::span<const Problem> ground_problems() {
+  static constexpr Problem kAll[] = {{Solution::slide, made_of<Slide>},
+                                     {Solution::slip_then_roll, made_of<SlipThenRoll>},
+                                     {Solution::incline, made_of<Incline>},
+                                     {Solution::ball_on_plate, made_of<BallOnPlate>}};
+  return kAll;
+}
 
 }  // namespace lantern::measure

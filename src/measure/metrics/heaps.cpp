@@ -1,21 +1,12 @@
 // Bodies that stand and hang. No closed form tells where each of a heap lies; what must hold is
 // known all the same: they neither sink into each other nor wander.
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <utility>
-
-#include <fmt/format.h>
-
-#include "measure/metrics/meters.hpp"
 #include "measure/metrics/reading.hpp"
 
 namespace lantern::measure {
+namespace {
 
 // --- bodies that should hang or stand still, each carrying all later ones ---
-
-namespace {
 
 // Newton's second law gives the mean force that held the bodies i, i+1, ... up between two looks:
 //
@@ -180,7 +171,7 @@ class HangingChain : public ErrorMetric {
     for (const std::size_t i : moving_bodies(scenario)) require_at_rest(scenario, i);
     const std::vector<BodyState> states = first_states(scenario);
     for (const LinkSpec& link : links_) {
-      const Vec<3> span = upper(link, states) - lower(link, states);
+      const Vec<3> span = far_end(link, states) - lower(link, states);
       if (glm::dot(span, g) > 0 || !are_nearly_parallel(span, g))
         refuse_problem(scenario, "it does not hang straight down");
       const bool is_pin = link.kind == LinkSpec::Kind::pin;
@@ -198,7 +189,7 @@ class HangingChain : public ErrorMetric {
   void look(const Observation& now) override {
     double grown = -length_;
     for (const LinkSpec& link : links_)
-      grown += glm::length(upper(link, now.states) - lower(link, now.states));
+      grown += glm::length(far_end(link, now.states) - lower(link, now.states));
     stretch_.meet(grown);
     burdens_.look(now, tension_);
   }
@@ -206,9 +197,6 @@ class HangingChain : public ErrorMetric {
  private:
   Vec<3> lower(const LinkSpec& link, const std::vector<BodyState>& states) const {
     return point_of(states[link.a], link.at_a);
-  }
-  Vec<3> upper(const LinkSpec& link, const std::vector<BodyState>& states) const {
-    return link.b ? point_of(states[*link.b], link.at_b) : link.at_b;
   }
 
   std::vector<LinkSpec> links_;  // from above
@@ -223,14 +211,7 @@ class HangingChain : public ErrorMetric {
                          "largest error of the mean pull of a joint between two samples, relative");
 };
 
-}  // namespace
-
-MetricMaker stack_metric(const Scenario& s) { return made_of<Stack>(s); }
-MetricMaker hanging_chain_metric(const Scenario& s) { return made_of<HangingChain>(s); }
-
 // --- many bodies that come to rest, or should stay there ---
-
-namespace {
 
 // The least half width of all that moves.
 double smallest_half(const Scenario& scenario, const std::vector<std::size_t>& bodies) {
@@ -269,12 +250,10 @@ class Heap : public ErrorMetric {
   }
 
  protected:
-  const std::vector<std::size_t>& bodies() const { return bodies_; }
-  double size() const { return size_; }
-
- private:
   std::vector<std::size_t> bodies_;
   double size_;
+
+ private:
   double quiet_from_;
   EnergyMeter energy_;
   std::vector<BodyState> quiet_;
@@ -304,7 +283,7 @@ class Contained : public Heap {
   void look(const Observation& now) override {
     Heap::look(now);
     out_ = 0;
-    for (const std::size_t i : bodies()) {
+    for (const std::size_t i : bodies_) {
       const Vec<3>& at = now.states[i].position;
       out_ += at.x < container_->lo.x || at.x > container_->hi.x || at.y < container_->lo.y ||
               at.z < container_->lo.z || at.z > container_->hi.z;
@@ -312,7 +291,7 @@ class Contained : public Heap {
   }
   std::optional<std::string> collapse() const override {
     if (out_ == 0) return std::nullopt;
-    return fmt::format("{} of {} bodies have left the container", out_, bodies().size());
+    return fmt::format("{} of {} bodies have left the container", out_, bodies_.size());
   }
 
  private:
@@ -324,7 +303,7 @@ class Contained : public Heap {
 class Standing : public Heap {
  public:
   explicit Standing(const Scenario& scenario) : Heap(scenario, 0.5) {
-    for (const std::size_t i : bodies()) {
+    for (const std::size_t i : bodies_) {
       require_at_rest(scenario, i);
       starts_.push_back(scenario.bodies[i].position);
     }
@@ -333,10 +312,10 @@ class Standing : public Heap {
   void look(const Observation& now) override {
     Heap::look(now);
     for (std::size_t n = 0; n < starts_.size(); ++n)
-      moved_.meet(glm::length(now.states[bodies()[n]].position - starts_[n]));
+      moved_.meet(glm::length(now.states[bodies_[n]].position - starts_[n]));
   }
   std::optional<std::string> collapse() const override {
-    if (!(moved_.value() > size())) return std::nullopt;
+    if (!(moved_.value() > size_)) return std::nullopt;
     return fmt::format("a body has moved by {:.2g} units", moved_.value());
   }
 
@@ -347,7 +326,12 @@ class Standing : public Heap {
 
 }  // namespace
 
-MetricMaker pile_metric(const Scenario& s) { return made_of<Contained>(s); }
-MetricMaker standing_metric(const Scenario& s) { return made_of<Standing>(s); }
+std::span<const Problem> heaps_problems() {
+  static constexpr Problem kAll[] = {{Solution::stack, made_of<Stack>},
+                                     {Solution::hanging_chain, made_of<HangingChain>},
+                                     {Solution::pile, made_of<Contained>},
+                                     {Solution::standing, made_of<Standing>}};
+  return kAll;
+}
 
 }  // namespace lantern::measure

@@ -1,21 +1,11 @@
 // Bodies that bounce and hit each other.
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <optional>
-
-#include <fmt/format.h>
-
 #include "measure/metrics/reading.hpp"
 
 namespace lantern::measure {
+namespace {
 
 // --- bodies that bounce for long ---
-
-namespace {
 
 using Real = long double;
 
@@ -208,14 +198,7 @@ class Billiards : public ErrorMetric {
   Worst& momentum_error_ = norm("p", "1", kMomentumMeaning);
 };
 
-}  // namespace
-
-MetricMaker bouncing_ball_metric(const Scenario& s) { return made_of<BouncingBall>(s); }
-MetricMaker billiards_metric(const Scenario& s) { return made_of<Billiards>(s); }
-
 // --- bodies that hit each other on a line ---
-
-namespace {
 
 using Real = long double;
 
@@ -443,7 +426,12 @@ class BlocksAndWall : public ErrorMetric {
 
 }  // namespace
 
-MetricMaker collisions_metric(const Scenario& s) { return made_of<Collisions>(s); }
-MetricMaker blocks_and_wall_metric(const Scenario& s) { return made_of<BlocksAndWall>(s); }
+std::span<const Problem> impacts_problems() {
+  static constexpr Problem kAll[] = {{Solution::bouncing_ball, made_of<BouncingBall>},
+                                     {Solution::blocks_and_wall, made_of<BlocksAndWall>},
+                                     {Solution::collisions, made_of<Collisions>},
+                                     {Solution::billiards, made_of<Billiards>}};
+  return kAll;
+}
 
 }  // namespace lantern::measure

@@ -1,16 +1,7 @@
 // Bodies on joints.
 
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <utility>
-
-#include <fmt/format.h>
-
-#include "base/check.hpp"
-#include "measure/forms/dormand_prince.hpp"
 #include "measure/forms/linkage.hpp"
-#include "measure/metrics/meters.hpp"
+#include "measure/metrics/reading.hpp"
 #include "physics/body.hpp"
 
 namespace lantern::measure {
@@ -36,26 +27,44 @@ Vec<3> point_of(const BodyState& state, const Vec<3>& at) {
   return state.position + matrix(state.orientation) * at;
 }
 
-JointGaps::JointGaps(const Scenario& scenario) {
-  const std::vector<BodyState> states = first_states(scenario);
-  for (const LinkSpec& link : scenario.links) {
-    if (link.kind == LinkSpec::Kind::spring) continue;
-    const bool is_pin = link.kind == LinkSpec::Kind::pin;
-    joints_.push_back({link, is_pin ? 0 : link.rest_length.value_or(distance(link, states))});
-  }
-  if (joints_.empty()) refuse_problem(scenario, "it has no joints");
-}
-
-double JointGaps::distance(const LinkSpec& link, const std::vector<BodyState>& states) {
-  const Vec<3> end = link.b ? point_of(states[*link.b], link.at_b) : link.at_b;
-  return glm::length(point_of(states[link.a], link.at_a) - end);
-}
-
-void JointGaps::look(const std::vector<BodyState>& states) {
-  for (const Joint& joint : joints_) worst_.meet(distance(joint.link, states) - joint.length);
+Vec<3> far_end(const LinkSpec& link, const std::vector<BodyState>& states) {
+  return link.b ? point_of(states[*link.b], link.at_b) : link.at_b;
 }
 
 namespace {
+
+// --- how far the joints of a scenario part, by the states of its bodies alone ---
+
+class JointGaps {
+ public:
+  // Of its pins and rods. Refuses a scenario without any.
+  explicit JointGaps(const Scenario& scenario) {
+    const std::vector<BodyState> states = first_states(scenario);
+    for (const LinkSpec& link : scenario.links) {
+      if (link.kind == LinkSpec::Kind::spring) continue;
+      const bool is_pin = link.kind == LinkSpec::Kind::pin;
+      joints_.push_back({link, is_pin ? 0 : link.rest_length.value_or(distance(link, states))});
+    }
+    if (joints_.empty()) refuse_problem(scenario, "it has no joints");
+  }
+
+  void look(const std::vector<BodyState>& states) {
+    for (const Joint& joint : joints_) worst_.meet(distance(joint.link, states) - joint.length);
+  }
+  double worst() const { return worst_.value(); }  // units, so far
+
+ private:
+  struct Joint {
+    LinkSpec link;
+    double length = 0;  // 0 of a pin
+  };
+  static double distance(const LinkSpec& link, const std::vector<BodyState>& states) {
+    return glm::length(point_of(states[link.a], link.at_a) - far_end(link, states));
+  }
+
+  std::vector<Joint> joints_;
+  Worst worst_;
+};
 
 // --- what swings ---
 
@@ -93,7 +102,7 @@ Linkage linkage_of(const Scenario& scenario, const std::vector<std::size_t>& bod
     if (!place(link.a)) refuse_problem(scenario, "nothing moves on one of its joints");
     Linkage::Joint joint{*place(link.a), {}, flat_long(link.at_a), flat_long(link.at_b), {}};
     if (link.b) joint.b = place(*link.b);
-    const Vec<3> end = link.b ? point_of(states[*link.b], link.at_b) : link.at_b;
+    const Vec<3> end = far_end(link, states);
     if (link.b && !joint.b) joint.at_b = flat_long(end);
     const double gap = glm::length(point_of(states[link.a], link.at_a) - end);
     if (link.kind == LinkSpec::Kind::distance) joint.length = link.rest_length.value_or(gap);
@@ -126,17 +135,13 @@ using Swinging = std::vector<std::vector<TrajectoryMetric::Exact>>;  // at each 
 std::shared_ptr<const Swinging> swinging(const Scenario& scenario) {
   const std::vector<std::size_t> bodies = dynamic_bodies(scenario);
   Linkage linkage = linkage_of(scenario, bodies);
-  auto all = std::make_shared<Swinging>();
-  const ProblemSpec& problem = *scenario.problem;
-  for (std::uint32_t n = 0; n <= problem.samples; ++n) {
-    auto& states = all->emplace_back();
-    const auto& now = linkage.at(static_cast<long double>(problem.seconds) * n / problem.samples);
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-      const Linkage::Body& body = now[i];
-      states.push_back({bodies[i], Vec<3>(glm::vec<3, long double>(body.position, 0)),
-                        Vec<3>(glm::vec<3, long double>(body.velocity, 0))});
-    }
-  }
+  auto all = at_samples(*scenario.problem, [&](long double time) {
+    std::vector<TrajectoryMetric::Exact> states;
+    for (const Linkage::Body& body : linkage.at(time))
+      states.push_back({bodies[states.size()], Vec<3>(LongVec(body.position, 0)),
+                        Vec<3>(LongVec(body.velocity, 0))});
+    return states;
+  });
   LANTERN_CHECK(linkage.energy_error(), <, 1e-12L);
   return all;
 }
@@ -222,8 +227,6 @@ class SpringsAlongPins : public ErrorMetric {
   Worst& gap_ = norm("joint", "units", "widest gap of a joint over the run");
 };
 
-}  // namespace
-
 void require_linkage(const Scenario& scenario) {
   if (scenario.world.dimension != 2) refuse_problem(scenario, "the world must be flat");
   require_nothing_else(scenario);
@@ -239,12 +242,7 @@ MetricMaker linkage_metric(const Scenario& scenario) {
     return std::make_unique<LinkageMetric>(scenario, exact);
   };
 }
-MetricMaker bridge_metric(const Scenario& s) { return made_of<Bridge>(s); }
-MetricMaker springs_along_pins_metric(const Scenario& s) { return made_of<SpringsAlongPins>(s); }
-
 // --- a body that turns about a fixed point under gravity ---
-
-namespace {
 
 using LongMat = glm::mat<3, 3, long double>;
 
@@ -279,7 +277,8 @@ void top_slope(const Top& top, const TopState& y, TopState& dy) {
   dy = {turning.w, turning.x, turning.y, turning.z, rate.x, rate.y, rate.z};
 }
 
-std::vector<TopMoment> top_motion(const Top& top, const ProblemSpec& problem) {
+std::shared_ptr<const std::vector<TopMoment>> top_motion(const Top& top,
+                                                         const ProblemSpec& problem) {
   const LongQuat& q = top.orientation;
   TopState y{q.w, q.x, q.y, q.z, top.spin.x, top.spin.y, top.spin.z};
   TopState scale(7, 1.0L);
@@ -287,18 +286,15 @@ std::vector<TopMoment> top_motion(const Top& top, const ProblemSpec& problem) {
       std::max(1.0L, std::max({std::abs(y[4]), std::abs(y[5]), std::abs(y[6])}));
   for (std::size_t i = 4; i < 7; ++i) scale[i] = fastest;
   DormandPrince<long double> method(1e-16L, scale);
-  std::vector<TopMoment> all;
   long double time = 0;
-  for (std::uint32_t n = 0; n <= problem.samples; ++n) {
-    const long double end = static_cast<long double>(problem.seconds) * n / problem.samples;
+  return at_samples(problem, [&](long double end) -> TopMoment {
     method.run([&](long double, const TopState& now, TopState& dy) { top_slope(top, now, dy); },
                time, end, y);
     time = end;
     const LongQuat at = quaternion_of(y);
     const LongVec w(y[4], y[5], y[6]);
-    all.push_back({at, top.pivot + at * top.arm, at * glm::cross(w, top.arm)});
-  }
-  return all;
+    return {at, top.pivot + at * top.arm, at * glm::cross(w, top.arm)};
+  });
 }
 
 class HeavyTop : public ErrorMetric {
@@ -369,14 +365,22 @@ Top top_of(const Scenario& scenario) {
   return top;
 }
 
-}  // namespace
-
 void require_heavy_top(const Scenario& scenario) { top_of(scenario); }
 
 MetricMaker heavy_top_metric(const Scenario& scenario) {
   const Top top = top_of(scenario);
-  const auto exact = std::make_shared<std::vector<TopMoment>>(top_motion(top, *scenario.problem));
+  const auto exact = top_motion(top, *scenario.problem);
   return [&scenario, top, exact] { return std::make_unique<HeavyTop>(scenario, top, exact); };
+}
+
+}  // namespace
+
+std::span<const Problem> joints_problems() {
+  static constexpr Problem kAll[] = {{Solution::linkage, linkage_metric, require_linkage},
+                                     {Solution::heavy_top, heavy_top_metric, require_heavy_top},
+                                     {Solution::bridge, made_of<Bridge>},
+                                     {Solution::springs_along_pins, made_of<SpringsAlongPins>}};
+  return kAll;
 }
 
 }  // namespace lantern::measure

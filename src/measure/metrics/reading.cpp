@@ -214,60 +214,20 @@ bool are_parallel(const Vec<3>& a, const Vec<3>& b) {
 
 namespace {
 
-// A problem is its metric, and, where that is costly to make, what is asked of it without the
-// answer: some take runs of their own, or the cube of their bodies.
-struct Problem {
-  Solution solution;
-  MetricsOf* metrics;
-  void (*require)(const Scenario&) = nullptr;
-};
-
-void require_short_chain(const Scenario& scenario) {
-  constexpr std::size_t kMostLinks = 1000;  // to follow a chain takes the square of their number
-  if (scenario.links.size() <= kMostLinks) require_chain(scenario);
-}
-
-constexpr Problem kProblems[] = {{Solution::projectile, projectile_metric},
-                                 {Solution::oscillator, oscillator_metric},
-                                 {Solution::chain, chain_metric, require_short_chain},
-                                 {Solution::kepler, kepler_metric},
-                                 {Solution::pendulum, pendulum_metric},
-                                 {Solution::free_top, free_top_metric},
-                                 {Solution::bouncing_ball, bouncing_ball_metric},
-                                 {Solution::blocks_and_wall, blocks_and_wall_metric},
-                                 {Solution::collisions, collisions_metric},
-                                 {Solution::billiards, billiards_metric},
-                                 {Solution::slide, slide_metric},
-                                 {Solution::slip_then_roll, slip_then_roll_metric},
-                                 {Solution::incline, incline_metric},
-                                 {Solution::topple, topple_metric},
-                                 {Solution::stack, stack_metric},
-                                 {Solution::hanging_chain, hanging_chain_metric},
-                                 {Solution::linkage, linkage_metric, require_linkage},
-                                 {Solution::heavy_top, heavy_top_metric, require_heavy_top},
-                                 {Solution::bridge, bridge_metric},
-                                 {Solution::springs_along_pins, springs_along_pins_metric},
-                                 {Solution::ball_on_plate, ball_on_plate_metric},
-                                 {Solution::rocking_block, rocking_block_metric},
-                                 {Solution::dominoes, dominoes_metric, require_dominoes},
-                                 {Solution::pile, pile_metric},
-                                 {Solution::standing, standing_metric}};
-
 const Problem& row_of_problem(const Scenario& scenario) {
   if (!scenario.problem) throw Refused("the scenario has no [problem]");
-  const auto* found = std::ranges::find(kProblems, scenario.problem->solution, &Problem::solution);
-  LANTERN_CHECK((found != std::end(kProblems)), ==, true);
-  return *found;
+  for (const auto problems : {smooth_problems, joints_problems, impacts_problems, ground_problems,
+                              heaps_problems, tumble_problems})
+    for (const Problem& one : problems())
+      if (one.solution == scenario.problem->solution) return one;
+  LANTERN_CHECK(to_string(scenario.problem->solution), ==, std::string_view("a known problem"));
+  return smooth_problems().front();
 }
 
 }  // namespace
 
 MetricMaker metrics_of(const Scenario& scenario) {
   return row_of_problem(scenario).metrics(scenario);
-}
-
-std::unique_ptr<ErrorMetric> make_error_metric(const Scenario& scenario) {
-  return metrics_of(scenario)();
 }
 
 void require_problem(const Scenario& scenario) {

@@ -3,14 +3,8 @@
 // problem.
 #pragma once
 
-#include <cmath>
-#include <optional>
-#include <string_view>
-#include <vector>
-
-#include "geometry/flat.hpp"
-#include "measure/error_metric.hpp"
 #include "measure/forms/closed_forms.hpp"
+#include "measure/invariants.hpp"
 
 namespace lantern::measure {
 
@@ -30,46 +24,18 @@ inline MetricMaker trajectories(long double length, long double speed,
   };
 }
 
-// Bodies that never touch.
-MetricsOf projectile_metric;  // any number of bodies that are thrown, with or without drag
-// One body on one spring to a fixed point, under any damping: along a line, or, if the spring has
-// no rest length and no damping, in any direction.
-MetricsOf oscillator_metric;
-// Bodies in a row between one or two fixed points, tied each to the next by springs without
-// damping, moving along the row.
-MetricsOf chain_metric;
-MetricsOf kepler_metric;    // two bodies that attract each other, one of which may be static
-MetricsOf pendulum_metric;  // one body on a rod, or on a stiff spring as long as it is at rest
-MetricsOf free_top_metric;  // one body that turns freely in 3D
+// A problem is its metric, and, where that is costly to make, what is asked of it without the
+// answer: some take runs of their own, or the cube of their bodies.
+struct Problem {
+  Solution solution;
+  MetricsOf* metrics;
+  void (*require)(const Scenario&) = nullptr;
+};
 
-// Bodies on joints.
-MetricsOf linkage_metric;             // a flat linkage of pins and rods that swings, open or closed
-MetricsOf heavy_top_metric;           // one body on a pin at a fixed point, under gravity
-MetricsOf bridge_metric;              // joints that something falls on
-MetricsOf springs_along_pins_metric;  // bodies on pins, with springs along them
-
-// Bodies in contact.
-MetricsOf bouncing_ball_metric;
-MetricsOf blocks_and_wall_metric;
-MetricsOf collisions_metric;
-MetricsOf billiards_metric;
-MetricsOf slide_metric;
-MetricsOf slip_then_roll_metric;
-MetricsOf incline_metric;
-MetricsOf topple_metric;
-MetricsOf stack_metric;
-MetricsOf hanging_chain_metric;
-MetricsOf ball_on_plate_metric;  // what rolls and slides on a plate that slides down a slope
-MetricsOf rocking_block_metric;
-MetricsOf dominoes_metric;
-MetricsOf pile_metric;      // bodies that fall into a container and come to rest
-MetricsOf standing_metric;  // bodies that begin at rest and should stay there
-
-// What is asked of those whose answer is costly to know, without the answer.
-void require_chain(const Scenario& scenario);
-void require_linkage(const Scenario& scenario);
-void require_heavy_top(const Scenario& scenario);
-void require_dominoes(const Scenario& scenario);
+// Those of each file of this folder.
+using Problems = std::span<const Problem>();
+Problems smooth_problems, joints_problems, impacts_problems, ground_problems, heaps_problems,
+    tumble_problems;
 
 // --- what they read from a scenario ---
 
@@ -161,5 +127,54 @@ bool is_ball(const BodySpec& body);
 bool turns(const BodySpec& body);  // contacts may turn it
 // Inertia over m r²: 2/5 of a ball, 1/2 of a disc.
 double roundness(const Scenario& scenario);
+
+// --- what is read from the states of a run alone ---
+
+// As the bodies are at first.
+std::vector<BodyState> first_states(const Scenario& scenario);
+
+// Where a point of a body is that is given in its own axes.
+Vec<3> point_of(const BodyState& state, const Vec<3>& at);
+// Where a link ends that begins at its body a.
+Vec<3> far_end(const LinkSpec& link, const std::vector<BodyState>& states);
+
+// What `at` gives for the time of each of a problem's samples, in order.
+template <class At>
+auto at_samples(const ProblemSpec& problem, At&& at) {
+  auto all = std::make_shared<std::vector<decltype(at(0.0L))>>();
+  for (std::uint32_t n = 0; n <= problem.samples; ++n)
+    all->push_back(at(static_cast<long double>(problem.seconds) * n / problem.samples));
+  return all;
+}
+
+// --- how the energy of a run changes, by the states of its bodies alone ---
+
+class EnergyMeter {
+ public:
+  // The scenario must outlive it.
+  explicit EnergyMeter(const Scenario& scenario) : invariants_(scenario) {}
+
+  // Gives what it found.
+  Kept look(const Observation& at) {
+    const Kept now = invariants_.of(at.states);
+    if (!begun_) start_ = now.energy;
+    begun_ = true;
+    kinetic_ = std::max(kinetic_, now.kinetic_energy);
+    gained_ = std::max(gained_, now.energy - start_);
+    return now;
+  }
+
+  // The largest gain so far, over the largest kinetic energy.
+  double gain() const { return kinetic_ > 0 ? gained_ / kinetic_ : 0; }
+  static constexpr const char* kGainMeaning =
+      "largest gain of energy over the run, over the largest kinetic energy";
+  // The same over what there was at first, which must be above 0.
+  double growth() const { return gained_ / start_; }
+
+ private:
+  Invariants invariants_;
+  bool begun_ = false;
+  double start_ = 0, kinetic_ = 0, gained_ = 0;
+};
 
 }  // namespace lantern::measure

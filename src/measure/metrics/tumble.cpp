@@ -1,20 +1,90 @@
-// Blocks that tip: one that rocks, and many that knock each other over.
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <utility>
+// Blocks that tip: on a slope, one that rocks, and many that knock each other over.
 
-#include <fmt/format.h>
-
-#include "base/error.hpp"
 #include "measure/forms/dormand_prince.hpp"
-#include "measure/lantern_solver.hpp"
-#include "measure/metrics/meters.hpp"
 #include "measure/metrics/reading.hpp"
+#include "measure/solvers.hpp"
 
 namespace lantern::measure {
-
 namespace {
+
+constexpr double kTopples = 0.1;  // radians: one that leans so far does not come back
+constexpr double kIsTold = 0.2;   // radians that it must have turned by the end of the problem
+
+// Boxes that are put on a slope too rough to slide on. One of half width w and half height h
+// topples over its lower edge iff tan a > w / h: iff its centre is beyond that edge.
+class Topple : public ErrorMetric {
+ public:
+  explicit Topple(const Scenario& scenario)
+      : ground_(ground_of(scenario)), slope_(slope_of(scenario, ground_)) {
+    require_links(scenario, 0);
+    for (const std::size_t i : moving_bodies(scenario)) add(scenario, i);
+  }
+
+  void look(const Observation& now) override {
+    double wrong = 0;
+    for (Box& box : boxes_) {
+      const Rotation<3>& r = now.states[box.body].orientation;
+      const Vec<3> leans = matrix(r) * box.up;
+      const double tilt = std::atan2(glm::length(glm::cross(ground_.normal, leans)),
+                                     glm::dot(ground_.normal, leans));
+      if (!(tilt < kTopples)) box.has_toppled = true;
+      if (!box.should) tilt_.meet(tilt);
+      wrong += box.has_toppled != box.should;
+    }
+    wrong_.set(wrong);
+  }
+
+ private:
+  struct Box {
+    std::size_t body = 0;
+    Vec<3> up{0.0};  // the normal of the ground in the axes of the body
+    bool should = false;
+    bool has_toppled = false;
+  };
+
+  void add(const Scenario& scenario, std::size_t index) {
+    const BodySpec& body = scenario.bodies[index];
+    const auto refuse = [&](const char* why) {
+      refuse_problem(scenario, fmt::format("'{}' {}", body.name, why));
+    };
+    require_on_ground(scenario, ground_, index);
+    const auto* shape = std::get_if<OrientedBox<3>>(&body.shape);
+    if (!shape || !turns(body)) refuse("is no box that turns");
+    require_at_rest(scenario, index);
+    const double mu = friction_between(scenario, index, ground_.body);
+    if (!(mu * slope_.pull > slope_.push)) refuse("would slide");
+    Box box;
+    box.body = index;
+    const Mat<3> axes = matrix(turned(Rotation<3>(), body.axis * body.angle));
+    box.up = glm::transpose(axes) * ground_.normal;
+    const double w = reach_along(body, slope_.downhill), h = reach_along(body, ground_.normal);
+    double flattest = 1;
+    for (int i = 0; i < 3; ++i)
+      flattest = std::min(flattest, 1 - std::abs(glm::dot(axes[i], ground_.normal)));
+    if (flattest > 1e-9) refuse("does not stand flat on the ground");
+    box.should = slope_.push * h > slope_.pull * w;
+    if (box.should && tilt_after(scenario.problem->seconds, w, h) < kIsTold)
+      refuse("needs more seconds to topple");
+    boxes_.push_back(box);
+  }
+
+  // Of a box that tips over its edge, near to the start: about the edge its inertia over its mass
+  // is 4/3 (w^2 + h^2), and what turns it grows with the angle.
+  double tilt_after(double seconds, double w, double h) const {
+    const double inertia = 4.0 / 3 * (w * w + h * h);
+    const double at_first = (slope_.push * h - slope_.pull * w) / inertia;
+    const double growth = (slope_.pull * h + slope_.push * w) / inertia;
+    return at_first / growth * (std::cosh(std::sqrt(growth) * seconds) - 1);
+  }
+
+  Footing ground_;
+  Slope slope_;
+  std::vector<Box> boxes_;
+  Worst& wrong_ =
+      norm("class", "boxes",
+           "how many stand at the end that should have toppled, or topple that should stand");
+  Worst& tilt_ = norm("tilt", "rad", "largest tilt over the run of a box that should stand");
+};
 
 // A block on its corner rocks from one to the other. Housner ("The behavior of inverted pendulum
 // structures during earthquakes", Bulletin of the Seismological Society of America 53, 1963): with
@@ -221,8 +291,6 @@ class Dominoes : public ErrorMetric {
   Worst& gain_ = norm("gain", "1", EnergyMeter::kGainMeaning);
 };
 
-}  // namespace
-
 MetricMaker rocking_block_metric(const Scenario& scenario) {
   require_links(scenario, 0);
   if (scenario.world.dimension != 2) refuse_problem(scenario, "the world must be flat");
@@ -242,10 +310,8 @@ MetricMaker rocking_block_metric(const Scenario& scenario) {
       restitution_between(scenario, block, ground.body) != 0)
     refuse_problem(scenario, "its block slips or bounces");
   Rocking rocking(half.x, half.y, gravity, body.angle);
-  auto moments = std::make_shared<RockingBlock::Moments>();
-  const ProblemSpec& problem = *scenario.problem;
-  for (std::uint32_t n = 0; n <= problem.samples; ++n)
-    moments->push_back(rocking.at(static_cast<long double>(problem.seconds) * n / problem.samples));
+  const std::shared_ptr<const RockingBlock::Moments> moments =
+      at_samples(*scenario.problem, [&](long double time) { return rocking.at(time); });
   return [block, moments] { return std::make_unique<RockingBlock>(block, moments); };
 }
 
@@ -266,6 +332,15 @@ MetricMaker dominoes_metric(const Scenario& scenario) {
     refuse_problem(scenario, "not all of its dominoes fall");
   own->error = latest_error(own_fall_times(scenario, 2 * own->step), own->times);
   return [&scenario, own] { return std::make_unique<Dominoes>(scenario, own); };
+}
+
+}  // namespace
+
+std::span<const Problem> tumble_problems() {
+  static constexpr Problem kAll[] = {{Solution::topple, made_of<Topple>},
+                                     {Solution::rocking_block, rocking_block_metric},
+                                     {Solution::dominoes, dominoes_metric, require_dominoes}};
+  return kAll;
 }
 
 }  // namespace lantern::measure
