@@ -33,15 +33,15 @@ double least_separation(const Manifold<D>& manifold) {
 
 // The core of a shape as half sizes and axes, and the radius around it.
 template <int D>
-struct Core {
+struct ThingCore {
   Vec<D> half{0.0};
   Mat<D> axes{1.0};
   double radius = 0;
 };
 
 template <int D>
-Core<D> core_of(const Thing<D>& thing) {
-  Core<D> core;
+ThingCore<D> core_of(const Thing<D>& thing) {
+  ThingCore<D> core;
   if (const auto* sphere = std::get_if<Sphere>(&thing.shape)) core.radius = sphere->radius;
   if (const auto* box = std::get_if<AxisBox<D>>(&thing.shape)) core.half = box->half_size;
   if (const auto* box = std::get_if<OrientedBox<D>>(&thing.shape)) {
@@ -66,7 +66,7 @@ template <int D>
 double support(const Thing<D>& thing, const Vec<D>& n) {
   if (const auto* wall = half_space(thing))
     return glm::length(n - wall->normal) < 1e-12 ? 0 : std::numeric_limits<double>::infinity();
-  const Core<D> core = core_of(thing);
+  const ThingCore<D> core = core_of(thing);
   double sum = core.radius * glm::length(n);
   for (int i = 0; i < D; ++i) sum += core.half[i] * std::abs(glm::dot(n, core.axes[i]));
   return sum;
@@ -84,7 +84,7 @@ template <int D>
 double distance_to(const Thing<D>& thing, const Vec<D>& point) {
   const Vec<D> from = point - thing.position;
   if (const auto* wall = half_space(thing)) return std::max(0.0, glm::dot(from, wall->normal));
-  const Core<D> core = core_of(thing);
+  const ThingCore<D> core = core_of(thing);
   const Vec<D> local = glm::transpose(core.axes) * from;
   const Vec<D> outside = local - glm::clamp(local, -core.half, core.half);
   return std::max(0.0, glm::length(outside) - core.radius);
@@ -94,7 +94,7 @@ double distance_to(const Thing<D>& thing, const Vec<D>& point) {
 template <int D>
 double size_of(const Thing<D>& thing) {
   if (half_space(thing)) return 0;
-  const Core<D> core = core_of(thing);
+  const ThingCore<D> core = core_of(thing);
   return glm::length(core.half) + core.radius;
 }
 
@@ -113,7 +113,7 @@ template <int D>
 double allowed_bias(const Thing<D>& a, const Thing<D>& b) {
   double least = std::numeric_limits<double>::infinity();
   for (const Thing<D>* thing : {&a, &b}) {
-    const Core<D> core = core_of(*thing);
+    const ThingCore<D> core = core_of(*thing);
     for (int i = 0; i < D; ++i)
       if (core.half[i] > 0) least = std::min(least, core.half[i]);
   }
