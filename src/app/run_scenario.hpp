@@ -12,6 +12,7 @@
 #include "base/error.hpp"
 #include "base/json_writer.hpp"
 #include "base/work.hpp"
+#include "language/scenario.hpp"
 #include "run/director.hpp"
 
 namespace lantern::app {

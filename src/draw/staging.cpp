@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "frame/parts/panels.hpp"
+
 namespace lantern::draw {
 namespace {
 

@@ -13,6 +13,7 @@
 #include "frame/parts/asked.hpp"
 #include "frame/parts/panels.hpp"
 #include "geometry/vec.hpp"
+#include "language/scenario.hpp"
 
 namespace lantern::frame {
 namespace {

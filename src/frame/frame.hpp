@@ -17,7 +17,7 @@
 #include "geometry/flat.hpp"
 #include "geometry/plane.hpp"
 #include "language/code_text.hpp"
-#include "language/scenario.hpp"
+#include "language/display.hpp"
 #include "physics/world_config.hpp"
 #include "spatial/structure.hpp"
 
@@ -25,6 +25,11 @@ namespace lantern {
 class Hash;
 class JsonWriter;
 }  // namespace lantern
+
+namespace lantern::language {
+struct Expectation;
+class Scenario;
+}  // namespace lantern::language
 
 namespace lantern::frame {
 

@@ -16,40 +16,12 @@
 #include "geometry/flat.hpp"
 #include "geometry/rotation.hpp"
 #include "geometry/vec.hpp"
+#include "language/display.hpp"
 #include "physics/body.hpp"
 #include "physics/methods.hpp"
 #include "spatial/structure_kind.hpp"
 
 namespace lantern::language {
-
-// Whose names stand beside bodies: of many bodies only of those that the frame is about, of all as
-// far as there is room, or of none.
-enum class ShownNames { story, all, none };
-
-// What a frame shows of what there is. A mark that is off is neither drawn nor named.
-inline constexpr int kMostTrail = 64;
-
-struct Display {
-  ShownNames names = ShownNames::story;
-  bool pairs = true;
-  bool contacts = true;
-  bool arrows = false;  // velocities
-  bool forces = false;  // of scripts and springs, with their sizes
-  bool cells = true;    // of the world panel: borders, grounds and names
-  bool not_made = true;
-  bool fill = false;
-  bool boxes = false;        // the bodies' broad-phase boxes
-  bool depths = false;       // beside contacts
-  bool coordinates = false;  // of the lit way's borders, at the world's edges
-  int trail = 0;             // so many world steps back, where moving bodies were
-  bool counters = true;
-  bool title = true;
-  bool caption = true;
-  bool settings = true;  // of the structure, under its tree
-  bool legend = false;
-
-  bool operator==(const Display&) const = default;
-};
 
 // Which part of a 2D world is shown; without `at`, all of it.
 struct ViewSpec {
@@ -64,9 +36,6 @@ struct CameraSpec {
   Vec<3> target{0.0};
   SourcePosition where;
 };
-
-// What a note's line leads to.
-enum class NoteOf { body, node, point, pair, count };
 
 // A few words beside what they are about.
 struct NoteSpec {
@@ -85,10 +54,6 @@ struct CodeSpec {
   SourcePosition where;
 };
 
-inline std::vector<std::string_view> names(ShownNames) { return {"story", "all", "none"}; }
-
-enum class Pace { step, event };
-enum class Look { ghost, player, ball, bat, disc, box, person, demon, item };
 enum class Brain { none, follow, wander };  // who steers a body
 
 // What is legal in a scenario and surely not meant (see warnings.hpp): the first are found while it
@@ -320,9 +285,6 @@ struct ProblemSpec {
   SourcePosition where;
 };
 
-// What a texture is drawn as; `pattern` follows from its place in the list.
-enum class Picture { pattern, heart, sword, potion, coin, map };
-
 struct TextureSpec {
   std::string name;
   int width = 0;
@@ -356,9 +318,6 @@ struct ElementSpec {
   int y = 0;
 };
 
-// How a scenario writes an enum's values, in the enum's order.
-using EnumNames = std::vector<std::string_view>;
-
 template <class E>
 EnumNames names_up_to(E last) {
   EnumNames all;
@@ -374,11 +333,6 @@ inline EnumNames names(StructureKind) {
 inline EnumNames names(AtlasRule) { return {"first_fit", "best_texture"}; }
 inline EnumNames names(Following) { return {"auto", "reinsert", "refit"}; }
 inline EnumNames names(SweepAxis) { return {"widest", "x", "y", "z"}; }
-inline EnumNames names(Picture) { return {"pattern", "heart", "sword", "potion", "coin", "map"}; }
-inline EnumNames names(Pace) { return {"step", "event"}; }
-inline EnumNames names(Look) {
-  return {"ghost", "player", "ball", "bat", "disc", "box", "person", "demon", "item"};
-}
 inline EnumNames names(Warning) {
   return {"view",     "outside", "contacts",   "joints",  "energy", "through", "crush",  "expect",
           "settings", "bodies",  "prototypes", "letters", "links",  "needs",   "problem"};
@@ -399,44 +353,5 @@ inline EnumNames names(RotationMethod) { return names_up_to(RotationMethod::expl
 
 inline std::string_view to_string(Solution s) { return names(s)[std::size_t(s)]; }
 inline std::string_view to_string(ProblemVariant v) { return names(v)[std::size_t(v)]; }
-
-// Panels: what a page is made of. All that the language knows of one is an entry of one list; what
-// a run gathers for it is one of another (run/panel.hpp), and how it is drawn one of a third
-// (draw/panel.hpp).
-struct Draft;
-
-// A panel by its place in the list.
-enum class Panel : std::uint8_t {};
-
-struct PanelKind {
-  std::string_view name = {};   // as in `panels`
-  std::string_view needs = {};  // said where it is not possible: "it needs a [chart]"
-  bool (*possible)(const Draft& draft) = [](const Draft&) { return true; };
-  // Of a scenario that wishes for none, which has it if this holds: its place from the left.
-  int place = 0;
-  bool (*by_itself)(const Draft& draft) = nullptr;
-  bool of_all_sides = false;           // one for all of them, below their own
-  std::string (*example)() = nullptr;  // a scenario that has it, but for `panels`; null: the usual
-};
-
-std::span<const PanelKind> panel_kinds();
-const PanelKind& kind_of(Panel panel);
-
-// A panel of Lantern, which must be there.
-Panel panel_named(std::string_view name);
-
-bool is(Panel panel, std::string_view name);
-// Is it one of these?
-bool shows(const std::vector<Panel>& panels, std::string_view name);
-
-// Those that can have something to show in any of these. They must be known before the first frame
-// is drawn, so they follow from what the files declare.
-std::vector<Panel> derived_panels(std::span<const Draft* const> drafts);
-
-// One more, of the program's own. To be called before any scenario is read. Throws Refused if its
-// name is taken, or is not of a–z, 0–9 and _.
-void add_panel(PanelKind kind);
-
-std::vector<std::string_view> names(Panel);
 
 }  // namespace lantern::language

@@ -2,6 +2,8 @@
 // same textures in the same run, in turns.
 #pragma once
 
+#include <filesystem>
+
 #include "measure/atlas_peer.hpp"
 #include "measure/row.hpp"
 

@@ -7,6 +7,7 @@
 #include "atlas/atlas.hpp"
 #include "base/work.hpp"
 #include "frame/parts/atlas.hpp"
+#include "language/scenario.hpp"
 
 namespace lantern::run {
 

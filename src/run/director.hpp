@@ -6,6 +6,7 @@
 #include "base/error.hpp"
 #include "base/work.hpp"
 #include "frame/frame.hpp"
+#include "language/scenario.hpp"
 #include "physics/world_config.hpp"
 
 namespace lantern::run {

@@ -12,6 +12,7 @@
 #include "frame/parts/asked.hpp"
 #include "frame/parts/motion.hpp"
 #include "frame/parts/panels.hpp"
+#include "language/scenario.hpp"
 #include "physics/world_config.hpp"
 #include "spatial/query.hpp"
 

@@ -4,6 +4,7 @@
 #include "atlas/atlas.hpp"
 #include "frame/parts/asked.hpp"
 #include "frame/parts/motion.hpp"
+#include "language/specs.hpp"
 #include "spatial/structure.hpp"
 
 namespace lantern::run {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "frame/frame.hpp"
+#include "language/scenario.hpp"
 #include "spatial/level/level_bsp.hpp"
 
 namespace lantern::run {

@@ -4,8 +4,10 @@
 #include <optional>
 #include <string>
 #include <vector>
-#include "frame/parts/panels.hpp"
+
 #include "frame/frame.hpp"
+#include "frame/parts/panels.hpp"
+#include "language/scenario.hpp"
 
 namespace lantern::run {
 

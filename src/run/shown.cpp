@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/hash.hpp"
+#include "frame/parts/level.hpp"
 #include "geometry/flat.hpp"
 #include "run/engine.hpp"
 

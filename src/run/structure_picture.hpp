@@ -9,6 +9,7 @@
 #include "base/stop.hpp"
 #include "frame/frame.hpp"
 #include "frame/parts/panels.hpp"
+#include "language/specs.hpp"
 #include "physics/world.hpp"
 #include "run/engine.hpp"
 #include "spatial/pair_search.hpp"

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/work.hpp"
+#include "language/scenario.hpp"
 #include "run/director.hpp"
 
 namespace lantern::run {

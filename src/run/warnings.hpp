@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "language/scenario.hpp"
 #include "run/engine.hpp"
 
 namespace lantern::run {

@@ -18,6 +18,7 @@
 #include "embedded/output_schema.hpp"
 #include "embedded/version.hpp"
 #include "language/language.hpp"
+#include "language/scenario.hpp"
 #include "render/png.hpp"
 #include "render/renderer.hpp"
 #include "render/svg.hpp"

@@ -13,6 +13,7 @@
 
 #include "base/file.hpp"
 #include "frame/frame.hpp"
+#include "language/scenario.hpp"
 #include "render/png.hpp"
 
 namespace lantern::app {

@@ -17,6 +17,7 @@
 #include "app/run_scenario.hpp"
 #include "base/error.hpp"
 #include "base/file.hpp"
+#include "language/scenario.hpp"
 #include "publish/golden_report.hpp"
 #include "render/compare.hpp"
 

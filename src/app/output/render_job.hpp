@@ -19,6 +19,7 @@
 #include "draw/staging.hpp"
 #include "draw/tween.hpp"
 #include "frame/frame.hpp"
+#include "language/scenario.hpp"
 #include "render/pipeline.hpp"
 
 namespace lantern::app {
