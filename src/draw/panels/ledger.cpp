@@ -267,13 +267,13 @@ class Ledger : PanelPicture {
       for (std::size_t column = 0; column <= row; ++column)
         draw_share(center(row, column), density.share(row, column), cell, list_);
     // In the free corner, right of the edge that goes down beside it.
-    constexpr double kScales[] = {1.0, 0.1, 0.01, 0.001}, kLine = 34, kWidth = 130;
-    const double x = place.lo.x + kLine * 5 + 24;
+    constexpr double kScales[] = {1.0, 0.1, 0.01, 0.001}, kRowHeight = 34, kWidth = 130;
+    const double x = place.lo.x + kRowHeight * 5 + 24;
     if (x + kWidth > place.hi.x) return;
     double y = place.lo.y + 24;
     labels_.try_add("tested", {{{x, y}, 0}}, kPlain, place);
     for (const double share : kScales) {
-      y += kLine;
+      y += kRowHeight;
       draw_share({x + 12, y - 8}, share, 24, list_);
       labels_.try_add(fmt::format("{:g} %", 100 * share), {{{x + 36, y}, 0}}, kPlain, place);
     }
