@@ -47,10 +47,10 @@ long nanoseconds_since(const timespec& then) {
 
 // All of it is safe in a signal handler. A terminal or pipe that takes nothing gets nothing.
 [[noreturn]] void end_at_once(int) {
-  static constexpr char kWords[] = "lantern: interrupted at once\n";
+  static constexpr char kMessage[] = "lantern: interrupted at once\n";
   pollfd standard_error{STDERR_FILENO, POLLOUT, 0};
   if (::poll(&standard_error, 1, 0) == 1 && (standard_error.revents & POLLOUT) != 0)
-    static_cast<void>(!::write(STDERR_FILENO, kWords, sizeof kWords - 1));
+    static_cast<void>(!::write(STDERR_FILENO, kMessage, sizeof kMessage - 1));
   ::_exit(kInterrupted);
 }
 

@@ -38,12 +38,12 @@ struct BoxContestant {
   std::string name;
   std::string version = {};  // of another library; empty for ours
   std::string how = {};      // it is run, of another library
-  std::function<bool(const BoxStage&)> can;
-  std::function<BoxSetting(const BoxStage&)> likely;  // from which the quickest is looked for
-  std::function<bool(const BoxSetting&)> has;
-  std::function<std::string(const BoxSetting&)> words;  // may be empty
+  std::function<bool(const BoxStage&)> can = {};
+  std::function<BoxSetting(const BoxStage&)> likely = {};  // from which the quickest is looked for
+  std::function<bool(const BoxSetting&)> has = {};
+  std::function<std::string(const BoxSetting&)> words = {};  // may be empty
   // The stage and the contestant outlive the run.
-  std::function<std::unique_ptr<BoxRun>(const BoxStage&, const BoxSetting&)> start;
+  std::function<std::unique_ptr<BoxRun>(const BoxStage&, const BoxSetting&)> start = {};
 };
 
 // Ours: each kind but those whose parts a designer gives (bsp), `auto` first where there is one.

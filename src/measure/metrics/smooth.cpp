@@ -9,7 +9,7 @@ namespace {
 // --- bodies that never touch, each against its closed form ---
 
 MetricMaker projectile_metric(const Scenario& scenario) {
-  struct Thrown {
+  struct Flight {
     std::size_t body = 0;
     LongVec position{0.0L}, velocity{0.0L}, gravity{0.0L};
     long double rate = 0;
@@ -24,7 +24,7 @@ MetricMaker projectile_metric(const Scenario& scenario) {
   };
   require_links(scenario, 0);
   require_nothing_else(scenario);
-  std::vector<Thrown> flights;
+  std::vector<Flight> flights;
   for (const std::size_t i : dynamic_bodies(scenario)) {
     const BodySpec& body = scenario.bodies[i];
     flights.push_back({i, body.position, body.velocity, scenario.world.gravity,
@@ -34,7 +34,7 @@ MetricMaker projectile_metric(const Scenario& scenario) {
   long double length = 0, speed = 0;
   LongVec way, velocity;
   const int samples = static_cast<int>(scenario.problem->samples);
-  for (const Thrown& body : flights)
+  for (const Flight& body : flights)
     for (int n = 0; n <= samples; ++n) {
       body.at(static_cast<long double>(scenario.problem->seconds) * n / samples, way, velocity);
       length = std::max(length, glm::length(way));
@@ -42,7 +42,7 @@ MetricMaker projectile_metric(const Scenario& scenario) {
     }
   if (!(length > 0)) refuse_problem(scenario, "nothing moves");
   return trajectories(length, speed, [flights](double time, auto& states) {
-    for (const Thrown& body : flights) {
+    for (const Flight& body : flights) {
       LongVec gone, now;
       body.at(time, gone, now);
       states.push_back({body.body, Vec<3>(body.position + gone), Vec<3>(now)});
