@@ -28,6 +28,11 @@ struct Sample {
   Vec<2> a{left.x + 8, left.y}, b{right.x - 8, right.y};
 };
 
+template <PairState state, bool full = true>
+void draw_linked(const Sample& s) {
+  draw_link(s.left, s.right, {state, full}, s.pen);
+}
+
 FrameBody& add_ball(Frame& frame, double radius) {
   FrameBody body;
   body.id = static_cast<BodyId>(frame.bodies.size());
@@ -113,27 +118,16 @@ constexpr MarkRow kRows[] = {
     {.kind = MarkKind::ruled_out,
      .words = "not found",
      .make = [](Frame& f, const Vec<3>&) { add_ball(f, 13).dimmed = true; }},
-    {.kind = MarkKind::candidate,
-     .words = "to test",
-     .draw = [](const Sample& s) { draw_link(s.left, s.right, {}, s.pen); }},
+    {.kind = MarkKind::candidate, .words = "to test", .draw = draw_linked<PairState::candidate>},
     {.kind = MarkKind::faint_pair,
      .words = "to test, among many",
-     .draw =
-         [](const Sample& s) {
-           draw_link(s.left, s.right, {PairState::candidate, false, false}, s.pen);
-         }},
+     .draw = draw_linked<PairState::candidate, false>},
     {.kind = MarkKind::boxes_apart,
      .words = "apart by box",
-     .draw =
-         [](const Sample& s) {
-           draw_link(s.left, s.right, {PairState::boxes_apart, true, false}, s.pen);
-         }},
+     .draw = draw_linked<PairState::boxes_apart>},
     {.kind = MarkKind::shapes_apart,
      .words = "apart by shape",
-     .draw =
-         [](const Sample& s) {
-           draw_link(s.left, s.right, {PairState::shapes_apart, true, false}, s.pen);
-         }},
+     .draw = draw_linked<PairState::shapes_apart>},
     {.kind = MarkKind::box_overlap,
      .words = "box overlap",
      .draw =

@@ -92,6 +92,7 @@ std::vector<const Frame*> Staging::each_of(std::span<const Frame> frames) {
 Staging::Staging(std::vector<const Frame*> frames, const AxisRanges& axes)
     : frames_(std::move(frames)), axes_(axes) {
   std::map<std::string, std::vector<const Frame*>> sides;
+  std::string last_settings;
   for (const Frame* each : frames_) {
     const Frame& frame = *each;
     for (const Frame& side : frame.sides) {
@@ -99,9 +100,9 @@ Staging::Staging(std::vector<const Frame*> frames, const AxisRanges& axes)
           structure_of_.try_emplace(side.get<FrameSide>().name, to_string(side.structure)).first;
       sides[known->second].push_back(&side);
     }
-    if (settings_told_.empty() || frame.get<FrameStructure>().settings != settings_.back()) {
+    if (settings_told_.empty() || frame.get<FrameStructure>().settings != last_settings) {
       settings_told_.insert(frame.index);
-      settings_.push_back(frame.get<FrameStructure>().settings);
+      last_settings = frame.get<FrameStructure>().settings;
     }
     for (const auto& [name, n] : frame.counts) {
       const auto found = most_.try_emplace(name, n).first;

@@ -95,7 +95,6 @@ class Staging {
 
   // Is this frame the first with its settings?
   bool tells_settings(const Frame& frame) const { return settings_told_.contains(frame.index); }
-  const std::vector<std::string>& settings() const { return settings_; }  // each once, in order
 
   const AxisRanges& axes() const { return axes_; }
 
@@ -126,7 +125,6 @@ class Staging {
   std::map<std::string, Staging, std::less<>> sides_;             // by structure
   std::vector<UnionTree> trees_;
   std::set<std::uint32_t> settings_told_;
-  std::vector<std::string> settings_;
   std::map<std::string, std::int64_t> most_;
   mutable std::map<Place, std::any> made_;
 };
