@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <memory>
 
 #include <fmt/format.h>
 
-#include "app/progress.hpp"
 #include "app/report_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
@@ -25,48 +25,6 @@ namespace lantern::lab {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct MeasureOptions {
-  std::vector<std::string> problems;  // names, families or files; empty for all
-  std::string output = "output/measure";
-  std::vector<std::string> methods;  // empty for those of each problem
-  std::vector<double> steps;         // seconds; empty for those of each problem
-  std::vector<std::string> from;     // earlier measurements: only their page is made
-  bool quick = false;
-  bool full = false;
-  std::optional<double> longest;  // processor seconds of one run; longer ones are left out
-  bool peers = true;
-  std::string theme = "light";
-  std::string backend = "auto";
-  bool list = false;
-  bool json = false;
-};
-
-Options measure_options(MeasureOptions& o) {
-  return {{"PROBLEM", &o.problems,
-           "problems or families by name, or scenario files; the default is all problems; "
-           "'broad_phase' measures the trees' settings"},
-          folder_option(o.output, "folder for tables, plots and the overview page"),
-          {"--method", &o.methods, "only these: velocity_verlet, soft:16, impulse:100, ...",
-           OptionTraits{.value = "NAME", .one_each = true}},
-          {"--step", &o.steps, "only these time steps, seconds", {.value = "H", .one_each = true}},
-          {"--quick", &o.quick, "about a minute: plain problems, few repeats"},
-          {"--full", &o.full, "every run, however long it takes", {.without = "--quick"}},
-          longest_option("leave out runs that would take more seconds than this", o.longest),
-          peers_option("without other engines", o.peers),
-          {"--theme", &o.theme, "colours of the plots", {.words = kThemes}},
-          backend_option(o.backend, "off-screen OpenGL, for the PNG files"),
-          {"--list", &o.list, "name the problems, measure nothing"},
-          {"--from", &o.from,
-           "measure nothing: report.html of these folders or measure.json files, one a "
-           "machine, side by side",
-           OptionTraits{.value = "PATH"}},
-          memory_option(),
-          json_option(o.json)};
-}
-
-constexpr double kSaveEvery = 5;                                   // seconds
-constexpr std::size_t kMostMeasureBytes = std::size_t{256} << 20;  // of an earlier measure.json
 
 // ---- Who was asked for and is not run, and why: nobody is left out in silence
 
@@ -163,121 +121,187 @@ void add_scenarios(const std::string& word, std::vector<Scenario>& scenarios) {
                                near.empty() ? "'lantern measure --list' names them all" : near));
 }
 
-std::vector<Scenario> scenarios_of(const MeasureOptions& options) {
-  std::vector<Scenario> scenarios;
-  for (const std::string& word : options.problems) add_scenarios(word, scenarios);
-  if (!options.problems.empty()) return scenarios;
-  for (const std::string_view name : problem_names()) {
-    Scenario scenario = known_problem(name);
-    const bool plain = scenario.problem && scenario.problem->variant == ProblemVariant::plain;
-    if (!options.quick || plain) scenarios.push_back(std::move(scenario));
-  }
-  return scenarios;
-}
-
-PlanOptions plan_options(const MeasureOptions& options) {
-  PlanOptions plan;
-  plan.scenarios = scenarios_of(options);
-  plan.effort = options.quick ? Effort::quick : options.full ? Effort::full : Effort::normal;
-  plan.peers = options.peers;
-  plan.longest = options.longest;
-  plan.methods = options.methods;
-  plan.steps = options.steps;
-  for (const std::string& name : plan.methods) {
-    if (can_be_measured_by(name)) continue;
-    if (const auto words = about_peer(name, plan.scenarios)) throw UsageError(*words);
-    throw UsageError(
-        with_suggestion(fmt::format("there is no method '{}'", name), name, method_names()));
-  }
-  for (const double step : plan.steps)
-    if (!std::isfinite(step) || step <= 0)
-      throw UsageError(fmt::format("a time step of {} s is not allowed; it must be above 0", step));
-  return plan;
-}
-
-int list_problems(bool as_json) {
-  std::vector<std::vector<std::string>> rows = {{"problem", "family", "variant", "title"}};
-  JsonWriter json = answer_of("measure.list");
-  json.line().key("problems").begin_array();
-  for (const std::string_view name : problem_names()) {
-    const Scenario s = known_problem(name);
-    const std::string_view family = to_string(s.problem->solution),
-                           variant = to_string(s.problem->variant);
-    rows.push_back({s.name, std::string(family), std::string(variant), s.title});
-    json.line().begin_object().members("name", s.name, "family", family, "variant", variant,
-                                       "title", s.title);
-    json.end_object();
-  }
-  json.line().end_array().line().end_object();
-  as_json ? answer(json.text()) : print(table(rows));
-  return kGood;
-}
-
 bool same(const Circumstances& a, const Circumstances& b) {
   return a.version == b.version && a.sources == b.sources && a.compiler == b.compiler &&
          a.flags == b.flags && a.processor == b.processor && a.effort == b.effort;
 }
 
-// Rows of an earlier run under the same circumstances; none if there are none, or, which is told,
-// if its file is damaged.
-std::vector<Row> finished_rows(const ReportFolder& folder, const Circumstances& circumstances) {
-  std::string why;
-  try {
-    const auto text = folder.earlier(kMeasurement, kMostMeasureBytes);
-    if (!text) return {};
-    auto earlier = read_measurement(*text, &why);
-    if (earlier && same(earlier->circumstances, circumstances)) return std::move(earlier->rows);
-  } catch (const IoError& e) {
-    why = e.what();
-  }
-  if (!why.empty())
-    warn(fmt::format("nothing is taken over from '{}': {}", (folder.path() / kMeasurement).string(),
-                     why));
-  return {};
-}
-
-// A measurement while it is made. What is finished is on the disk every few seconds.
-class Measuring {
+// What is finished is on the disk every few seconds, and is not run again.
+class Measure : public Experiment {
  public:
-  Measuring(Plan& plan, ReportFolder& folder, const MeasureOptions& options)
-      : plan_(plan), folder_(folder), progress_("measure", plan.jobs().size(), "runs") {
-    measurement_.circumstances = here();
-    measurement_.peers = plan.peers();
-    measurement_.circumstances.effort = options.quick ? "quick" : options.full ? "full" : "normal";
-    known_ = finished_rows(folder_, measurement_.circumstances);
+  const std::vector<std::string>& words() const { return problems_; }
+  const std::vector<std::string>& earlier_pages() const { return from_; }
+  bool is_full() const { return full_; }
+
+  Options options() override {
+    return {{"PROBLEM", &problems_,
+             "problems or families by name, or scenario files; the default is all problems; "
+             "'broad_phase' measures the trees' settings"},
+            {"--method", &methods_, "only these: velocity_verlet, soft:16, impulse:100, ...",
+             OptionTraits{.value = "NAME", .one_each = true}},
+            {"--step", &steps_, "only these time steps, seconds", {.value = "H", .one_each = true}},
+            {"--quick", &quick_, "about a minute: plain problems, few repeats"},
+            {"--full", &full_, "every run, however long it takes", {.without = "--quick"}},
+            longest_option("leave out runs that would take more seconds than this", longest_),
+            peers_option("without other engines", peers_),
+            {"--list", &list_, "name the problems, measure nothing"},
+            {"--from", &from_,
+             "measure nothing: report.html of these folders or measure.json files, one a "
+             "machine, side by side",
+             OptionTraits{.value = "PATH"}}};
   }
 
-  void run() {
-    for (const Job& job : plan_.jobs()) left_ += expected(job);
-    announce();
-    Stopwatch since_saved;
-    try {
-      while (done_ < plan_.jobs().size()) {
-        measure_next_problem();
-        if (since_saved.seconds() < kSaveEvery) continue;
-        save();
-        since_saved = {};
-      }
-    } catch (const Stopped&) {
-      give_time_to_save();
-      // Rows of an earlier run that this one did not come to are kept.
-      for (const Job& job : std::span(plan_.jobs()).subspan(done_))
-        if (const Row* old = known(job)) measurement_.rows.push_back(*old);
+  Texts listing() const override {
+    if (!list_) return {};
+    std::vector<std::vector<std::string>> rows = {{"problem", "family", "variant", "title"}};
+    JsonWriter json = answer_of("measure.list");
+    json.line().key("problems").begin_array();
+    for (const std::string_view name : problem_names()) {
+      const Scenario s = known_problem(name);
+      const std::string_view family = to_string(s.problem->solution),
+                             variant = to_string(s.problem->variant);
+      rows.push_back({s.name, std::string(family), std::string(variant), s.title});
+      json.line().begin_object().members("name", s.name, "family", family, "variant", variant,
+                                         "title", s.title);
+      json.end_object();
     }
-    save();
+    json.line().end_array().line().end_object();
+    return {table(rows), "", json.text(), ""};
   }
 
-  const Measurement& measurement() const { return measurement_; }
+  void set_circumstances(Circumstances circumstances, std::string /*command*/) override {
+    measurement_.circumstances = std::move(circumstances);
+    measurement_.circumstances.effort = quick_ ? "quick" : full_ ? "full" : "normal";
+  }
+
+  void prepare() override {
+    planned_.scenarios = scenarios();
+    planned_.effort = quick_ ? Effort::quick : full_ ? Effort::full : Effort::normal;
+    planned_.peers = peers_;
+    planned_.longest = longest_;
+    planned_.methods = methods_;
+    planned_.steps = steps_;
+    for (const std::string& name : methods_) {
+      if (can_be_measured_by(name)) continue;
+      if (const auto words = about_peer(name, planned_.scenarios)) throw UsageError(*words);
+      throw UsageError(
+          with_suggestion(fmt::format("there is no method '{}'", name), name, method_names()));
+    }
+    for (const double step : steps_)
+      if (!std::isfinite(step) || step <= 0)
+        throw UsageError(
+            fmt::format("a time step of {} s is not allowed; it must be above 0", step));
+  }
+
+  // Rows are taken that were made under the same circumstances.
+  std::string resume(const std::optional<std::string>& earlier) override {
+    std::string why;
+    if (earlier)
+      if (auto read = read_measurement(*earlier, &why);
+          read && same(read->circumstances, measurement_.circumstances))
+        known_ = std::move(read->rows);
+    plan_.emplace(std::move(planned_), [](const Scenario&) {});
+    measurement_.peers = plan_->peers();
+    for (const Job& job : plan_->jobs()) left_ += expected(job);
+    return why;
+  }
+
+  // How much there is to do, how long it will take, and what is left out.
+  std::vector<std::string> announcement() const override {
+    // Of all problems some suit no other engine: only who asks for a few is told.
+    std::vector<std::string> lines = unsuited_words(plan_->unsuited(), !problems_.empty());
+    std::size_t kept = 0, long_ones = 0;
+    const Job* longest = nullptr;
+    for (const Job& job : plan_->jobs()) {
+      const bool is_kept = finished(job) != nullptr;
+      kept += is_kept;
+      if (is_kept || !plan_->is_too_long(job)) continue;
+      ++long_ones;
+      if (!longest || plan_->seconds(job) > plan_->seconds(*longest)) longest = &job;
+    }
+    lines.push_back(fmt::format("{}, about {}{}", counted(stages() - kept - long_ones, "run"),
+                                duration_text(left_),
+                                kept ? fmt::format("; {} are finished from before", kept) : ""));
+    std::ranges::copy(plan_->missing_peers(), std::back_inserter(lines));
+    if (longest)
+      lines.push_back(fmt::format(
+          "{} left out as too long; the longest ({}, {} at {:.3g} s) would take {}. --full runs "
+          "them all",
+          long_ones == 1 ? "1 run is" : fmt::format("{} runs are", long_ones),
+          plan_->scenario(*longest).name, plan_->solver(*longest).name(), longest->step,
+          duration_text(plan_->seconds(*longest))));
+    return lines;
+  }
+
+  std::string unit() const override { return "runs"; }
+  std::size_t stages() const override { return plan_->jobs().size(); }
+
+  void run(const std::function<void(const std::string&)>& tell) override {
+    try {
+      while (done_ < stages()) measure_next_problem(tell);
+    } catch (const Stopped&) {
+      // Rows of an earlier run that this one did not come to are kept.
+      for (const Job& job : std::span(plan_->jobs()).subspan(done_))
+        if (const Row* old = known(job)) measurement_.rows.push_back(*old);
+      throw;
+    }
+    if (problems_.empty()) bars_ = measured_bars();  // they belong to the whole
+  }
+
+  std::string so_far() const override { return was_run() ? to_json(measurement_) : ""; }
+
+  // The tables of all, and all on one web page; of one that was cut what the next goes on from.
+  Texts texts() const override {
+    if (!is_good()) return {};
+    const Measurement& m = measurement_;
+    if (done_ < stages()) return {to_table(m), "", so_far(), ""};
+    return {to_table(m),
+            to_csv(m),
+            to_json(m),
+            "",
+            {{"drift.csv", drift_csv(m)},
+             {"circumstances.csv", to_csv(m.circumstances)},
+             {"peers.csv", to_csv(m.peers)},
+             {"report.html", to_html(document_of(std::span(&m, 1), bars_))}}};
+  }
+
+  // A page of plots for each problem, and the overview.
+  std::vector<Picture> pages() const override {
+    const Measurement& m = measurement_;
+    std::vector<Picture> pages = {{"overview", draw_overview(m, bars_)}};
+    for (const ProblemRows& problem : by_problem(m.rows)) {
+      pages.push_back({problem.problem, draw_problem(problem, m)});
+      if (std::ranges::any_of(problem.rows, [](const Row& row) { return !row.samples.empty(); }))
+        pages.push_back({problem.problem + "_drift", draw_drift(problem, m)});
+    }
+    if (!m.peers.empty()) pages.push_back({"peers", draw_peers(m)});
+    return pages;
+  }
+
+  bool is_good() const override { return was_run() || done_ < stages(); }
+  std::string complaint() const override {
+    return is_good() ? ""
+                     : "nothing was measured: no method applies, or every run is too long (--full)";
+  }
 
  private:
-  void save() {
-    if (std::ranges::any_of(measurement_.rows, &Row::was_run))
-      folder_.write(kMeasurement, report::to_json(measurement_));
+  std::vector<Scenario> scenarios() const {
+    std::vector<Scenario> scenarios;
+    for (const std::string& word : problems_) add_scenarios(word, scenarios);
+    if (!problems_.empty()) return scenarios;
+    for (const std::string_view name : problem_names()) {
+      Scenario scenario = known_problem(name);
+      const bool plain = scenario.problem && scenario.problem->variant == ProblemVariant::plain;
+      if (!quick_ || plain) scenarios.push_back(std::move(scenario));
+    }
+    return scenarios;
   }
 
+  bool was_run() const { return std::ranges::any_of(measurement_.rows, &Row::was_run); }
+
   const Row* known(const Job& job) const {
-    const Scenario& scenario = plan_.scenario(job);
-    const Solver& solver = plan_.solver(job);
+    const Scenario& scenario = plan_->scenario(job);
+    const Solver& solver = plan_->solver(job);
     const auto found = std::ranges::find_if(known_, [&](const Row& row) {
       return row.problem == scenario.name && row.text_hash == scenario.text_hash &&
              row.method == solver.name() && row.version == solver.version() && row.step == job.step;
@@ -292,23 +316,23 @@ class Measuring {
   }
 
   double expected(const Job& job) const {
-    return finished(job) || plan_.is_too_long(job) ? 0 : plan_.seconds_with_repeats(job);
+    return finished(job) || plan_->is_too_long(job) ? 0 : plan_->seconds_with_repeats(job);
   }
 
   // All of its runs, but for those that are finished: they are timed in turn.
-  void measure_next_problem() {
+  void measure_next_problem(const std::function<void(const std::string&)>& tell) {
     stop_if_asked();
-    const std::span<const Job> rest = std::span(plan_.jobs()).subspan(done_);
+    const std::span<const Job> rest = std::span(plan_->jobs()).subspan(done_);
     std::vector<Job> jobs;
     std::size_t count = 0;
     for (; count < rest.size() && rest[count].scenario == rest[0].scenario; ++count)
       if (!finished(rest[count])) jobs.push_back(rest[count]);
-    const std::string& name = plan_.scenario(rest[0]).name;
+    const std::string& name = plan_->scenario(rest[0]).name;
     double left = left_;
-    std::vector<Row> rows = plan_.run(jobs, [&](double seconds) {
+    std::vector<Row> rows = plan_->run(jobs, [&](double seconds) {
       left = std::max(0.0, left - seconds);
-      progress_.tell(fmt::format("{} of {} runs done, now {}, about {} left", done_,
-                                 plan_.jobs().size(), name, duration_text(left)));
+      tell(fmt::format("{} of {} runs done, now {}, about {} left", done_, stages(), name,
+                       duration_text(left)));
     });
     auto next = std::make_move_iterator(rows.begin());
     for (const Job& job : rest.first(count)) {
@@ -320,121 +344,70 @@ class Measuring {
     for (const Job& job : rest.subspan(count)) left_ += expected(job);
   }
 
-  // Before it starts: how much there is to do, how long it will take, and what is left out.
-  void announce() const {
-    std::size_t kept = 0, long_ones = 0;
-    const Job* longest = nullptr;
-    for (const Job& job : plan_.jobs()) {
-      const bool is_kept = finished(job) != nullptr;
-      kept += is_kept;
-      if (is_kept || !plan_.is_too_long(job)) continue;
-      ++long_ones;
-      if (!longest || plan_.seconds(job) > plan_.seconds(*longest)) longest = &job;
-    }
-    say(fmt::format("{}, about {}{}", counted(plan_.jobs().size() - kept - long_ones, "run"),
-                    duration_text(left_),
-                    kept ? fmt::format("; {} are finished from before", kept) : ""));
-    for (const std::string& missing : plan_.missing_peers()) say(missing);
-    if (longest)
-      say(
-          fmt::format("{} left out as too long; the longest ({}, {} at {:.3g} s) would "
-                      "take {}. --full runs them all",
-                      long_ones == 1 ? "1 run is" : fmt::format("{} runs are", long_ones),
-                      plan_.scenario(*longest).name, plan_.solver(*longest).name(), longest->step,
-                      duration_text(plan_.seconds(*longest))));
-  }
+  std::vector<std::string> problems_;  // names, families or files; empty for all
+  std::vector<std::string> methods_;   // empty for those of each problem
+  std::vector<double> steps_;          // seconds; empty for those of each problem
+  std::vector<std::string> from_;      // earlier measurements: only their page is made
+  bool quick_ = false, full_ = false, peers_ = true, list_ = false;
+  std::optional<double> longest_;  // processor seconds of one run; longer ones are left out
 
-  Plan& plan_;
-  ReportFolder& folder_;
+  PlanOptions planned_;
+  std::optional<Plan> plan_;
   Measurement measurement_;
-  std::vector<Row> known_;
-  std::size_t done_ = 0;  // jobs whose rows are there
-  double left_ = 0;       // seconds that the others will take
-  Progress progress_;
+  std::vector<Bar> bars_;
+  std::vector<Row> known_;  // of an earlier run
+  std::size_t done_ = 0;    // jobs whose rows are there
+  double left_ = 0;         // seconds that the others will take
 };
 
-// The tables of all, a page of plots for each problem, the overview, and all on one web page; of
-// all problems the bars that belong to the whole, too.
-void save_pages(ReportFolder& folder, const Measurement& m, const MeasureOptions& options) {
-  folder.write("measure.csv", to_csv(m));
-  folder.write("drift.csv", drift_csv(m));
-  folder.write("circumstances.csv", to_csv(m.circumstances));
-  folder.write("peers.csv", to_csv(m.peers));
-  const std::vector<Bar> bars = options.problems.empty() ? measured_bars() : std::vector<Bar>();
-  folder.write("report.html", to_html(document_of(std::span(&m, 1), bars)));
-  std::vector<ReportPage> pages = {{"overview", draw_overview(m, bars)}};
-  for (const ProblemRows& problem : by_problem(m.rows)) {
-    pages.push_back({problem.problem, draw_problem(problem, m)});
-    if (std::ranges::any_of(problem.rows, [](const Row& row) { return !row.samples.empty(); }))
-      pages.push_back({problem.problem + "_drift", draw_drift(problem, m)});
-  }
-  if (!m.peers.empty()) pages.push_back({"peers", draw_peers(m)});
-  folder.draw(pages, options.theme, options.backend);
-}
-
-int measure_problems(const MeasureOptions& options) {
-  PlanOptions planned = plan_options(options);
-  ReportFolder folder(options.output, "measure");
-  Plan plan(std::move(planned), [](const Scenario&) {});
-  // Of all problems some suit no other engine: only who asks for a few is told.
-  for (const std::string& line : unsuited_words(plan.unsuited(), !options.problems.empty()))
-    say(line);
-  Measuring measuring(plan, folder, options);
-  const Measurement& m = measuring.measurement();
-  measuring.run();
-  const bool is_nothing = std::ranges::none_of(m.rows, &Row::was_run);
-  if (is_nothing && !stop_asked()) {
-    complain("nothing was measured: no method applies, or every run is too long (--full)");
-    return kFailed;
-  }
-  options.json ? answer(report::to_json(m)) : print(to_table(m));
-  if (stop_asked()) {
-    complain("interrupted; the same command goes on from here");
-    return kInterrupted;
-  }
-  save_pages(folder, m, options);
-  folder.finish();
-  say(fmt::format("the report is in {}", options.output));
-  return kGood;
-}
-
 // One web page of what was measured before, here or elsewhere.
-int page_of_earlier(const MeasureOptions& options) {
+int page_of_earlier(const std::vector<std::string>& from, const ExperimentRun& as) {
   std::vector<Measurement> measurements;
-  for (const std::string& word : options.from) {
+  for (const std::string& word : from) {
     const fs::path path = fs::is_directory(word) ? fs::path(word) / kMeasurement : fs::path(word);
     std::string why;
-    auto read = read_measurement(read_input(path, kMostMeasureBytes), &why);
+    auto read = read_measurement(read_input(path, kMostEarlierBytes), &why);
     if (!read)
       throw UsageError(fmt::format("'{}' is no measurement that 'lantern measure' has written: {}",
                                    path.string(), why));
     measurements.push_back(std::move(*read));
   }
-  ReportFolder folder(options.output, "measure_page");
+  ReportFolder folder(as.output, "measure_page");
   folder.write("report.html", to_html(document_of(measurements, {})));
   folder.finish();
   const std::string page = (folder.path() / "report.html").string();
   say(fmt::format("the page is {}", page));
-  if (options.json)
+  if (as.json)
     answer(answer_of("measure.page").line().member("file", page).line().end_object().text());
   return kGood;
-}
-
-int measure(const MeasureOptions& options) {
-  if (options.list) return list_problems(options.json);
-  if (!options.from.empty()) return page_of_earlier(options);
-  const std::vector<std::string>& words = options.problems;
-  if (words.empty() || words[0] != "broad_phase") return measure_problems(options);
-  const auto experiment = broad_phases({words.begin() + 1, words.end()}, options.full);
-  return run_experiment(*experiment,
-                        {"measure broad_phase", "broad_phase", as_typed(experiment->options()),
-                         options.output, options.json, options.theme, true});
 }
 
 }  // namespace
 
 app::Run begin_measure(Options& rows) {
-  return command("", "", measure, measure_options).begin(rows);
+  struct Begun {
+    Measure measure;
+    ExperimentRun as{.command = "measure",
+                     .file = "measure",
+                     .output = "output/measure",
+                     .folder_help = "folder for tables, plots and the overview page",
+                     .draws = true};
+  };
+  const auto begun = std::make_shared<Begun>();
+  rows = begun->measure.options();
+  std::ranges::move(report_options(begun->as), std::back_inserter(rows));
+  return [begun] {
+    auto& [measure, as] = *begun;
+    const std::vector<std::string>& words = measure.words();
+    if (!measure.earlier_pages().empty()) return page_of_earlier(measure.earlier_pages(), as);
+    if (words.empty() || words[0] != "broad_phase") return run_experiment(measure, as);
+    const auto trees = broad_phases({words.begin() + 1, words.end()}, measure.is_full());
+    as.command = "measure broad_phase";
+    as.file = "broad_phase";
+    as.typed = as_typed(trees->options());
+    as.text = true;
+    return run_experiment(*trees, as);
+  };
 }
 
 }  // namespace lantern::lab

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "app/progress.hpp"
-#include "app/report_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/json_writer.hpp"
 #include "base/stop.hpp"
@@ -16,101 +14,79 @@
 namespace lantern::lab {
 namespace {
 
-struct StressOptions {
-  std::vector<std::string> cases;  // names; empty for all that are not slow
-  std::string output;              // folder; empty for none
-  std::string theme = "light";
-  std::string backend = "auto";  // auto, osmesa, egl
-  bool list = false;
-  bool full = false;  // the slow ones, too
-  bool json = false;
-};
-
-Options stress_options(StressOptions& o) {
-  return {{"CASE", &o.cases, "names of cases; the default is all that are not slow"},
-          folder_option(o.output, "folder for stress.csv, stress.json, stability_map.png and .svg"),
-          {"--theme", &o.theme, "colours of the stability map", {.words = kThemes}},
-          backend_option(o.backend),
-          {"--list", &o.list, "list the cases and exit"},
-          {"--full", &o.full, "run the slow cases, too"},
-          memory_option(),
-          json_option(o.json)};
-}
-
-// The cases named, in the order of the table; without names all that are not slow, with --full all.
-std::vector<StressCase> chosen_cases(const StressOptions& options) {
-  std::vector<std::string_view> names;
-  for (const StressCase& one : stress_cases()) names.push_back(one.name);
-  for (const std::string& name : options.cases)
-    if (std::ranges::find(names, name) == names.end()) {
-      const std::string hint = suggestion(name, names);
-      throw UsageError(fmt::format("there is no case '{}'; {}", name,
-                                   hint.empty() ? "see 'lantern stress --list'" : hint));
-    }
-  std::vector<StressCase> chosen(stress_cases().begin(), stress_cases().end());
-  std::erase_if(chosen, [&](const StressCase& one) {
-    if (options.cases.empty()) return one.slow && !options.full;
-    return std::ranges::find(options.cases, one.name) == options.cases.end();
-  });
-  return chosen;
-}
-
-void list_cases(bool as_json) {
-  std::vector<std::vector<std::string>> rows;
-  JsonWriter json = answer_of("stress.list");
-  json.line().key("cases").begin_array();
-  for (const StressCase& one : stress_cases()) {
-    rows.push_back({std::string(one.group), std::string(one.name),
-                    std::string(one.what) + (one.slow ? " (with --full)" : "")});
-    json.line().begin_object().member("name", one.name).member("group", one.group);
-    json.member("slow", one.slow).member("what", one.what).end_object();
+class Stress : public Experiment {
+ public:
+  Options options() override {
+    return {{"CASE", &names_, "names of cases; the default is all that are not slow"},
+            {"--list", &list_, "list the cases and exit"},
+            {"--full", &full_, "run the slow cases, too"}};
   }
-  json.line().end_array().line().end_object();
-  as_json ? answer(json.text()) : print(table(rows));
-}
 
-StressReport run_all(const std::vector<StressCase>& cases) {
-  StressReport report{here().version, {}, true};
-  Progress progress("stress", cases.size(), "cases");
-  try {
-    for (const StressCase& one : cases) {
+  Texts listing() const override {
+    if (!list_) return {};
+    std::vector<std::vector<std::string>> rows;
+    JsonWriter json = answer_of("stress.list");
+    json.line().key("cases").begin_array();
+    for (const StressCase& one : stress_cases()) {
+      rows.push_back({std::string(one.group), std::string(one.name),
+                      std::string(one.what) + (one.slow ? " (with --full)" : "")});
+      json.line().begin_object().member("name", one.name).member("group", one.group);
+      json.member("slow", one.slow).member("what", one.what).end_object();
+    }
+    json.line().end_array().line().end_object();
+    return {table(rows), "", json.text(), ""};
+  }
+
+  // The cases named, in the order of the table; without names all that are not slow, with --full
+  // all.
+  void prepare() override {
+    std::vector<std::string_view> known;
+    for (const StressCase& one : stress_cases()) known.push_back(one.name);
+    for (const std::string& name : names_)
+      if (std::ranges::find(known, name) == known.end()) {
+        const std::string hint = suggestion(name, known);
+        throw Refused(fmt::format("there is no case '{}'; {}", name,
+                                  hint.empty() ? "see 'lantern stress --list'" : hint));
+      }
+    for (const StressCase& one : stress_cases())
+      if (names_.empty() ? full_ || !one.slow : std::ranges::find(names_, one.name) != names_.end())
+        cases_.push_back(one);
+  }
+
+  std::string unit() const override { return "cases"; }
+  std::size_t stages() const override { return cases_.size(); }
+  void run(const std::function<void(const std::string&)>& tell) override {
+    for (const StressCase& one : cases_) {
       stop_if_asked();
-      progress.tell(
-          fmt::format("{} of {}, {}", report.outcomes.size() + 1, cases.size(), one.name));
-      report.outcomes.push_back(run_case(one));
+      tell(fmt::format("{} of {}, {}", report_.outcomes.size() + 1, cases_.size(), one.name));
+      report_.outcomes.push_back(run_case(one));
     }
-  } catch (const Stopped&) {
-    give_time_to_save();  // what is finished is reported
+    report_.finished = true;
   }
-  report.finished = report.outcomes.size() == cases.size();
-  return report;
-}
 
-int stress(const StressOptions& options) {
-  if (options.list) {
-    list_cases(options.json);
-    return kGood;
+  Texts texts() const override {
+    return {to_table(report_), to_csv(report_), to_json(report_), ""};
   }
-  ReportFolder folder(options.output, "stress");
-  const StressReport report = run_all(chosen_cases(options));
-  folder.write("stress.csv", to_csv(report));
-  folder.write("stress.json", to_json(report));
-  options.json ? answer(to_json(report)) : print(to_table(report));
-  if (folder.wanted() && report.finished)
-    folder.draw({{"stability_map", draw_stability_map(make_stability_map())}}, options.theme,
-                options.backend);
-  if (stop_asked()) {
-    complain("interrupted; what is finished has been reported");
-    return kInterrupted;
+  std::vector<Picture> pages() const override {
+    return {{"stability_map", draw_stability_map(make_stability_map())}};
   }
-  folder.finish();
-  const bool good =
-      std::ranges::all_of(report.outcomes, [](const StressOutcome& o) { return o.result.good; });
-  return good ? kGood : kFailed;
-}
+  bool is_good() const override {
+    return std::ranges::all_of(report_.outcomes,
+                               [](const StressOutcome& one) { return one.result.good; });
+  }
+  void set_circumstances(Circumstances circumstances, std::string /*command*/) override {
+    report_.version = std::move(circumstances.version);
+  }
+
+ private:
+  std::vector<std::string> names_;
+  bool list_ = false, full_ = false;
+  std::vector<StressCase> cases_;
+  StressReport report_{"", {}, false};
+};
 
 }  // namespace
 
-app::Run begin_stress(Options& rows) { return command("", "", stress, stress_options).begin(rows); }
+std::unique_ptr<Experiment> stress_experiment() { return std::make_unique<Stress>(); }
 
 }  // namespace lantern::lab

@@ -190,10 +190,10 @@ class FramesBench : public ExperimentOf<FrameBenchResult> {
                 "pong_game",      "spring_rope", "tumbling_box"};
     for (const std::string& name : names_) sequences_.push_back(sequence_of(find_(name)));
   }
-  std::string announcement() const override {
+  std::vector<std::string> announcement() const override {
     const FrameBenchConfig& c = result_.config;
-    return fmt::format("{} of {} at {} x {}", counted(c.rounds, "round"),
-                       counted(sequences_.size(), "sequence"), c.width, c.height);
+    return {fmt::format("{} of {} at {} x {}", counted(c.rounds, "round"),
+                        counted(sequences_.size(), "sequence"), c.width, c.height)};
   }
   std::string unit() const override { return "sequences"; }
   std::size_t stages() const override { return sequences_.size(); }

@@ -187,9 +187,9 @@ class StepBench : public ExperimentOf<StepBenchResult> {
         throw Refused(fmt::format("{}: an octree needs three dimensions", pile.name()));
     c.structure = *kind;
   }
-  std::string announcement() const override {
-    return fmt::format("{}; each solver has {:g} s at each", counted(stages(), "pile"),
-                       result_.config.longest);
+  std::vector<std::string> announcement() const override {
+    return {fmt::format("{}; each solver has {:g} s at each", counted(stages(), "pile"),
+                        result_.config.longest)};
   }
   std::string unit() const override { return "piles"; }
   std::size_t stages() const override { return result_.config.piles.size(); }

@@ -17,10 +17,11 @@ void each_field(const Contestant& one, Visit&& visit) {
 
 namespace lantern::report {
 
-// What a bench has found, as each of its readers takes it.
+// What an experiment has found, as each of its readers takes it. What is empty is not there.
 struct Texts {
-  std::string table;            // of a terminal
-  std::string csv, json, html;  // of a file each
+  std::string table;                                           // of a terminal
+  std::string csv, json, html;                                 // of a file each
+  std::vector<std::pair<std::string, std::string>> more = {};  // other files: a name, and a text
 };
 
 // How rows are told of. What is empty is not there.
@@ -168,15 +169,21 @@ Option longest_option(const char* help, std::optional<double>& longest);
 // The options as they would be typed: numbers always, of the others those that were given.
 std::string as_typed(const Options& options);
 
-// A bench. What it is told is set through its options before it is prepared.
+// A bench, a measurement, stress. What it is told is set through its options before it is prepared.
 class Experiment {
  public:
   virtual ~Experiment() = default;
   virtual Options options() = 0;
+  // What there is to run, table and JSON, if that alone was asked for.
+  virtual Texts listing() const { return {}; }
   // Reads what the options name, so that mistakes are told before anything runs. Throws Refused and
   // what reading a file throws.
   virtual void prepare() {}
-  virtual std::string announcement() const { return ""; }
+  // One that goes on where an earlier run was cut gives what it has so far, and takes the JSON of
+  // its folder, if there is one; `resume` says why it does not use that.
+  virtual std::string so_far() const { return ""; }
+  virtual std::string resume(const std::optional<std::string>& /*earlier*/) { return ""; }
+  virtual std::vector<std::string> announcement() const { return {}; }
   virtual std::string unit() const = 0;  // of stages: "sets"
   virtual std::size_t stages() const = 0;
   // `tell` is called as often as there is something to say. After Stopped what is done is kept.
@@ -191,7 +198,8 @@ class Experiment {
   virtual bool is_good() const { return true; }
   virtual std::string complaint() const { return ""; }  // at the end
   virtual void set_circumstances(Circumstances circumstances, std::string command) = 0;
-  virtual std::vector<std::string> missing() const = 0;  // peers that are not there: a line each
+  // Peers that are not there: a line each.
+  virtual std::vector<std::string> missing() const { return {}; }
 };
 
 }  // namespace lantern::report
