@@ -184,11 +184,7 @@ int run_program(int argc, char** argv, std::vector<OwnKind> own, std::vector<Own
     if (argc > 1) command_line_words().assign(argv + 1, argv + argc);
     try {
       know_own_structures(std::move(own));
-      for (OwnPanel& panel : panels) {
-        add_panel(panel.kind, std::move(panel.run));
-        panel.view.name = panel.kind.name;
-        add_panel(panel.view);
-      }
+      for (OwnPanel& panel : panels) draw::add_panel(std::move(panel));
     } catch (const Refused& refused) {
       throw UsageError(refused.what());
     }

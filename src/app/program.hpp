@@ -4,18 +4,13 @@
 #include <vector>
 
 #include "draw/panel.hpp"
-#include "run/panel.hpp"
+#include "run/frame_maker.hpp"
 #include "spatial/own_structure.hpp"
 
 namespace lantern::app {
 
-// A panel of a program's own: when there can be one, what a run gathers for it, and how it is
-// drawn. The first names it.
-struct OwnPanel {
-  PanelKind kind;
-  PanelRun run;
-  PanelView view;
-};
+// A panel of a program's own.
+using OwnPanel = PanelEntry;
 
 // Reads the command line, does what it asks for, and gives the exit code. Throws nothing. With
 // structures or panels of your own every scenario may name them, and every command knows them; a

@@ -3,28 +3,34 @@
 #include <algorithm>
 #include <iterator>
 #include <numeric>
+#include <utility>
 
-#include "base/check.hpp"
 #include "frame/parts/panels.hpp"
 
 namespace lantern::draw {
 
-// Each is in a file of its own.
-PanelView world_panel(), tree_panel(), atlas_panel(), chart_panel(), memory_panel(), ledger_panel(),
-    pool_panel(), bytes_panel(), sparkline_panel(), difference_panel(), axes_panel(),
-    comparison_panel(), islands_panel(), code_panel(), collisions_panel(), matrix_panel(),
-    screen_panel();
+// Each is in a file of its own; this is their order in the reference.
+PanelEntry world_panel(), tree_panel(), atlas_panel(), chart_panel(), memory_panel(),
+    ledger_panel(), pool_panel(), bytes_panel(), sparkline_panel(), difference_panel(),
+    axes_panel(), comparison_panel(), islands_panel(), code_panel(), collisions_panel(),
+    matrix_panel(), screen_panel();
 
 namespace {
 
+constexpr PanelEntry (*kPanels[])() = {
+    world_panel,   tree_panel,  atlas_panel,      chart_panel,      memory_panel, ledger_panel,
+    pool_panel,    bytes_panel, sparkline_panel,  difference_panel, axes_panel,   comparison_panel,
+    islands_panel, code_panel,  collisions_panel, matrix_panel,     screen_panel};
+
 std::vector<PanelView>& views() {
-  static std::vector<PanelView> all = {
-      world_panel(),  tree_panel(),       atlas_panel(),   chart_panel(),     memory_panel(),
-      ledger_panel(), pool_panel(),       bytes_panel(),   sparkline_panel(), difference_panel(),
-      axes_panel(),   comparison_panel(), islands_panel(), code_panel(),      collisions_panel(),
-      matrix_panel(), screen_panel()};
+  static std::vector<PanelView> all;
   return all;
 }
+
+const bool kAreKnown = [] {
+  for (const auto panel : kPanels) add_panel(panel());
+  return true;
+}();
 
 constexpr double kPanelGap = 44;
 constexpr double kLeastForTwo = 460;  // height of a column with two panels
@@ -175,13 +181,14 @@ std::vector<Box<2>> over_strips(const Frame& frame, const Staging& staging, Box<
 
 }  // namespace
 
-const PanelView& view_of(Panel panel) {
-  const auto found = std::ranges::find(views(), kind_of(panel).name, &PanelView::name);
-  LANTERN_CHECK(found != views().end(), ==, true);
-  return *found;
+const PanelView& view_of(Panel panel) { return views().at(static_cast<std::size_t>(panel)); }
+
+void add_panel(PanelEntry panel) {
+  frame::add_panel(std::move(panel.kind), std::move(panel.run));
+  views().push_back(std::move(panel.view));
 }
 
-void add_panel(PanelView view) { views().push_back(view); }
+bool panels_are_known() { return kAreKnown; }
 
 void draw_panel(Panel panel, const Frame& frame, const Staging& staging, const Box<2>& box,
                 DrawList& list, Labels& labels) {

@@ -1,6 +1,5 @@
-// How panels are drawn, and what room they want. What else is known of them is in
-// language/panel.cpp and run/panel.hpp. Each panel is a file that gives one entry of the list
-// in panel.cpp.
+// How panels are drawn, and what room they want. Each panel is a file that gives one entry of the
+// list in panel.cpp: all that is known of it.
 #pragma once
 
 #include <string>
@@ -9,12 +8,11 @@
 
 #include "draw/labels.hpp"
 #include "draw/staging.hpp"
-#include "frame/frame.hpp"
+#include "frame/panel.hpp"
 
 namespace lantern::draw {
 
 struct PanelView {
-  std::string_view name = {};  // as in `panels`; of a program's own, that of its kind
   // Fills the box and nothing outside of it.
   void (*draw)(const Frame& frame, const Staging& staging, const Box<2>& box, DrawList& list,
                Labels& labels) = nullptr;
@@ -34,9 +32,19 @@ struct PanelView {
   Vec<2> smallest{-1e300};  // in less nothing is drawn
 };
 
+// A panel: when there can be one, what frames hold for it, and how it is drawn.
+struct PanelEntry {
+  PanelKind kind;
+  PanelRun run;
+  PanelView view;
+};
+
 const PanelView& view_of(Panel panel);
-// One more, of a program's own.
-void add_panel(PanelView view);
+// One more, of a program's own. Throws Refused as language::add_panel does.
+void add_panel(PanelEntry panel);
+// Lantern's own are known from the start of a program that draws. One that only reads and runs
+// scenarios knows them once it has asked this.
+bool panels_are_known();
 void draw_panel(Panel panel, const Frame& frame, const Staging& staging, const Box<2>& box,
                 DrawList& list, Labels& labels);
 

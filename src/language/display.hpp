@@ -58,9 +58,8 @@ inline EnumNames names(Look) {
   return {"ghost", "player", "ball", "bat", "disc", "box", "person", "demon", "item"};
 }
 
-// Panels: what a page is made of. All that the language knows of one is an entry of one list; what
-// a run gathers for it is one of another (run/panel.hpp), and how it is drawn one of a third
-// (draw/panel.hpp).
+// Panels: what a page is made of. Each is a file of draw/panels/, whose entry (draw/panel.hpp) has
+// all that is known of it; of that the language is given this.
 struct Draft;
 
 // A panel by its place in the list.
@@ -68,6 +67,7 @@ enum class Panel : std::uint8_t {};
 
 struct PanelKind {
   std::string_view name = {};   // as in `panels`
+  std::string_view words = {};  // what it shows, for the reference: "the `chart`"
   std::string_view needs = {};  // said where it is not possible: "it needs a [chart]"
   bool (*possible)(const Draft& draft) = [](const Draft&) { return true; };
   // Of a scenario that wishes for none, which has it if this holds: its place from the left.
@@ -80,7 +80,7 @@ struct PanelKind {
 std::span<const PanelKind> panel_kinds();
 const PanelKind& kind_of(Panel panel);
 
-// A panel of Lantern, which must be there.
+// A panel, which must be there.
 Panel panel_named(std::string_view name);
 
 bool is(Panel panel, std::string_view name);
@@ -91,7 +91,7 @@ bool shows(const std::vector<Panel>& panels, std::string_view name);
 // is drawn, so they follow from what the files declare.
 std::vector<Panel> derived_panels(std::span<const Draft* const> drafts);
 
-// One more, of the program's own. To be called before any scenario is read. Throws Refused if its
+// One more. To be called before any scenario is read. Throws Refused if its
 // name is taken, or is not of a–z, 0–9 and _.
 void add_panel(PanelKind kind);
 

@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "frame/panel.hpp"
 #include "frame/parts/motion.hpp"
 #include "frame/parts/panels.hpp"
 #include "physics/methods.hpp"
-#include "run/panel.hpp"
 
 namespace lantern::run {
 namespace {
@@ -178,10 +178,10 @@ void Tally::list_others(const DirectorReport& report, Stages& all) const {
 void Tally::list_pictures(Stages& all) const {
   for (std::size_t i = 0; i < panel_kinds().size(); ++i) {
     const PanelRun& panel = run_of(Panel(i));
-    const bool drawn = shows(scenario_.panels, panel.name);
+    const std::string_view name = kind_of(Panel(i)).name;
+    const bool drawn = shows(scenario_.panels, name);
     StageTally& tally = all.emplace_back();
-    tally.stage =
-        panel.stage.empty() ? fmt::format("{} panel", panel.name) : std::string(panel.stage);
+    tally.stage = panel.stage.empty() ? fmt::format("{} panel", name) : std::string(panel.stage);
     tally.note = drawn ? "" : "none of the scenario's panels";
     for (const PanelRun::Content& content : panel.shows) {
       const auto with = with_.find({i, content.what});

@@ -7,6 +7,7 @@
 #include "draw/page.hpp"
 #include "draw/panel.hpp"
 #include "draw/texture_picture.hpp"
+#include "language/panel_rules.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -308,8 +309,17 @@ DrawList draw_atlas_image(const Frame& frame) {
 
 // The packed image, and beside it the textures that wait or were refused; of an atlas with a screen
 // those are shown one by one until the first is packed. It wants this width at a height.
-PanelView atlas_panel() {
-  return {.name = "atlas", .draw = draw_as<AtlasView>, .width = atlas_width};
+PanelEntry atlas_panel() {
+  return {
+      {.name = "atlas",
+       .words = "the `atlas`",
+       .needs = "it needs an [atlas]",
+       .possible = language::has_atlas,
+       .place = 3,
+       .by_itself = language::has_atlas,
+       .example = [] { return language::example_with("atlas", "pack"); }},
+      {.shows = {{"textures", [](const Frame& f) { return f.count("textures").value_or(0) > 0; }}}},
+      {.draw = draw_as<AtlasView>, .width = atlas_width}};
 }
 
 }  // namespace lantern::draw

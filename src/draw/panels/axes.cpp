@@ -13,6 +13,7 @@
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 #include "draw/world/narrow_marks.hpp"
+#include "language/panel_rules.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -106,8 +107,14 @@ class AxesView : PanelPicture {
 
 }  // namespace
 
-PanelView axes_panel() {
-  return {.name = "axes", .draw = draw_as<AxesView>, .smallest = {420, -1e300}};
+PanelEntry axes_panel() {
+  return {{.name = "axes",
+           .words = "the `axes` of a `separate`, side by side",
+           .needs = "it needs a `separate`",
+           .possible = language::some_step<language::Separate>,
+           .example = [] { return language::example_with("world", "separate"); }},
+          {.shows = {{"axes of two bodies", has_part<FrameSeparation>}}},
+          {.draw = draw_as<AxesView>, .smallest = {420, -1e300}}};
 }
 
 }  // namespace lantern::draw

@@ -8,6 +8,7 @@
 
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
+#include "language/panel_rules.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -84,13 +85,18 @@ class BytesView : PanelPicture {
 
 }  // namespace
 
-PanelView bytes_panel() {
-  return {.name = "bytes",
-          .draw = draw_as<BytesView>,
-          .strip = [](const Frame&, const Vec<2>&) { return 2 * kBytesRow + 8; },
-          .weight = 0.28,
-          .inset = 3,
-          .smallest = {-1e300, 2 * kBytesRow - 1}};
+PanelEntry bytes_panel() {
+  return {{.name = "bytes",
+           .words = "as a strip, the `bytes` of a node with and without its box",
+           .needs = "it needs a quadtree or an octree, whose nodes have their bytes counted",
+           .possible = language::has_array},
+          {.shows = {{"bytes of nodes",
+                      [](const Frame& f) { return f.count("node_bytes").value_or(0) > 0; }}}},
+          {.draw = draw_as<BytesView>,
+           .strip = [](const Frame&, const Vec<2>&) { return 2 * kBytesRow + 8; },
+           .weight = 0.28,
+           .inset = 3,
+           .smallest = {-1e300, 2 * kBytesRow - 1}}};
 }
 
 }  // namespace lantern::draw

@@ -11,6 +11,7 @@
 #include "draw/panel.hpp"
 #include "draw/plot_parts.hpp"
 #include "frame/parts/panels.hpp"
+#include "language/panel_rules.hpp"
 #include "spatial/structure_kind.hpp"
 
 namespace lantern::draw {
@@ -251,8 +252,23 @@ void draw_chart(const Frame& frame, const Staging& staging, const Box<2>& place,
 // their names at their ends; the newest point of each is larger and says its number. Bars lie
 // level in groups, their names before and their numbers behind them. Points that
 // are not finite are left out; what there is no room for is said.
-PanelView chart_panel() {
-  return {.name = "chart", .draw = draw_chart, .enough = 300, .inset = 4, .smallest = {40, 40}};
+PanelEntry chart_panel() {
+  const auto has_points = [](const Frame& frame) {
+    const FrameChart& chart = frame.get<FrameChart>();
+    return !chart.bars.empty() || std::ranges::any_of(chart.series, [](const FrameSeries& line) {
+      return !line.points.empty();
+    });
+  };
+  return {{.name = "chart",
+           .words = "the `chart`",
+           .needs = "it needs a [chart]",
+           .possible = language::has_chart,
+           .place = 5,
+           .by_itself = language::has_chart,
+           .of_all_sides = true,
+           .example = [] { return language::example_of("chart"); }},
+          {.shows = {{"points or bars", has_points}}},
+          {.draw = draw_chart, .enough = 300, .inset = 4, .smallest = {40, 40}}};
 }
 
 }  // namespace lantern::draw

@@ -19,6 +19,7 @@
 
 #include "draw/panel.hpp"
 #include "frame/parts/panels.hpp"
+#include "language/panel_rules.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -193,9 +194,19 @@ class CodeView : PanelPicture {
 
 }  // namespace
 
-PanelView code_panel() {
-  return {
-      .name = "code", .draw = draw_as<CodeView>, .weight = 1.3, .inset = 3, .smallest = {300, 160}};
+PanelEntry code_panel() {
+  return {{.name = "code",
+           .words = "the `code` of the lecture, one function of it",
+           .needs = "it needs a step with 'code'",
+           .possible = language::has_code,
+           .example =
+               [] {
+                 return language::example_of("world") +
+                        "\n[[step]]\ndo = \"show\"\ncode = { function = \"Insert\", line = "
+                        "\"Split();\" }\n";
+               }},
+          {.shows = {{"lines of code", has_part<FrameCode>}}},
+          {.draw = draw_as<CodeView>, .weight = 1.3, .inset = 3, .smallest = {300, 160}}};
 }
 
 }  // namespace lantern::draw

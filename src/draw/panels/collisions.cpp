@@ -14,6 +14,7 @@
 #include "draw/panel.hpp"
 #include "draw/pen.hpp"
 #include "frame/parts/panels.hpp"
+#include "language/panel_rules.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -175,12 +176,19 @@ double collisions_strip(const Frame& frame, const Vec<2>& area) {
 
 }  // namespace
 
-PanelView collisions_panel() {
-  return {.name = "collisions",
-          .draw = draw_as<CollisionsView>,
-          .strip = collisions_strip,
-          .inset = 3,
-          .smallest = {300, kCollisionHeading}};
+PanelEntry collisions_panel() {
+  return {
+      {.name = "collisions",
+       .words = "as a strip, the `collisions` that a world with `contacts = \"lecture\"` remembers",
+       .needs = "it needs [world] contacts = \"lecture\", which remembers them",
+       .possible = language::remembers_collisions,
+       .example = [] { return language::example_of("collisions"); }},
+      {.stage = "collisions",
+       .shows = {{"a collision", lists<FrameCollisions, &FrameCollisions::rows>}}},
+      {.draw = draw_as<CollisionsView>,
+       .strip = collisions_strip,
+       .inset = 3,
+       .smallest = {300, kCollisionHeading}}};
 }
 
 }  // namespace lantern::draw

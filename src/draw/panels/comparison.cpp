@@ -17,6 +17,7 @@
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 #include "frame/parts/panels.hpp"
+#include "language/panel_rules.hpp"
 #include "spatial/structure_kind.hpp"
 
 namespace lantern::draw {
@@ -176,9 +177,17 @@ class ComparisonView : PanelPicture {
 
 }  // namespace
 
-PanelView comparison_panel() {
-  return {
-      .name = "comparison", .draw = draw_as<ComparisonView>, .inset = 3, .smallest = {900, -1e300}};
+PanelEntry comparison_panel() {
+  return {{.name = "comparison",
+           .words = "the `comparison`, a table of what each kind of structure does for each world "
+                    "that a step compares",
+           .needs = "it needs a step with do = \"compare\"",
+           .possible = language::some_step<language::Compare>,
+           .place = 6,
+           .by_itself = language::some_step<language::Compare>,
+           .example = [] { return language::example_with("world", "compare"); }},
+          {.shows = {{"worlds compared", lists<FrameComparison, &FrameComparison::rows>}}},
+          {.draw = draw_as<ComparisonView>, .inset = 3, .smallest = {900, -1e300}}};
 }
 
 }  // namespace lantern::draw

@@ -14,6 +14,7 @@
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 #include "draw/world/narrow_marks.hpp"
+#include "language/panel_rules.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -193,8 +194,14 @@ class DifferenceView : PanelPicture {
 
 }  // namespace
 
-PanelView difference_panel() {
-  return {.name = "difference", .draw = draw_as<DifferenceView>, .smallest = {160, 160}};
+PanelEntry difference_panel() {
+  return {{.name = "difference",
+           .words = "the `difference`, the Minkowski difference of the two bodies that a `gjk` is "
+                    "about, or of the first two that are there",
+           .needs = "it needs a flat world and two bodies",
+           .possible = language::has_two_flat_bodies},
+          {.shows = {{"the difference of two bodies", has_part<FrameDifference>}}},
+          {.draw = draw_as<DifferenceView>, .smallest = {160, 160}}};
 }
 
 }  // namespace lantern::draw

@@ -19,6 +19,7 @@
 #include "draw/projection.hpp"
 #include "frame/parts/motion.hpp"
 #include "geometry/flat.hpp"
+#include "language/panel_rules.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -213,8 +214,17 @@ class IslandGraph : PanelPicture {
 
 }  // namespace
 
-PanelView islands_panel() {
-  return {.name = "islands", .draw = draw_as<IslandGraph>, .width = world_width};
+PanelEntry islands_panel() {
+  return {
+      {.name = "islands",
+       .words = "the `islands`, a graph: a dot for each body, where it is in the world, and a line "
+                "for each contact, spring and joint; what hangs together lies on one ground",
+       .needs =
+           "it needs a step that runs, and contacts, springs or joints that hold bodies together",
+       .possible = language::runs_with_what_holds,
+       .example = language::running_example},
+      {.shows = {{"islands", lists<FrameIslands, &FrameIslands::islands>}}},
+      {.draw = draw_as<IslandGraph>, .width = world_width}};
 }
 
 }  // namespace lantern::draw

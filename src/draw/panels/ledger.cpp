@@ -20,6 +20,7 @@
 #include "draw/marks.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
+#include "language/panel_rules.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -298,9 +299,14 @@ void hatch_cell(const Box<2>& cell, const Stroke& stroke, DrawList& list) {
 
 }  // namespace
 
-PanelView ledger_panel() {
+PanelEntry ledger_panel() {
   return {
-      .name = "ledger", .draw = draw_as<Ledger>, .weight = 1.1, .inset = 3, .smallest = {200, 120}};
+      {.name = "ledger",
+       .words = "the `ledger`, a triangle with a cell for each pair of bodies and how far it came",
+       .needs = "it needs a [structure], whose pairs it shows",
+       .possible = language::has_structure},
+      {.shows = {{"two bodies or more", [](const Frame& f) { return f.bodies.size() > 1; }}}},
+      {.draw = draw_as<Ledger>, .weight = 1.1, .inset = 3, .smallest = {200, 120}}};
 }
 
 void draw_pair_mark(PairState state, bool is_new, const Box<2>& cell, DrawList& list) {

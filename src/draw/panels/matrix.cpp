@@ -12,6 +12,7 @@
 
 #include "draw/panel.hpp"
 #include "frame/parts/level.hpp"
+#include "language/panel_rules.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -102,8 +103,14 @@ class Matrix : PanelPicture {
 
 }  // namespace
 
-PanelView matrix_panel() {
-  return {.name = "matrix", .draw = draw_as<Matrix>, .inset = 3, .smallest = {160, 160}};
+PanelEntry matrix_panel() {
+  return {{.name = "matrix",
+           .words = "the `matrix` of a level's sectors, a square for each two: who sees whom",
+           .needs = "it needs a [level] and a step with do = \"see\"",
+           .possible = language::sees_in_level,
+           .example = [] { return language::example_with("level", "see"); }},
+          {.shows = {{"sectors to see", lists<FrameMatrix, &FrameMatrix::rows>}}},
+          {.draw = draw_as<Matrix>, .inset = 3, .smallest = {160, 160}}};
 }
 
 }  // namespace lantern::draw

@@ -9,6 +9,7 @@
 #include "draw/body_shapes.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
+#include "language/panel_rules.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -272,13 +273,19 @@ double memory_strip(const Frame& frame, const Vec<2>& area) {
 // bracketed and named; those in use show their bodies, those kept free are empty; slots of no leaf
 // are quiet. Of an array too long for the panel as many slots are drawn as have room, and the
 // heading says so. It wants this height at a width.
-PanelView memory_panel() {
-  return {.name = "memory",
-          .draw = draw_as<MemoryView>,
-          .strip = memory_strip,
-          .weight = 0.6,
-          .inset = 3,
-          .smallest = {60, kMemoryHeading + 12}};
+PanelEntry memory_panel() {
+  return {{.name = "memory",
+           .words = "as a strip below, the `memory` of the array that all leaves share, or of a "
+                    "`lecture_quadtree` what it allocates piece by piece",
+           .needs = "it needs a [structure]",
+           .possible = language::has_structure},
+          {.shows = {{"the leaves' array",
+                      [](const Frame& f) { return f.get<FrameStructure>().array_size > 0; }}}},
+          {.draw = draw_as<MemoryView>,
+           .strip = memory_strip,
+           .weight = 0.6,
+           .inset = 3,
+           .smallest = {60, kMemoryHeading + 12}}};
 }
 
 }  // namespace lantern::draw

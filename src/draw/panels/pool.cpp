@@ -11,6 +11,7 @@
 #include "draw/body_shapes.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
+#include "language/panel_rules.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -287,13 +288,18 @@ double pool_strip(const Frame& frame, const Vec<2>& area) {
 
 void draw_list_pieces(const PanelPicture& on) { ListPieces(on).draw(); }
 
-PanelView pool_panel() {
-  return {.name = "pool",
-          .draw = draw_as<PoolView>,
-          .strip = pool_strip,
-          .weight = 0.4,
-          .inset = 3,
-          .smallest = {60, kPoolHeading + kPoolSlot}};
+PanelEntry pool_panel() {
+  return {{.name = "pool",
+           .words = "as a strip, the `pool` of nodes, or of a `lecture_quadtree` what it allocates",
+           .needs = "it needs a quadtree, an octree or a kd_tree, whose nodes lie in a pool",
+           .possible = language::has_pool},
+          {.shows = {{"a pool of nodes",
+                      [](const Frame& f) { return f.get<FrameStructure>().pool_size > 0; }}}},
+          {.draw = draw_as<PoolView>,
+           .strip = pool_strip,
+           .weight = 0.4,
+           .inset = 3,
+           .smallest = {60, kPoolHeading + kPoolSlot}}};
 }
 
 }  // namespace lantern::draw

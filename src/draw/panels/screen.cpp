@@ -14,6 +14,7 @@
 
 #include "draw/panel.hpp"
 #include "draw/texture_picture.hpp"
+#include "language/panel_rules.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -160,8 +161,17 @@ double screen_width(const Frame& frame, double height) {
 
 }  // namespace
 
-PanelView screen_panel() {
-  return {.name = "screen", .draw = draw_as<ScreenView>, .width = screen_width};
+PanelEntry screen_panel() {
+  return {
+      {.name = "screen",
+       .words = "the `screen`, what is drawn from textures, and below it a mark for each binding",
+       .needs = "it needs [[element]]s and a step that draws them",
+       .possible = language::some_step<language::DrawScreen>,
+       .place = 2,
+       .by_itself = language::some_step<language::DrawScreen>,
+       .example = [] { return language::example_with("atlas", "draw"); }},
+      {.shows = {{"a drawn screen", lists<FrameScreen, &FrameScreen::ways>}}},
+      {.draw = draw_as<ScreenView>, .width = screen_width}};
 }
 
 }  // namespace lantern::draw

@@ -12,6 +12,7 @@
 #include "draw/panel.hpp"
 #include "draw/pen.hpp"
 #include "frame/parts/panels.hpp"
+#include "language/panel_rules.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -96,13 +97,20 @@ void draw_sparkline(const Frame& frame, const Staging& staging, const Box<2>& pl
 
 }  // namespace
 
-PanelView sparkline_panel() {
-  return {.name = "sparkline",
-          .draw = draw_sparkline,
-          .strip = [](const Frame&, const Vec<2>&) { return 84.0; },
-          .weight = 0.28,
-          .inset = 3,
-          .smallest = {-1e300, 2 * kLabel}};
+PanelEntry sparkline_panel() {
+  return {
+      {.name = "sparkline",
+       .words = "as a strip, the `sparkline`: the first count of the headline, or the pairs, over "
+                "the time so far",
+       .needs = "it needs a [structure] and a step that runs",
+       .possible = language::runs_with_structure,
+       .example = language::running_example},
+      {.stage = "sparkline", .shows = {{"a line so far", lists<FrameTrace, &FrameTrace::points>}}},
+      {.draw = draw_sparkline,
+       .strip = [](const Frame&, const Vec<2>&) { return 84.0; },
+       .weight = 0.28,
+       .inset = 3,
+       .smallest = {-1e300, 2 * kLabel}}};
 }
 
 }  // namespace lantern::draw

@@ -8,6 +8,7 @@
 
 #include "draw/panel.hpp"
 #include "draw/tree/tree_layout.hpp"
+#include "language/panel_rules.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -185,18 +186,25 @@ void draw_tree(const Frame& frame, const Staging& staging, const Box<2>& panel, 
     draw_staged_tree(frame, tree, staging, diagram, list, labels);
 }
 
-PanelView tree_panel() {
-  return {.name = "tree",
-          .draw = draw_tree,
-          .size =
-              [](const Frame& frame, const Staging& staging, const Box<2>& box) {
-                // A grid's table takes what it gets, whatever the cells of the moment are.
-                return frame.get<FrameStructure>().grid_levels.empty()
-                           ? tree_size_in(staging, box)
-                           : std::sqrt(box.size().x * box.size().y);
-              },
-          .weight = 1.2,
-          .least = 320};  // four rows and their labels
+PanelEntry tree_panel() {
+  return {{.name = "tree",
+           .words =
+               "the `tree` (of `sort_and_sweep` its intervals, of a `grid` the table of its cells)",
+           .needs = "it needs a [structure], a [level] or an [atlas]",
+           .possible = language::has_tree,
+           .place = 4,
+           .by_itself = language::has_nodes},
+          {.shows = {{"nodes", [](const Frame& f) { return !f.nodes.empty(); }}}},
+          {.draw = draw_tree,
+           .size =
+               [](const Frame& frame, const Staging& staging, const Box<2>& box) {
+                 // A grid's table takes what it gets, whatever the cells of the moment are.
+                 return frame.get<FrameStructure>().grid_levels.empty()
+                            ? tree_size_in(staging, box)
+                            : std::sqrt(box.size().x * box.size().y);
+               },
+           .weight = 1.2,
+           .least = 320}};  // four rows and their labels
 }
 
 }  // namespace lantern::draw

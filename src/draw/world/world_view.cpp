@@ -12,6 +12,7 @@
 #include "draw/world/world3d_parts.hpp"
 #include "frame/parts/level.hpp"
 #include "geometry/flat.hpp"
+#include "language/panel_rules.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -349,16 +350,23 @@ double world_aspect(const Frame& frame) {
 
 double world_width(const Frame& frame, double height) { return height * world_aspect(frame); }
 
-PanelView world_panel() {
-  return {.name = "world",
-          .draw = draw_world,
-          .width = world_width,
-          .size = [](const Frame& frame, const Staging&, const Box<2>& box) {
-            const double width = std::min(box.size().x, box.size().y * world_aspect(frame));
-            const double size = std::sqrt(width * width / world_aspect(frame));
-            // A level is read on its map, whose sectors have numbers and bodies in them.
-            return std::pow(size, frame.get<FrameLevel>().walls.empty() ? 1 : 1.5);
-          }};
+PanelEntry world_panel() {
+  return {{.name = "world",
+           .words = "the `world`",
+           .needs = "it needs a [world]",
+           .possible = language::has_world,
+           .place = 1,
+           .by_itself = language::has_bodies_or_level},
+          {.shows = {{"bodies", [](const Frame& f) { return !f.bodies.empty(); }},
+                     {"walls", lists<FrameLevel, &FrameLevel::walls>}}},
+          {.draw = draw_world,
+           .width = world_width,
+           .size = [](const Frame& frame, const Staging&, const Box<2>& box) {
+             const double width = std::min(box.size().x, box.size().y * world_aspect(frame));
+             const double size = std::sqrt(width * width / world_aspect(frame));
+             // A level is read on its map, whose sectors have numbers and bodies in them.
+             return std::pow(size, frame.get<FrameLevel>().walls.empty() ? 1 : 1.5);
+           }}};
 }
 
 }  // namespace lantern::draw

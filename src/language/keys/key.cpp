@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -66,6 +68,18 @@ KeyDoc made(const MemberKind& kind, const std::type_info& owner, std::size_t off
 
 namespace {
 
+// What each panel shows, in its own words.
+std::string_view panels_text() {
+  static const std::string text = [] {
+    std::string words = "What is drawn, from left to right";
+    const char* before = ": ";
+    for (const PanelKind& kind : panel_kinds())
+      if (!kind.words.empty()) words += std::exchange(before, "; ") + std::string(kind.words);
+    return words + ".";
+  }();
+  return text;
+}
+
 TableDoc file_table() {
   using S = ScenarioSpec;
   TableDoc table = {
@@ -85,23 +99,7 @@ TableDoc file_table() {
           "Where random patterns begin; the same seed gives the same frames everywhere.",
           range(0, kMostWhole)),
       key(&S::pace, "pace", "One frame a step, or one for each thing that the algorithm does."),
-      key(&S::panels, "panels",
-          "What is drawn, from left to right: the `world`, the `tree` (of `sort_and_sweep` its "
-          "intervals, of a `grid` the table of its cells), the `atlas`, the `chart`; the `ledger`, "
-          "a triangle with a cell for each pair of bodies and how far it came; the `difference`, "
-          "the Minkowski difference of the two bodies that a `gjk` is about, or of the first two "
-          "that are there; the `axes` of a `separate`, side by side; the `comparison`, a table of "
-          "what each kind of structure does for each world that a step compares; and as strips "
-          "below, the `memory` of the array that all leaves share, the `pool` of nodes, the "
-          "`bytes` of a node with and without its box, the `sparkline`, the first count of the "
-          "headline, or the pairs, over the time so far, and the `collisions` that a world with "
-          "`contacts = \"lecture\"` remembers; the `code` of the lecture, one function of it. Of a "
-          "`lecture_quadtree` the `memory` and the `pool` show what it allocates piece by piece. "
-          "The `islands` are a graph: a dot for each body, where it is in the world, and a line "
-          "for each contact, spring and joint; what hangs together lies on one ground. The "
-          "`matrix` of a level's sectors has a square for each two: who sees whom. The `screen` "
-          "shows what is drawn from textures, and below it a mark for each binding.",
-          or_else("what the scenario uses")),
+      key(&S::panels, "panels", panels_text(), or_else("what the scenario uses")),
       key(KeyType::table, "display", "What frames show.", holds("display")),
       key(KeyType::texts, "headline",
           "Up to three counts and measures that stand at the foot of every frame, the first one "
