@@ -1,5 +1,5 @@
-// What a frame counts and measures, one row each: how it is called, what it is, how much of it
-// there can be, and when there is one.
+// What a frame counts and measures, one row each beside the code that counts: how it is called,
+// what it is, how much of it there can be, and when there is one.
 #pragma once
 
 #include <array>
@@ -65,6 +65,14 @@ struct CountRule {
   const CountRule* first = nullptr;  // that must hold before this one is asked
 };
 
+// Rules of Lantern's own counts. Each of them asks its `first` first.
+namespace when {
+extern const CountRule with_atlas, room, drawn, no_atlas, time, bodies, solid, structure, any_tree,
+    tree, kd_tree, sweep, boxes, array, inside, split, asleep_nodes, contacts, joints, sleep,
+    physics, islands, query, shapes, separated, searched, compared, level, compiled, located,
+    sighted, eyed;
+}  // namespace when
+
 // The most that a frame can count, by what its scenario has.
 enum class Most {
   unbounded,
@@ -90,11 +98,16 @@ struct CountDoc {
   std::string words(bool one) const;
 };
 
-// What a caption may quote and an expectation may name, in the order of a frame's counts.
+// What a caption may quote and an expectation may name.
 std::span<const CountDoc> known_counts();
 
 // What is measured rather than counted, with a fraction: energies and the like.
 std::span<const CountDoc> known_measures();
+
+// More of them, each row beside the code that counts it (run/counters.cpp lists these); to be
+// called before any scenario is read.
+void add_counts(std::span<const CountDoc> rows);
+void add_measures(std::span<const CountDoc> rows);
 
 // The same of one body, written as `energy.bob`; in the order of BodyMeasure.
 std::span<const CountDoc> known_body_measures();

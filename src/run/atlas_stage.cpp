@@ -7,7 +7,30 @@
 
 #include <fmt/format.h>
 
+#include "language/counts.hpp"
+
 namespace lantern::run {
+
+// --- what is counted here ---
+
+namespace {
+
+constexpr CountDoc kAtlasCounts[] = {
+    {"textures", when::with_atlas, "", "Textures packed."},
+    {"refused", when::with_atlas, "refused", "Textures that fit nowhere."},
+    {"used_area", when::with_atlas, "pixel used/pixels used", "Pixels under textures."},
+    {"free_area", when::with_atlas, "pixel free/pixels free", "Pixels left free."},
+    {"atlas_area", when::with_atlas, "pixel in all/pixels in all", "Pixels of the atlas."},
+    {"free_leaves", when::with_atlas, "free leaf/free leaves", "Leaves without a texture."},
+    {"leaf_tests", when::with_atlas, "leaf looked at/leaves looked at",
+     "Leaves looked at, by packing and by questions for room."},
+    {"room", when::room, "has room", "1 if the last `ask_room` found room, 0 if not."},
+    {"bindings", when::drawn, "", "Times that the last `draw` had to bind another image, so far."},
+    {"draws", when::drawn, "", "Elements that it has drawn."}};
+
+}  // namespace
+
+std::span<const CountDoc> atlas_counts() { return kAtlasCounts; }
 
 AtlasStage::AtlasStage(const Scenario& scenario, Work& work)
     : spec_(*scenario.atlas), atlas_(scenario.atlas->width, scenario.atlas->height) {

@@ -3,12 +3,37 @@
 #include <fmt/format.h>
 
 #include "base/stop.hpp"
+#include "language/counts.hpp"
 #include "run/asked.hpp"
 #include "run/step_by_step.hpp"
 #include "run/structure_picture.hpp"
 #include "run/world_picture.hpp"
 
 namespace lantern::run {
+
+// --- what is counted here ---
+
+namespace {
+
+constexpr CountDoc kEngineCounts[] = {
+    {"bodies", when::bodies, "body/bodies", "Bodies in the world.", Most::bodies},
+    {"tests_so_far", when::inside, "test so far/tests so far",
+     "Tests made to find pairs since the script began: `box_tests` and `pair_tests` of every build "
+     "that a frame shows, and of a compiled level its `side_tests`."},
+    {"collisions_alive", when::contacts, "collision alive/collisions alive",
+     "Pairs of which it has been told that they began to touch, and not yet that they ceased to."},
+    {"begins_in_all", when::contacts, "begin/begins",
+     "Pairs that began to touch since the scenario began."},
+    {"touches_in_all", when::contacts, "touch/touches",
+     "Pairs that touched since the scenario began, once for each world step."},
+    {"asleep", when::sleep, "asleep", "Bodies asleep.", Most::bodies},
+    {"awake", when::sleep, "awake",
+     "Bodies that can move and are not asleep, whether they move now or not.", Most::bodies}};
+
+}  // namespace
+
+std::span<const CountDoc> engine_counts() { return kEngineCounts; }
+
 namespace {
 
 template <int D>
@@ -311,8 +336,8 @@ class EngineOf : public Engine {
     builds_ = now;
   }
 
-  // Of the builds since the frame before, the one that this frame shows; while bodies are on their
-  // way into it, it is not done.
+  // Of the builds since the frame before, the one that this frame shows; while bodies are on
+  // their way into it, it is not done.
   void count_tests(Frame& frame) {
     if (!has_structure() || !frame.count("box_tests")) return;
     const BroadPhaseCounters& now = world().broad_phase()->counters();
@@ -333,8 +358,8 @@ class EngineOf : public Engine {
     steered_ = true;
   }
 
-  // What is drawn or asked is the structure of the bodies as they are. Without contacts nobody else
-  // needs it: it is built only then.
+  // What is drawn or asked is the structure of the bodies as they are. Without contacts nobody
+  // else needs it: it is built only then.
   void bring_up_to_date() {
     if (being_stored_) return;
     if (outdated_ || scenario_.has_contacts() || !world().broad_phase()) look_ahead();

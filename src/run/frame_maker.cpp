@@ -4,16 +4,44 @@
 
 #include <fmt/format.h>
 
+#include "base/check.hpp"
 #include "base/error.hpp"
 #include "base/stop.hpp"
 #include "frame/frame.hpp"
+#include "frame/panel.hpp"
 #include "geometry/flat.hpp"
 #include "language/code_text.hpp"
 #include "language/counts.hpp"
-#include "run/panel.hpp"
+#include "run/counters.hpp"
 #include "run/shown.hpp"
 
 namespace lantern::run {
+
+// --- what is counted here ---
+
+namespace {
+
+constexpr CountDoc kAnswerCounts[] = {
+    {"nodes_visited", when::query, "node visited/nodes visited",
+     "Nodes that the last ray, cull or query went into."},
+    {"nodes_skipped", when::query, "node left out/nodes left out",
+     "Nodes that it left out, with all below them."},
+    {"objects_tested", when::query, "body tested/bodies tested", "Bodies that it tested.",
+     Most::bodies},
+    {"hits", when::query, "", "Bodies that it found.", Most::bodies},
+    {"compared_bodies", when::compared, "body compared/bodies compared",
+     "Bodies of the last `compare`."},
+    {"compared_pairs", when::compared, "by brute force",
+     "Pairs of them that brute force would test."},
+    {"compared_overlaps", when::compared, "overlap of boxes/overlaps of boxes",
+     "Those whose boxes overlap after its step, by every kind."},
+    {"least_work", when::compared, "comparison a step/comparisons a step",
+     "Comparisons of the kind that needed fewest in its step, to make ready and to find pairs."}};
+
+}  // namespace
+
+std::span<const CountDoc> answer_counts() { return kAnswerCounts; }
+
 namespace {
 
 // Frames of one run, all paces together.
@@ -58,6 +86,7 @@ FrameMaker::FrameMaker(const Scenario& scenario, Pace pace, const Stage& stage,
       headline_(scenario.headline),
       comparison_(empty_comparison(scenario)),
       looks_(scenario) {
+  LANTERN_CHECK(counts_are_known(), ==, true);
   if (scenario.chart) plotter_.emplace(scenario);
   if (shows(scenario.panels, "sparkline")) {
     trace_ = FrameTrace{trace_name(scenario), {}, script_seconds(scenario, &part_)};
@@ -161,6 +190,7 @@ Frame FrameMaker::picture(const Touched& now, std::string_view event, bool midst
   if (trace_) trace(frame);
   frame.put(code_);
   if (stage_.engine && shows(scenario_.panels, "collisions")) add_collisions(frame);
+  if (stage_.level && shows(scenario_.panels, "matrix")) stage_.level->picture_matrix(frame);
   for (const Panel panel : frame.panels)
     if (const auto gather = run_of(panel).gather) gather(stage_, frame);
   return frame;

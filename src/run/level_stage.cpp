@@ -9,9 +9,47 @@
 #include "base/number.hpp"
 #include "frame/parts/level.hpp"
 #include "frame/parts/panels.hpp"
+#include "language/counts.hpp"
 #include "spatial/pairs.hpp"
 
 namespace lantern::run {
+
+// --- what is counted here ---
+
+namespace {
+
+constexpr CountDoc kLevelCounts[] = {
+    {"walls", when::compiled, "", "Walls of the level."},
+    {"wall_pieces", when::compiled, "", "Walls after lines have cut them."},
+    {"sectors", when::compiled, "", "Leaves of the level's BSP."},
+    {"sector_pairs", when::compiled, "pair of sectors/pairs of sectors",
+     "All pairs of sectors there are."},
+    {"cuts", when::compiled, "", "Walls that a line has cut in two."},
+    {"lines_tried", when::compiled, "line tried/lines tried",
+     "Lines of walls that its compiler tried, to divide regions."},
+    {"side_tests", when::compiled, "",
+     "Tests that took: on which side of a line a piece of wall lies."},
+    {"plane_score", when::compiled, "score", "Score of the line that divides the whole level."},
+    {"first_wall_score", when::compiled, "the first wall's score",
+     "What the first wall to divide it would have scored."},
+    {"sector", when::located, "sector", "Where the last `locate` ended, from 1."},
+    {"planes_tested", when::located, "line asked/lines asked",
+     "Lines that it asked for the point's side."},
+    {"bodies_here", when::located, "in this sector",
+     "Bodies in that sector, if the level holds the bodies."},
+    {"portals", when::sighted, "", "Openings between two sectors of the level."},
+    {"portals_tested", when::sighted, "portal tested/portals tested",
+     "How often a portal was held against the view through others."},
+    {"visible_pairs", when::sighted, "pair sees each other/pairs see each other",
+     "Pairs of sectors that see each other."},
+    {"sectors_seen", when::eyed, "sector seen/sectors seen",
+     "Sectors that the eye's sector sees, itself among them."},
+    {"bodies_seen", when::eyed, "body seen/bodies seen",
+     "Bodies in these, if the level holds the bodies."}};
+
+}  // namespace
+
+std::span<const CountDoc> level_counts() { return kLevelCounts; }
 
 LevelStage::LevelStage(const Scenario& scenario)
     : spec_(*scenario.level),

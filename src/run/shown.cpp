@@ -6,14 +6,47 @@
 #include "base/hash.hpp"
 #include "frame/parts/level.hpp"
 #include "geometry/flat.hpp"
+#include "language/counts.hpp"
 #include "run/engine.hpp"
 
 namespace lantern::run {
+
+// --- what is counted here ---
+
+namespace {
+
+constexpr CountDoc kNarrowCounts[] = {
+    {"shapes_tested", when::shapes, "pair tested/pairs tested",
+     "Pairs whose shapes the last `test_shapes` has tested."},
+    {"narrow_work", when::shapes, "length measured/lengths measured",
+     "Lengths along a direction that these tests measured: of two discs 1, of a disc and a box 3, "
+     "of two boxes 3 for each axis that was needed; more in a 3D world."},
+    {"touching", when::shapes, "pair touches/pairs touch", "Pairs that it found to touch."},
+    {"axes_tested", when::separated, "axis tested/axes tested",
+     "Axes along which the last `separate` has measured its bodies."},
+    {"gjk_steps", when::searched, "search/searches",
+     "Points of the difference that the last `gjk` has asked for."}};
+constexpr CountDoc kNarrowMeasures[] = {
+    {"gap", when::separated, "",
+     "How far the last `separate` found its bodies apart along the axis that parts them; 0 if none "
+     "does.",
+     Most::size, "units"},
+    {"overlap", when::separated, "",
+     "Where none parts them, how far they overlap along the best one.", Most::size, "units"},
+    {"distance", when::searched, "", "Of the bodies of the last `gjk`; 0 if they overlap.",
+     Most::size, "units"}};
+
+}  // namespace
+
+std::span<const CountDoc> narrow_counts() { return kNarrowCounts; }
+std::span<const CountDoc> narrow_measures() { return kNarrowMeasures; }
+
 namespace {
 
 constexpr std::size_t kMostInFocus = 3;  // of more, nobody stands out
 
-// Of each node its way down from the root: a node that is made anew at the same place is the same.
+// Of each node its way down from the root: a node that is made anew at the same place is the
+// same.
 std::vector<std::uint64_t> places_of(const Frame& frame) {
   std::vector<std::uint64_t> places;
   places.reserve(frame.nodes.size());

@@ -2,10 +2,56 @@
 #include <set>
 
 #include "base/stop.hpp"
+#include "language/counts.hpp"
 #include "run/engine.hpp"
 #include "run/players.hpp"
 
 namespace lantern::run {
+
+// --- what is counted here ---
+
+namespace {
+
+constexpr CountDoc kStepCounts[] = {
+    {"pairs_tested", when::contacts, "pair tested/pairs tested",
+     "Pairs whose shapes were tested in the last world step."},
+    {"narrow_tests", when::contacts, "",
+     "Tests made of them; a pair may be looked at several times in a step."},
+    {"impact_looks", when::contacts, "look for the impact/looks for the impact",
+     "Those of them that looked for the moment of an impact, in the midst of the step."},
+    {"impacts_located", when::contacts, "impact located/impacts located",
+     "Impacts whose moment the last world step found, so that they took place then."},
+    {"contacts", when::contacts, "",
+     "Pairs that really touch, as the last world step found; of sleepers, their last one.",
+     Most::pairs},
+    {"contact_points", when::contacts, "contact point/contact points", "Points at which they do."},
+    {"impulses", when::contacts, "", "Those of them that passed on an impulse in that world step."},
+    {"crushes", when::contacts, "crush/crushes",
+     "Of these, those that crush: they press a body against another one, and the two lie in it "
+     "deeper than a quarter of its smallest width."},
+    {"begins", when::contacts, "contact begun/contacts begun",
+     "Pairs that began to touch during the script's step."},
+    {"ends", when::contacts, "contact ended/contacts ended",
+     "Pairs that ceased to touch during the script's step."},
+    {"constraint_rows", when::contacts, "",
+     "Rows of contacts and joints solved in the last world step, once for each sweep."},
+    {"friction_rows", when::contacts, "", "Those of them that are friction."},
+    {"force_evaluations", when::physics, "",
+     "Passes over forces in the last world step: of all bodies, then of each island's."},
+    {"rotations", when::physics, "", "Bodies that were turned, in the last world step."}};
+constexpr CountDoc kStepMeasures[] = {
+    {"penetration", when::contacts, "",
+     "How deep the deepest contact of the last world step overlaps.", Most::size, "units"},
+    {"time_of_impact", when::contacts, "",
+     "When the first of the last world step's impacts was, as a part of the step; 1 if it located "
+     "none.",
+     Most::part_of_step, "of a step"}};
+
+}  // namespace
+
+std::span<const CountDoc> step_counts() { return kStepCounts; }
+std::span<const CountDoc> step_measures() { return kStepMeasures; }
+
 namespace {
 
 template <int D>
@@ -29,8 +75,8 @@ FrameContact frame_contact(const Contact<D>& contact, const std::vector<ContactE
   return c;
 }
 
-// Of the pairs that the broad phase handed on in the last step, those whose shapes were tested: not
-// both are moved from outside, and no joint ties them together.
+// Of the pairs that the broad phase handed on in the last step, those whose shapes were tested:
+// not both are moved from outside, and no joint ties them together.
 template <int D>
 std::vector<Pair> tested_pairs(const Players<D>& players) {
   const World<D>& world = players.world();

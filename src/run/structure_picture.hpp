@@ -9,13 +9,75 @@
 #include "base/stop.hpp"
 #include "frame/frame.hpp"
 #include "frame/parts/panels.hpp"
+#include "language/counts.hpp"
 #include "language/specs.hpp"
 #include "physics/world.hpp"
 #include "run/engine.hpp"
+#include "run/players.hpp"
 #include "spatial/pair_search.hpp"
 #include "spatial/pairs.hpp"
 
 namespace lantern::run {
+
+// --- what is counted here ---
+
+inline constexpr CountDoc kStructureCounts[] = {
+    {"nodes", when::tree, "", "Nodes of the tree.", Most::parts},
+    {"leaves", when::tree, "leaf/leaves", "Nodes without children.", Most::parts},
+    {"depth", when::tree, "level deep/levels deep",
+     "Depth of the deepest node; the root has depth 0.", Most::depth},
+    {"entries", when::structure, "entry/entries", "Bodies stored in leaves, each once a leaf.",
+     Most::parts},
+    {"most_in_leaf", when::structure, "in the fullest leaf", "Bodies in the fullest leaf.",
+     Most::bodies},
+    {"pairs", when::structure, "",
+     "Unique candidate pairs: bodies that share a leaf; of structures that compare boxes without "
+     "leaves (`sort_and_sweep`, `grid`, `aabb_tree`) those that are compared.",
+     Most::pairs},
+    {"pair_tests", when::structure, "pair met/pairs met",
+     "Pairs met, leaf by leaf or box by box, before duplicates fell out."},
+    {"all_pairs", when::bodies, "pair in all/pairs in all",
+     "All pairs there are: n(n−1)/2 of n bodies.", Most::pairs},
+    {"testable_pairs", when::bodies, "by brute force",
+     "Those of them that brute force would test: not both never move.", Most::pairs},
+    {"overlaps", when::structure, "overlap of boxes/overlaps of boxes",
+     "Candidate pairs whose boxes overlap: of these the narrow phase tests all that may collide.",
+     Most::pairs},
+    {"box_tests", when::inside, "",
+     "Tests of a body against a node or plane since the tree was built; of `sort_and_sweep`, "
+     "comparisons while sorting; of a `grid`, bodies put into their cells; of an `aabb_tree`, when "
+     "it last followed its bodies."},
+    {"splits", when::structure, "", "Leaves that split since the tree was built."},
+    {"static_builds", when::split, "static build/static builds",
+     "How often the structure of what never moves was built."},
+    {"dynamic_builds", when::split, "dynamic build/dynamic builds",
+     "How often the structure of what moves was built."},
+    {"nodes_asleep", when::asleep_nodes, "node asleep/nodes asleep",
+     "Nodes in and below which nothing moves now, the structure of what never moves apart."},
+    {"leaves_asleep", when::asleep_nodes, "leaf asleep/leaves asleep",
+     "Those of them that are leaves."},
+    {"branches_asleep", when::asleep_nodes, "branch asleep/branches asleep",
+     "The topmost of them: a search for pairs skips each with all below it."},
+    {"stale", when::kd_tree, "out of its cell/out of their cells",
+     "Bodies that have left the cells which a `kd_tree` fitted to them."},
+    {"swaps", when::sweep, "",
+     "Neighbours that changed places when the sweep sorted its boxes last, by insertion."},
+    {"reinserted", when::boxes, "body inserted again/bodies inserted again",
+     "Bodies that had left their boxes when an `aabb_tree` last followed its bodies, and were "
+     "inserted again."},
+    {"refitted", when::boxes, "box made anew/boxes made anew",
+     "The same of those whose boxes were made anew where they stand."},
+    {"nodes_reused", when::inside, "node reused/nodes reused",
+     "Nodes that took an old node's place instead of new memory."},
+    {"allocations", when::inside, "", "Calls for memory since the structure was made."},
+    {"slots", when::array, "", "Places of the array that all leaves share."},
+    {"node_bytes", when::array, "byte of nodes/bytes of nodes", "Memory that the nodes take."},
+    {"node_bytes_with_bounds", when::array, "byte with bounds/bytes with bounds",
+     "What they would take if each stored its box."}};
+inline constexpr CountDoc kStructureMeasures[] = {
+    {"tree_cost", when::boxes, "",
+     "Sum of the perimeters, in a 3D world of the surfaces, of all inner nodes' boxes.", Most::size,
+     "units"}};
 
 // Of a child of the node `parent`: "1.3", or in a BSP "front.back"; children of the root have no
 // prefix. Of a grid's node that is no cell: a level, "L1", or a bucket, "B17".

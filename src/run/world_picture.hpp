@@ -5,11 +5,34 @@
 #include <map>
 
 #include "frame/frame.hpp"
+#include "language/counts.hpp"
 #include "physics/forces.hpp"
 #include "physics/joint.hpp"
 #include "run/players.hpp"
 
 namespace lantern::run {
+
+// --- what is counted here ---
+
+inline constexpr CountDoc kWorldCounts[] = {
+    {"islands", when::islands, "",
+     "Islands of the last world step: what contacts, springs and joints hold together; what never "
+     "moves holds nothing together."},
+    {"largest_island", when::islands, "", "Bodies of the largest of them."},
+    {"islands_asleep", when::islands, "island asleep/islands asleep", "Those of them that sleep."}};
+inline constexpr CountDoc kWorldMeasures[] = {
+    {"energy", when::physics, "", "Kinetic and potential energy.", Most::unbounded, "J"},
+    {"kinetic_energy", when::physics, "", "Energy of motion and rotation.", Most::size, "J"},
+    {"potential_energy", when::physics, "", "Energy of height and of springs.", Most::unbounded,
+     "J"},
+    {"momentum", when::physics, "", "Length of the momentum of all bodies.", Most::size, "N s"},
+    {"angular_momentum", when::physics, "",
+     "Angular momentum of all bodies about the origin; its length in a 3D world.", Most::unbounded,
+     "J s"},
+    {"joint_gap", when::joints, "",
+     "How far the joint that holds worst is from holding: a pin's points apart, a rod too long or "
+     "short.",
+     Most::size, "units"}};
 
 // How a body lies and moves now.
 template <int D>
