@@ -268,6 +268,7 @@ class Measure : public Experiment {
   // A page of plots for each problem, and the overview.
   std::vector<Picture> pages() const override {
     const Measurement& m = measurement_;
+    if (!was_run()) return {};
     std::vector<Picture> pages = {{"overview", draw_overview(m, bars_)}};
     for (const ProblemRows& problem : by_problem(m.rows)) {
       pages.push_back({problem.problem, draw_problem(problem, m)});
