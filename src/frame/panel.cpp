@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "language/counts.hpp"
+
 namespace lantern::frame {
 namespace {
 
@@ -16,6 +18,7 @@ const PanelRun& run_of(Panel panel) { return runs().at(static_cast<std::size_t>(
 
 void add_panel(PanelKind kind, PanelRun run) {
   language::add_panel(std::move(kind));
+  language::add_counts(run.counts);
   runs().push_back(std::move(run));
 }
 

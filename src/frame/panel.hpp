@@ -2,8 +2,15 @@
 // language/display.hpp, how it is drawn in draw/panel.hpp.
 #pragma once
 
+#include <span>
+#include <string_view>
+#include <vector>
+
 #include "frame/frame.hpp"
 
+namespace lantern::language {
+struct CountDoc;
+}
 namespace lantern::run {
 struct Stage;  // what a step changes (run/frame_maker.hpp)
 }
@@ -21,6 +28,7 @@ struct PanelRun {
   std::vector<Content> shows = {};
   // Adds the panel's part to a frame that has all else. Null: whoever runs the step has done it.
   void (*gather)(const run::Stage& stage, Frame& frame) = nullptr;
+  std::span<const language::CountDoc> counts = {};  // that it adds to frames, if any
 };
 
 // Of what is in one of a frame's parts.

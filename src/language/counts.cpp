@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/suggest.hpp"
 #include "spatial/structure_kind.hpp"
 
 namespace lantern::language {
@@ -167,6 +168,13 @@ std::vector<CountDoc>& measures() {
   return all;
 }
 
+void add(std::span<const CountDoc> rows, std::vector<CountDoc>& to) {
+  for (const CountDoc& row : rows) {
+    require_own_name("count", row.name, find_count(row.name) != nullptr);
+    to.push_back(row);
+  }
+}
+
 std::string told(const CountRule& rule, const ScriptPast& past) {
   return fmt::format(fmt::runtime(rule.why_not), to_string(past.structure().kind));
 }
@@ -221,12 +229,8 @@ std::span<const CountDoc> known_counts() { return counts(); }
 std::span<const CountDoc> known_texts() { return kTexts; }
 std::span<const CountDoc> known_measures() { return measures(); }
 
-void add_counts(std::span<const CountDoc> rows) {
-  for (const CountDoc& row : rows) counts().push_back(row);
-}
-void add_measures(std::span<const CountDoc> rows) {
-  for (const CountDoc& row : rows) measures().push_back(row);
-}
+void add_counts(std::span<const CountDoc> rows) { add(rows, counts()); }
+void add_measures(std::span<const CountDoc> rows) { add(rows, measures()); }
 
 const CountDoc* find_in(std::span<const CountDoc> docs, std::string_view name) {
   const auto found = std::ranges::find(docs, name, &CountDoc::name);

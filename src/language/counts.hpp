@@ -105,7 +105,8 @@ std::span<const CountDoc> known_counts();
 std::span<const CountDoc> known_measures();
 
 // More of them, each row beside the code that counts it (run/counters.cpp lists these); to be
-// called before any scenario is read.
+// called before any scenario is read. Throws Refused if a name is taken, or is not of a–z, 0–9
+// and _.
 void add_counts(std::span<const CountDoc> rows);
 void add_measures(std::span<const CountDoc> rows);
 

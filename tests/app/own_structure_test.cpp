@@ -95,6 +95,23 @@ TEST(OwnPanelProgram, APanelInOneFileIsDrawnToldAndTallied) {
       << "only her program knows it";
 }
 
+TEST(OwnPanelProgram, ACountInOneFileIsQuotedAndExpected) {
+  const fs::path out = fresh_folder("own_count");
+  const std::string text =
+      replaced(replaced(read_text(kMine), "A ray visits only", "{moving:body moves}. A ray visits"),
+               "hits = 1", "hits = 1, moving = 1");
+  const std::string moves = replaced(text, "radius = 4", "radius = 4\nvelocity = [1, 0]");
+  const auto check = [&](const std::string& panels, const std::string& scenario) {
+    write_text(out / "count.toml", "panels = [" + panels + "]\n" + scenario);
+    return my_tree("check " + (out / "count.toml").string());
+  };
+  EXPECT_EQ(check("\"world\", \"speeds\"", moves).code, 0);
+  EXPECT_EQ(check("\"world\", \"speeds\"", text).code, 1) << "nobody moves";
+  const Outcome early = check("\"world\"", moves);
+  EXPECT_EQ(early.code, 3);
+  EXPECT_NE(early.err.find("there is no panel 'speeds'"), std::string::npos) << early.err;
+}
+
 TEST(OwnStructureProgram, ItsEventsAreFrames) {
   const fs::path out = fresh_folder("own_events");
   const Outcome render =

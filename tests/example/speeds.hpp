@@ -1,5 +1,6 @@
 // A panel of one's own, in one file: a bar for each body, as long as the body is fast. Its part of
-// the frame, how it is gathered, what is told of it beside the picture, and how it is drawn.
+// the frame, how it is gathered, what is told of it beside the picture, and how it is drawn; and a
+// count, which captions quote and expectations name as they do Lantern's.
 #pragma once
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 
 #include <lantern/app/program.hpp>
 #include <lantern/frame/part_fields.hpp>
+#include <lantern/language/counts.hpp>
 
 struct Speeds {
   static constexpr std::string_view kName = "speeds";
@@ -27,10 +29,22 @@ struct Speeds {
 };
 template const lantern::frame::PartType& lantern::frame::part_type<Speeds>();
 
+inline const lantern::language::CountRule kWithSpeeds = {
+    "with the panel `speeds`", "there is no panel 'speeds'",
+    [](const lantern::language::ScriptPast& past) {
+      return lantern::language::shows(past.scenario().panels, Speeds::kName);
+    },
+    &lantern::language::when::bodies};
+inline const lantern::language::CountDoc kSpeedCounts[] = {
+    {"moving", kWithSpeeds, "body moves/bodies move", "Bodies that move now."}};
+
 inline void gather_speeds(const lantern::run::Stage&, lantern::frame::Frame& frame) {
   for (const auto& body : frame.bodies)
     if (!body.is_static)
       frame.add<Speeds>().speeds.push_back({body.name, glm::length(body.velocity), body.color});
+  frame.add_count("moving", static_cast<std::uint64_t>(std::ranges::count_if(
+                                frame.get<Speeds>().speeds,
+                                [](const Speeds::Speed& body) { return body.speed > 0; })));
 }
 
 inline void draw_speeds(const lantern::frame::Frame& frame, const lantern::draw::Staging&,
@@ -61,6 +75,7 @@ inline lantern::app::OwnPanel speeds_panel() {
                       [](const lantern::frame::Frame& frame) {
                         return !frame.get<Speeds>().speeds.empty();
                       }}},
-           .gather = gather_speeds},
+           .gather = gather_speeds,
+           .counts = kSpeedCounts},
           {.draw = draw_speeds}};
 }

@@ -52,6 +52,15 @@ TEST(Counts, AreThereWhenTheirRulesSaySo) {
     expect_as_ruled(load_scenario(LANTERN_ROOT "/tests/cases/" + std::string(name) + ".toml"));
 }
 
+TEST(Counts, HaveNamesOfTheirOwn) {
+  const std::size_t before = known_counts().size();
+  for (const char* taken : {"pairs", "energy", "Pairs", ""}) {
+    const CountDoc row{taken, when::bodies, "", "Taken, or no name."};
+    EXPECT_THROW(add_counts(std::span(&row, 1)), Refused) << taken;
+  }
+  EXPECT_EQ(known_counts().size(), before);
+}
+
 TEST(Counts, HaveWordsForOneAndForMany) {
   const auto words = [](const char* name, bool one) { return find_count(name)->words(one); };
   EXPECT_EQ(words("leaves", true), "leaf");
