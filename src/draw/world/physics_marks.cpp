@@ -8,8 +8,8 @@
 #include "draw/body_shapes.hpp"
 #include "draw/keys.hpp"
 #include "draw/marks.hpp"
-#include "frame/parts/motion.hpp"
 #include "draw/number_text.hpp"
+#include "frame/parts/motion.hpp"
 #include "geometry/not_finite.hpp"
 
 namespace lantern::draw {

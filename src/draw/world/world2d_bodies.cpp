@@ -53,24 +53,23 @@ double size_of(const Stand& stand, const View2D& map) {
   return std::min(size.x, size.y);
 }
 
-void draw_outside(const Stand& stand, const View2D& map, DrawList& list) {
+void draw_outside(const World2D& w, const Stand& stand) {
   const FrameBody& body = *stand.bodies.front();
-  Vec<2> way = map.to_page(body.box.center()) - stand.center;
+  Vec<2> way = w.map.to_page(body.box.center()) - stand.center;
   const double length = std::hypot(way.x, way.y);
   way = length > 0 ? way / length : Vec<2>(1, 0);
   const Vec<2> side{-way.y, way.x};
   const Vec<2> tip = stand.center + way * 15.0, back = stand.center - way * 10.0;
-  list.polygon({tip, back + side * 11.0, back + way * 6.0, back - side * 11.0},
-               body_role(body.color), {Role::body_line, 1.6});
+  w.list.polygon({tip, back + side * 11.0, back + way * 6.0, back - side * 11.0},
+                 body_role(body.color), {Role::body_line, 1.6});
 }
 
 // What reaches too far out of the world is cut off.
-void draw_inside(const FrameBody& body, const Box<2>& box, bool plain, const View2D& map,
-                 DrawList& list) {
-  const std::size_t first = list.shapes.size();
-  draw_character(body, box, plain, list);
-  const Box<2> limit = drawing_limit(map);
-  if (!holds(limit, box)) cut_shapes(list, first, limit);
+void draw_inside(const World2D& w, const FrameBody& body, const Box<2>& box, bool plain) {
+  const std::size_t first = w.list.shapes.size();
+  draw_character(body, box, plain, w.list);
+  const Box<2> limit = drawing_limit(w.map);
+  if (!holds(limit, box)) cut_shapes(w.list, first, limit);
 }
 
 // The box of the i-th of k bodies at one place: smaller ones, side by side within it like cards,
@@ -83,13 +82,12 @@ Box<2> card(const Box<2>& box, std::size_t i, std::size_t k) {
   return {lo, lo + box.size() * kPart};
 }
 
-void draw_stand(const Stand& stand, bool plain, const View2D& map, DrawList& list) {
+void draw_stand(const World2D& w, const Stand& stand, bool plain) {
   const std::size_t cards = std::min(stand.bodies.size(), kMostCards);
   for (std::size_t i = 0; i < cards; ++i) {
     const std::string key = body_key("world/body", *stand.bodies[i]);
-    const DrawList::Scope scope(list, key, key);
-    draw_inside(*stand.bodies[i], card(page_box(*stand.bodies[i], map), i, cards), plain, map,
-                list);
+    const DrawList::Scope scope(w.list, key, key);
+    draw_inside(w, *stand.bodies[i], card(page_box(*stand.bodies[i], w.map), i, cards), plain);
   }
 }
 
@@ -123,20 +121,20 @@ std::string names_of(const Frame& frame, const Stand& stand) {
 // On its side, or below, above, beside; first where no body is covered and inside the bounds, then
 // anywhere in the panel. Among many bodies a name that covers one would be read as its name, so it
 // is left out.
-void name_stand(const std::string& text, const Stand& stand, const std::vector<Box<2>>& covered,
-                const NameSides& sides, const View2D& map, const Grounds& grounds, Labels& labels) {
+void name_stand(const World2D& w, const std::string& text, const Stand& stand,
+                const NameSides& sides) {
   constexpr std::size_t kFew = 12;
   TextStyle style;
   const auto anchors =
       on_its_side(anchors_around(stand.box, kNameGap, style), sides, stand.bodies.front()->name);
   for (const bool strict : {true, false}) {
-    if (!strict && covered.size() > kFew) return;
-    const Anchor* free = labels.free_anchor(
-        text, anchors, style, strict ? shrunk(map.picture(), 5) : map.panel(),
-        [&](const Box<2>& extent) { return !strict || !touches(covered, extent); });
+    if (!strict && w.covered.size() > kFew) return;
+    const Anchor* free = w.labels.free_anchor(
+        text, anchors, style, strict ? shrunk(w.map.picture(), 5) : w.map.panel(),
+        [&](const Box<2>& extent) { return !strict || !touches(w.covered, extent); });
     if (!free) continue;
-    style.halo = ground_at(grounds, Labels::extent(text, *free, style).center());
-    return labels.add(text, *free, style, map.panel());
+    style.halo = ground_at(w.grounds, Labels::extent(text, *free, style).center());
+    return w.labels.add(text, *free, style, w.map.panel());
   }
 }
 
@@ -166,63 +164,63 @@ std::vector<Stand> stands_of(const Frame& frame, const View2D& map) {
   return stands;
 }
 
-void draw_bodies(const std::vector<Stand>& stands, const View2D& map, bool boxes, DrawList& list) {
+void draw_bodies(const World2D& w, bool boxes) {
   std::size_t count = 0;
   std::vector<const Stand*> order;
-  for (const Stand& stand : stands) {
+  for (const Stand& stand : w.stands) {
     count += stand.bodies.size();
     order.push_back(&stand);
   }
   // A large body must not hide a small one.
-  std::ranges::stable_sort(order, std::greater(), [&](const Stand* s) { return size_of(*s, map); });
+  std::ranges::stable_sort(order, std::greater(),
+                           [&](const Stand* s) { return size_of(*s, w.map); });
   const bool plain = count > kMostDetailed;
   for (const Stand* stand : order) {
-    for (const FrameBody* body : stand->bodies) tell_marks(*body, list);
+    for (const FrameBody* body : stand->bodies) tell_marks(*body, w.list);
     if (stand->outside) {
-      const DrawList::Scope scope(list, body_key("world/outside", *stand->bodies[0]));
-      draw_outside(*stand, map, list);
+      const DrawList::Scope scope(w.list, body_key("world/outside", *stand->bodies[0]));
+      draw_outside(w, *stand);
     } else {
-      draw_stand(*stand, plain, map, list);
+      draw_stand(w, *stand, plain);
     }
-    const DrawList::Scope scope(list, body_key("world/box", *stand->bodies[0]));
+    const DrawList::Scope scope(w.list, body_key("world/box", *stand->bodies[0]));
     const Look look = stand->bodies[0]->look;
     const bool is_its_box = look == Look::bat || look == Look::box || look == Look::person;
     if (!stand->outside && (is_lit(*stand) || (boxes && count <= kMostBoxed && !is_its_box &&
                                                !stand->bodies[0]->dimmed)))
-      list.rect(page_part(page_box(*stand->bodies[0], map), map), Role::none,
-                is_lit(*stand) ? Stroke{Role::lit, 2.8} : Stroke{Role::quiet_ink, 1.5, 5});
+      w.list.rect(page_part(page_box(*stand->bodies[0], w.map), w.map), Role::none,
+                  is_lit(*stand) ? Stroke{Role::lit, 2.8} : Stroke{Role::quiet_ink, 1.5, 5});
   }
 }
 
-void name_bodies(const Frame& frame, const std::vector<Stand>& stands,
-                 const std::vector<Box<2>>& covered, const NameSides& sides, const View2D& map,
-                 const Grounds& grounds, Labels& labels) {
+void name_bodies(const World2D& w) {
   constexpr std::size_t kMostNamed = 35;
   constexpr double kWidestName = 240;
+  const NameSides& sides = name_sides(w.staging, w.map.panel());
   std::vector<const Stand*> order;
-  for (const Stand& stand : stands) order.push_back(&stand);
+  for (const Stand& stand : w.stands) order.push_back(&stand);
   std::ranges::stable_partition(order, [](const Stand* s) { return is_lit(*s); });
   std::size_t named = 0;
   for (const Stand* stand : order) {
-    const std::string names = names_of(frame, *stand);
+    const std::string names = names_of(w.frame, *stand);
     if (names.empty() || named++ == kMostNamed) continue;
-    const double widest = stand->bodies.size() > 1 ? map.panel().size().x - 16 : kWidestName;
-    const DrawList::Scope scope(labels.list(), body_key("world/name", *stand->bodies[0]));
-    name_stand(shortened(names, widest, {}), *stand, covered, sides, map, grounds, labels);
+    const double widest = stand->bodies.size() > 1 ? w.map.panel().size().x - 16 : kWidestName;
+    const DrawList::Scope scope(w.labels.list(), body_key("world/name", *stand->bodies[0]));
+    name_stand(w, shortened(names, widest, {}), *stand, sides);
   }
 }
 
-std::size_t draw_crowd(const Frame& frame, const View2D& map, DrawList& list) {
+std::size_t draw_crowd(const World2D& w) {
   constexpr double kSquare = 18;
   std::set<std::pair<long, long>> taken;
-  for (const FrameBody& body : frame.bodies) {
-    if (is_half_space(body) || is_outside(body, frame)) continue;
-    const Vec<2> p = map.to_page(body.box.center());
+  for (const FrameBody& body : w.frame.bodies) {
+    if (is_half_space(body) || is_outside(body, w.frame)) continue;
+    const Vec<2> p = w.map.to_page(body.box.center());
     const auto square = std::pair{std::lround(p.x / kSquare), std::lround(p.y / kSquare)};
     if (!taken.insert(square).second) continue;
-    const Box<2> box = page_box(body, map);
+    const Box<2> box = page_box(body, w.map);
     const Vec<2> half{std::min(box.size().x, kSquare) / 2, std::min(box.size().y, kSquare) / 2};
-    draw_character(body, Box<2>::around(box.center(), half), true, list);
+    draw_character(body, Box<2>::around(box.center(), half), true, w.list);
   }
   return taken.size();
 }

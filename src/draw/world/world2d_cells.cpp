@@ -88,10 +88,10 @@ double widening(const Frame& frame, const FrameNode& node) {
 }
 
 // On the page. A structure without a rim may have cells beyond the world: of them, what is in it.
-Box<2> cell_of(const Frame& frame, const FrameNode& node, const View2D& map) {
-  const bool has_rim = !traits_of(frame.structure).follows && !has_cells(frame.structure);
-  const Box<2> cell = shrunk(map.to_page(node.box), -widening(frame, node));
-  return has_rim ? cell : seen_of(cell, map);
+Box<2> cell_of(const World2D& w, const FrameNode& node) {
+  const bool has_rim = !traits_of(w.frame.structure).follows && !has_cells(w.frame.structure);
+  const Box<2> cell = shrunk(w.map.to_page(node.box), -widening(w.frame, node));
+  return has_rim ? cell : seen_of(cell, w.map);
 }
 
 bool is_drawn(const Box<2>& cell) { return std::min(cell.size().x, cell.size().y) >= kLeastCell; }
@@ -107,16 +107,16 @@ void hatch(const Box<2>& box, DrawList& list) {
   }
 }
 
-void hatch_unmade(const Frame& frame, const View2D& map, DrawList& list) {
+void hatch_unmade(const World2D& w) {
   constexpr double kLeastHatched = 30;
   constexpr std::size_t kMostShapes = 1200;
-  for (const Box<2>& quarter : unmade_quarters(frame)) {
-    const Box<2> box = seen_of(map.to_page(quarter), map);
+  for (const Box<2>& quarter : unmade_quarters(w.frame)) {
+    const Box<2> box = seen_of(w.map.to_page(quarter), w.map);
     if (std::min(box.size().x, box.size().y) < kLeastHatched) continue;
-    if (list.shapes.size() > kMostShapes) return;
-    list.crisp_rect(box, Role::paper);
-    hatch(box, list);
-    list.marks.add(MarkKind::not_made);
+    if (w.list.shapes.size() > kMostShapes) return;
+    w.list.crisp_rect(box, Role::paper);
+    hatch(box, w.list);
+    w.list.marks.add(MarkKind::not_made);
   }
 }
 
@@ -125,40 +125,39 @@ bool nearly_all_lit(const Frame& frame) {
   return frame.bodies.size() > 50 && is_nearly_all_lit(frame.nodes);
 }
 
-void paint_cell(const Frame& frame, const FrameNode& node, Role role, const View2D& map,
-                DrawList& list, Grounds& grounds) {
-  grounds.push_back({page_region(node, map), role});
+void paint_cell(World2D& w, const FrameNode& node, Role role) {
+  w.grounds.push_back({page_region(node, w.map), role});
   if (node.region.empty())
-    list.crisp_rect(cell_of(frame, node, map), role);
+    w.list.crisp_rect(cell_of(w, node), role);
   else
-    list.polygon(grounds.back().region, role);
+    w.list.polygon(w.grounds.back().region, role);
 }
 
 // What a ray, view or region has left out.
-void fill_skipped(const Frame& frame, const View2D& map, DrawList& list, Grounds& grounds) {
+void fill_skipped(World2D& w) {
   std::size_t filled = 0;
-  for (const FrameNode& node : frame.nodes) {
-    if (!is_topmost_skipped(node, frame) || !is_drawn(cell_of(frame, node, map))) continue;
+  for (const FrameNode& node : w.frame.nodes) {
+    if (!is_topmost_skipped(node, w.frame) || !is_drawn(cell_of(w, node))) continue;
     if (++filled > kMostFills) return;
-    paint_cell(frame, node, Role::free_space, map, list, grounds);
+    paint_cell(w, node, Role::free_space);
   }
 }
 
-void fill_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& grounds) {
-  if (nearly_all_lit(frame)) return;
-  std::vector<Painted> painted = painted_of(frame);
+void fill_cells(World2D& w) {
+  if (nearly_all_lit(w.frame)) return;
+  std::vector<Painted> painted = painted_of(w.frame);
   std::erase_if(painted, [&](const Painted& p) {
     // The whole world in one tone would tell nothing: it has its outline.
-    return p.node == 0 || is_no_cell(frame, frame.nodes[p.node]) ||
-           !is_drawn(cell_of(frame, frame.nodes[p.node], map));
+    return p.node == 0 || is_no_cell(w.frame, w.frame.nodes[p.node]) ||
+           !is_drawn(cell_of(w, w.frame.nodes[p.node]));
   });
   if (painted.size() > kMostFills) return;  // some alone would say what is not so
   for (const auto& [i, tone] : painted) {
-    const FrameNode& node = frame.nodes[i];
-    const DrawList::Scope scope(list, node_key("world/cell", frame.nodes, node),
-                                parent_key("world/cell", frame.nodes, node));
-    paint_cell(frame, node, ground_of(tone), map, list, grounds);
-    list.marks.add(tone == Mark::lit ? MarkKind::lit : MarkKind::passed);
+    const FrameNode& node = w.frame.nodes[i];
+    const DrawList::Scope scope(w.list, node_key("world/cell", w.frame.nodes, node),
+                                parent_key("world/cell", w.frame.nodes, node));
+    paint_cell(w, node, ground_of(tone));
+    w.list.marks.add(tone == Mark::lit ? MarkKind::lit : MarkKind::passed);
   }
 }
 
@@ -172,33 +171,33 @@ Stroke plane_stroke(const FrameNode& node, bool level) {
   return {role, std::max(2.4, 4.6 - 0.7 * node.depth), 0};
 }
 
-void draw_planes(const Frame& frame, const View2D& map, DrawList& list) {
-  const bool level = is_level(frame);
-  for (std::size_t i = std::min(frame.nodes.size(), kMostPlanes); i-- > 0;) {
-    const FrameNode& node = frame.nodes[i];
+void draw_planes(const World2D& w) {
+  const bool level = is_level(w.frame);
+  for (std::size_t i = std::min(w.frame.nodes.size(), kMostPlanes); i-- > 0;) {
+    const FrameNode& node = w.frame.nodes[i];
     if (!node.plane) continue;
     const auto line = dividing_line(node);
     if (!line) continue;
-    const Vec<2> a = map.in_reach(map.to_page(line->first));
-    const Vec<2> b = map.in_reach(map.to_page(line->second));
+    const Vec<2> a = w.map.in_reach(w.map.to_page(line->first));
+    const Vec<2> b = w.map.in_reach(w.map.to_page(line->second));
     const bool upright = a.x == b.x || a.y == b.y;
-    const std::string key = node_key("world/plane", frame.nodes, node);
-    const DrawList::Scope scope(list, key, key);
-    list.shapes.emplace_back(LineShape{a, b, plane_stroke(node, level), upright});
+    const std::string key = node_key("world/plane", w.frame.nodes, node);
+    const DrawList::Scope scope(w.list, key, key);
+    w.list.shapes.emplace_back(LineShape{a, b, plane_stroke(node, level), upright});
   }
 }
 
 // Branches that sleep, each from its highest node on, have a tone: hatching is what is not made.
-void tone_asleep(const Frame& frame, const View2D& map, DrawList& list) {
+void tone_asleep(const World2D& w) {
   constexpr std::size_t kMostShapes = 1500;
-  for (const FrameNode& node : frame.nodes) {
-    const bool under_another = node.parent != kNone && !frame.nodes[node.parent].awake;
-    if (!frame.sleeps(node) || under_another || !is_drawn(cell_of(frame, node, map))) continue;
-    if (list.shapes.size() > kMostShapes) return;
-    std::vector<Vec<2>> ground = cut_to(page_region(node, map), map.picture());
+  for (const FrameNode& node : w.frame.nodes) {
+    const bool under_another = node.parent != kNone && !w.frame.nodes[node.parent].awake;
+    if (!w.frame.sleeps(node) || under_another || !is_drawn(cell_of(w, node))) continue;
+    if (w.list.shapes.size() > kMostShapes) return;
+    std::vector<Vec<2>> ground = cut_to(page_region(node, w.map), w.map.picture());
     if (ground.empty()) continue;
-    list.polygon(std::move(ground), Role::free_space);
-    list.marks.add(MarkKind::sleeping_cell);
+    w.list.polygon(std::move(ground), Role::free_space);
+    w.list.marks.add(MarkKind::sleeping_cell);
   }
 }
 
@@ -213,155 +212,157 @@ std::uint32_t line_depth(const Frame& frame, const FrameNode& node, std::uint32_
 
 // Of a grid, where the cells lie that hold nothing; not of cells so small that lines would fill
 // the picture.
-void rule_grid(const Frame& frame, const View2D& map, DrawList& list) {
+void rule_grid(const World2D& w) {
   constexpr double kLeastRuled = 12;
-  if (frame.get<FrameStructure>().grid_levels.empty()) return;
-  const double side = frame.get<FrameStructure>().grid_levels[0].side;
-  if (side * map.scale() < kLeastRuled) return;
-  const DrawList::Scope scope(list, "world/ruled");
-  const Box<2> picture = map.picture();
+  if (w.frame.get<FrameStructure>().grid_levels.empty()) return;
+  const double side = w.frame.get<FrameStructure>().grid_levels[0].side;
+  if (side * w.map.scale() < kLeastRuled) return;
+  const DrawList::Scope scope(w.list, "world/ruled");
+  const Box<2> picture = w.map.picture();
   for (const int axis : {0, 1})
-    for (double at = frame.bounds.lo[axis] + side; at < frame.bounds.hi[axis]; at += side) {
-      Vec<3> on = frame.bounds.lo;
+    for (double at = w.frame.bounds.lo[axis] + side; at < w.frame.bounds.hi[axis]; at += side) {
+      Vec<3> on = w.frame.bounds.lo;
       on[axis] = at;
       Vec<2> from = picture.lo, to = picture.hi;
-      from[axis] = to[axis] = map.to_page(on)[axis];
+      from[axis] = to[axis] = w.map.to_page(on)[axis];
       if (picture.lo[axis] < from[axis] && from[axis] < picture.hi[axis])
-        list.crisp_line(from, to, {Role::cell_line_3, 1.2, 5});
+        w.list.crisp_line(from, to, {Role::cell_line_3, 1.2, 5});
     }
 }
 
 // Leaves as buckets.
-void fill_levels(const Frame& frame, const View2D& map, DrawList& list) {
-  for (std::uint32_t i = 0; i < frame.nodes.size(); ++i) {
-    const FrameNode& node = frame.nodes[i];
+void fill_levels(const World2D& w) {
+  for (std::uint32_t i = 0; i < w.frame.nodes.size(); ++i) {
+    const FrameNode& node = w.frame.nodes[i];
     if (node.of_static || !node.region.empty()) continue;
-    if (const auto level = level_in(frame, node, cell_of(frame, node, map))) {
-      const DrawList::Scope scope(list, node_key("world/level", frame.nodes, i));
-      list.crisp_rect(*level, Role::rule);
+    if (const auto level = level_in(w.frame, node, cell_of(w, node))) {
+      const DrawList::Scope scope(w.list, node_key("world/level", w.frame.nodes, i));
+      w.list.crisp_rect(*level, Role::rule);
     }
   }
 }
 
 // The borders of the cells of what moves, or, in long dashes over them, of what never does, so that
 // both can be told apart in one picture.
-bool draw_borders(const Frame& frame, const View2D& map, bool of_static, DrawList& list) {
-  const bool fitted = traits_of(frame.structure).hugs && !of_static;
+bool draw_borders(const World2D& w, bool of_static) {
+  const bool fitted = traits_of(w.frame.structure).hugs && !of_static;
   bool complete = true;
   std::uint32_t coarsest = 0;
-  for (const FrameNode& node : frame.nodes)
+  for (const FrameNode& node : w.frame.nodes)
     if (is_grid_level(node)) coarsest = std::max(coarsest, node.slot);
   Borders borders;
-  for (std::uint32_t i = 0; i < frame.nodes.size(); ++i) {
-    const FrameNode& node = frame.nodes[i];
+  for (std::uint32_t i = 0; i < w.frame.nodes.size(); ++i) {
+    const FrameNode& node = w.frame.nodes[i];
     // The root is the world, but for one that is fitted.
     if ((node.depth == 0 && !fitted) || !node.region.empty() || node.of_static != of_static ||
-        is_no_cell(frame, node))
+        is_no_cell(w.frame, node))
       continue;
-    const Box<2> cell = cell_of(frame, node, map);
+    const Box<2> cell = cell_of(w, node);
     if (is_drawn(cell))
-      borders.add(cell, line_depth(frame, node, coarsest), i);
-    else if (overlap(shrunk(map.picture(), kLeastCell), map.to_page(node.box)))
+      borders.add(cell, line_depth(w.frame, node, coarsest), i);
+    else if (overlap(shrunk(w.map.picture(), kLeastCell), w.map.to_page(node.box)))
       complete &= of_static;
   }
   const auto stroke = [&](std::uint32_t depth) {
     if (!of_static) return Stroke{cell_line_role(depth), line_width(depth)};
     return Stroke{Role::cell_line_3, std::max(1.6, 0.6 * line_width(depth)), 16};
   };
-  const auto key = [&](std::uint32_t node) { return node_key("world/border", frame.nodes, node); };
-  return borders.draw(stroke, key, list) && complete;
+  const auto key = [&](std::uint32_t node) {
+    return node_key("world/border", w.frame.nodes, node);
+  };
+  return borders.draw(stroke, key, w.list) && complete;
 }
 
-void outline_lit(const Frame& frame, const View2D& map, DrawList& list) {
-  if (nearly_all_lit(frame)) return;
+void outline_lit(const World2D& w) {
+  if (nearly_all_lit(w.frame)) return;
   Borders borders;
   std::size_t outlined = 0;
-  const auto key = [&](std::uint32_t node) { return node_key("world/lit", frame.nodes, node); };
-  for (std::uint32_t i = 0; i < frame.nodes.size(); ++i) {
-    const FrameNode& node = frame.nodes[i];
-    if (node.mark != Mark::lit || !is_drawn(cell_of(frame, node, map)) || is_no_cell(frame, node))
+  const auto key = [&](std::uint32_t node) { return node_key("world/lit", w.frame.nodes, node); };
+  for (std::uint32_t i = 0; i < w.frame.nodes.size(); ++i) {
+    const FrameNode& node = w.frame.nodes[i];
+    if (node.mark != Mark::lit || !is_drawn(cell_of(w, node)) || is_no_cell(w.frame, node))
       continue;
     if (node.region.empty()) {
-      borders.add(cell_of(frame, node, map), std::min(node.depth, 6u), i);
+      borders.add(cell_of(w, node), std::min(node.depth, 6u), i);
     } else if (outlined++ < kMostFills) {
-      const DrawList::Scope scope(list, key(i));
-      list.polygon(inset(page_region(node, map), 4), Role::none, {Role::lit, 3.2});
+      const DrawList::Scope scope(w.list, key(i));
+      w.list.polygon(inset(page_region(node, w.map), 4), Role::none, {Role::lit, 3.2});
     }
   }
   const auto stroke = [](std::uint32_t depth) {
     return Stroke{Role::lit, std::max(1.2, 3.6 - 0.4 * depth)};
   };
-  borders.draw(stroke, key, list);
+  borders.draw(stroke, key, w.list);
 }
 
 // The grounds of views, which lie under the cells.
-void fill_views(const Frame& frame, const View2D& map, DrawList& list, Grounds& grounds) {
-  Pen pen(list, map.picture());
-  for (const FrameView& view : first_of(frame.get<FrameFinding>().views, kMostViews)) {
+Grounds fill_views(const World2D& w) {
+  Grounds grounds;
+  Pen pen(w.list, w.map.picture());
+  for (const FrameView& view : first_of(w.frame.get<FrameFinding>().views, kMostViews)) {
     std::vector<Vec<2>> corners;
-    for (const Vec<3>& corner : view.corners) corners.push_back(map.to_page(corner));
+    for (const Vec<3>& corner : view.corners) corners.push_back(w.map.to_page(corner));
     if (corners.size() < 3 || !std::ranges::all_of(corners, is_finite<2>)) continue;
     pen.polygon(corners, Role::view_fill);
-    list.marks.add(MarkKind::view);
-    grounds.push_back({cut_to(corners, map.picture()), Role::view_fill});
+    w.list.marks.add(MarkKind::view);
+    grounds.push_back({cut_to(corners, w.map.picture()), Role::view_fill});
   }
+  return grounds;
 }
 
 }  // namespace
 
-bool draw_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& grounds) {
-  list.crisp_rect(map.picture(), frame.get<FrameLand>().land.empty() ? Role::panel : kSea);
-  if (frame.display.cells && frame.display.not_made) hatch_unmade(frame, map, list);
-  Grounds under;  // of what the cells' own grounds lie on
-  fill_views(frame, map, list, under);
-  if (!frame.display.cells) {
-    grounds = std::move(under);
-    draw_land(frame, map, list);
-    list.crisp_rect(map.picture(), Role::none, {Role::cell_line_0, line_width(0), 0});
+bool draw_cells(World2D& w) {
+  w.list.crisp_rect(w.map.picture(), w.frame.get<FrameLand>().land.empty() ? Role::panel : kSea);
+  if (w.frame.display.cells && w.frame.display.not_made) hatch_unmade(w);
+  const Grounds under = fill_views(w);  // of what the cells' own grounds lie on
+  if (!w.frame.display.cells) {
+    w.grounds = under;
+    draw_land(w);
+    w.list.crisp_rect(w.map.picture(), Role::none, {Role::cell_line_0, line_width(0), 0});
     return true;
   }
-  fill_cells(frame, map, list, grounds);
-  fill_skipped(frame, map, list, grounds);
-  if (is_level(frame)) {
-    Grounds sectors;  // over what is painted of inner nodes
-    fill_sectors(frame, map, list, sectors);
-    grounds.insert(grounds.begin(), sectors.begin(), sectors.end());
+  fill_cells(w);
+  fill_skipped(w);
+  if (is_level(w.frame)) {
+    const Grounds sectors = fill_sectors(w);  // over what is painted of inner nodes
+    w.grounds.insert(w.grounds.begin(), sectors.begin(), sectors.end());
   }
-  grounds.insert(grounds.end(), under.begin(), under.end());
-  draw_land(frame, map, list);
-  tone_asleep(frame, map, list);
-  fill_levels(frame, map, list);
-  rule_grid(frame, map, list);
-  bool complete = draw_borders(frame, map, false, list);
-  complete &= draw_borders(frame, map, true, list);
-  outline_lit(frame, map, list);
-  draw_planes(frame, map, list);
-  const DrawList::Scope scope(list, "world/rim");
-  if (traits_of(frame.structure).follows) {  // its root is not the world
-    list.crisp_rect(map.picture(), Role::none, {Role::rule, 1.6});
+  w.grounds.insert(w.grounds.end(), under.begin(), under.end());
+  draw_land(w);
+  tone_asleep(w);
+  fill_levels(w);
+  rule_grid(w);
+  bool complete = draw_borders(w, false);
+  complete &= draw_borders(w, true);
+  outline_lit(w);
+  draw_planes(w);
+  const DrawList::Scope scope(w.list, "world/rim");
+  if (traits_of(w.frame.structure).follows) {  // its root is not the world
+    w.list.crisp_rect(w.map.picture(), Role::none, {Role::rule, 1.6});
     return complete;
   }
   const bool lit =
-      !frame.nodes.empty() && !nearly_all_lit(frame) && frame.nodes[0].mark == Mark::lit;
-  list.crisp_rect(map.picture(), Role::none,
-                  {lit ? Role::lit : Role::cell_line_0, line_width(0), 0});
+      !w.frame.nodes.empty() && !nearly_all_lit(w.frame) && w.frame.nodes[0].mark == Mark::lit;
+  w.list.crisp_rect(w.map.picture(), Role::none,
+                    {lit ? Role::lit : Role::cell_line_0, line_width(0), 0});
   return complete;
 }
 
-void draw_cells_over(const Frame& frame, const View2D& map, const Box<2>& place, DrawList& list) {
-  if (!frame.display.cells) return;
+void draw_cells_over(const World2D& w, const Box<2>& place) {
+  if (!w.frame.display.cells) return;
   constexpr double kLeastOver = 20;  // page units; smaller cells would hide the body in turn
   Borders borders;
-  for (const FrameNode& node : frame.nodes) {
-    const Box<2> cell = cell_of(frame, node, map);
+  for (const FrameNode& node : w.frame.nodes) {
+    const Box<2> cell = cell_of(w, node);
     const Vec<2> room = place.size() - cell.size();
-    if (node.depth == 0 || !node.region.empty() || is_no_cell(frame, node) ||
+    if (node.depth == 0 || !node.region.empty() || is_no_cell(w.frame, node) ||
         !overlap(cell, place) || std::min(cell.size().x, cell.size().y) < kLeastOver ||
         room.x <= 0 || room.y <= 0)
       continue;
     borders.add_inside(place, cell, node.depth);
   }
-  borders.draw_plainly({Role::quiet_ink, 0.7}, list);
+  borders.draw_plainly({Role::quiet_ink, 0.7}, w.list);
 }
 
 }  // namespace lantern::draw

@@ -42,8 +42,8 @@ constexpr Role kAlong = Role::ray, kAcross = Role::frustum;  // the half edges' 
 
 // |R| h: both half edges' parts along an axis, laid end to end, are half the size of the box around
 // them.
-void draw_projections(const FrameBody& body, const HalfEdges& edges, const Box<2>& box,
-                      const View2D& map, Pen& pen, Labels& labels) {
+void draw_projections(const World2D& w, const FrameBody& body, const HalfEdges& edges,
+                      const Box<2>& box, Pen& pen) {
   constexpr double kAway = 16, kWidth = 5;
   const TextStyle style{std::max(kLabel, 22.0), Weight::semibold, Role::ink, Role::panel};
   const Vec<2> c = box.center();
@@ -61,11 +61,12 @@ void draw_projections(const FrameBody& body, const HalfEdges& edges, const Box<2
   pen.line({beside, y}, {beside, box.lo.y}, {kAcross, kWidth});
   const Vec<3>& h = edges.half;
   const std::string wide = sum(h.x * cosine, h.y * sine), high = sum(h.x * sine, h.y * cosine);
-  labels.block({{c.x, above - 4}, {box.hi.x, above + 4}});
-  labels.block({{beside - 4, box.lo.y}, {beside + 4, c.y}});
-  labels.try_add(wide, {{{c.x, above - 12}, 0}, {{box.hi.x, above - 12}, 1}}, style, map.panel());
-  labels.try_add(high, {{{beside + 12, (c.y + box.lo.y) / 2 + 8}, 0}, {{beside, c.y + 30}, 0}},
-                 style, map.panel());
+  w.labels.block({{c.x, above - 4}, {box.hi.x, above + 4}});
+  w.labels.block({{beside - 4, box.lo.y}, {beside + 4, c.y}});
+  w.labels.try_add(wide, {{{c.x, above - 12}, 0}, {{box.hi.x, above - 12}, 1}}, style,
+                   w.map.panel());
+  w.labels.try_add(high, {{{beside + 12, (c.y + box.lo.y) / 2 + 8}, 0}, {{beside, c.y + 30}, 0}},
+                   style, w.map.panel());
 }
 
 void draw_dimension(Pen& pen, const Vec<2>& from, const Vec<2>& to) {
@@ -77,8 +78,7 @@ void draw_dimension(Pen& pen, const Vec<2>& from, const Vec<2>& to) {
 }
 
 // Half the width above the box, half the height at its right.
-void draw_half_sizes(const FrameBody& body, const Box<2>& box, const View2D& map, Pen& pen,
-                     Labels& labels) {
+void draw_half_sizes(const World2D& w, const FrameBody& body, const Box<2>& box, Pen& pen) {
   constexpr double kAway = 12, kLeastSize = 44;
   if (std::min(box.size().x, box.size().y) < kLeastSize) return;
   const TextStyle style{kLeastLabel, Weight::regular, Role::quiet_ink, Role::panel};
@@ -87,9 +87,9 @@ void draw_half_sizes(const FrameBody& body, const Box<2>& box, const View2D& map
   const double above = box.lo.y - kAway, beside = box.hi.x + kAway;
   const auto measure = [&](const Anchor& anchor, double size, const Vec<2>& from,
                            const Vec<2>& to) {
-    if (!labels.try_add(short_number(size), {anchor}, style, map.picture())) return;
+    if (!w.labels.try_add(short_number(size), {anchor}, style, w.map.picture())) return;
     draw_dimension(pen, from, to);
-    labels.block(shrunk(united(Box<2>{from, from}, Box<2>{to, to}), -6));
+    w.labels.block(shrunk(united(Box<2>{from, from}, Box<2>{to, to}), -6));
   };
   measure({{(c.x + box.hi.x) / 2, above - 9}, 0.5}, half.x, {c.x, above}, {box.hi.x, above});
   measure({{beside + 9, (c.y + box.lo.y) / 2 + 6}, 0}, half.y, {beside, c.y}, {beside, box.lo.y});
@@ -126,83 +126,82 @@ void draw_largest_cells(const Frame& frame, const View2D& map, DrawList& list) {
 
 }  // namespace
 
-std::vector<GroundPlace> draw_half_spaces(const Frame& frame, const View2D& map, DrawList& list,
-                                          Grounds& grounds) {
+std::vector<GroundPlace> draw_half_spaces(World2D& w) {
   std::vector<GroundPlace> places;
-  for (const FrameBody& body : frame.bodies) {
+  for (const FrameBody& body : w.frame.bodies) {
     if (!is_half_space(body)) continue;
-    const Plane<2> surface = page_surface(body, map.to_page(body.position));
-    Box<2> limit = map.picture();
+    const Plane<2> surface = page_surface(body, w.map.to_page(body.position));
+    Box<2> limit = w.map.picture();
     std::vector<Vec<2>> solid = clipped(polygon_of(limit), surface, false);
     if (solid.size() < 3 || depth_behind(solid, surface) < kLeastDepth) {
-      limit = {map.picture().lo - kRimOutside, map.picture().hi + kRimOutside};
+      limit = {w.map.picture().lo - kRimOutside, w.map.picture().hi + kRimOutside};
       solid = clipped(polygon_of(limit), surface, false);
     }
     if (solid.size() < 3) continue;
-    const DrawList::Scope scope(list, body_key("world/body", body));
-    Pen pen(list, limit);
+    const DrawList::Scope scope(w.list, body_key("world/body", body));
+    Pen pen(w.list, limit);
     pen.polygon(solid, Role::free_space);
     pen.hatch(solid, 15, 1, {Role::cell_line_3, 1.6}, 160);
     const Vec<2> along = Vec<2>(-surface.normal.y, surface.normal.x) * 1e4;
-    const Vec<2> at = map.to_page(body.position);
+    const Vec<2> at = w.map.to_page(body.position);
     pen.line(at - along, at + along,
              {body.lit      ? Role::lit
               : body.dimmed ? Role::quiet_ink
                             : Role::body_line,
               3.4, 0});
-    grounds.insert(grounds.begin(), Ground{solid, Role::free_space});
+    w.grounds.insert(w.grounds.begin(), Ground{solid, Role::free_space});
     places.push_back({&body, middle_of(solid)});
   }
   return places;
 }
 
-void name_half_spaces(const Frame& frame, const std::vector<GroundPlace>& places, const View2D& map,
-                      const Grounds& grounds, Labels& labels) {
+void name_half_spaces(const World2D& w, const std::vector<GroundPlace>& places) {
   for (const GroundPlace& place : places) {
-    if (!shows_name(frame, *place.body)) continue;
+    if (!shows_name(w.frame, *place.body)) continue;
     TextStyle style;
-    style.halo = ground_at(grounds, place.label);
+    style.halo = ground_at(w.grounds, place.label);
     const std::string name = shortened(place.body->name, 210, style);
     const double y = place.label.y + 0.3 * style.size;
-    const double quarter = map.picture().size().x / 4;
+    const double quarter = w.map.picture().size().x / 4;
     for (const double x : {0.0, -quarter, quarter})
-      if (labels.try_add(name, {{{place.label.x + x, y}, 0.5}}, style, map.panel())) break;
+      if (w.labels.try_add(name, {{{place.label.x + x, y}, 0.5}}, style, w.map.panel())) break;
   }
 }
 
-void draw_broad_boxes(const Frame& frame, const View2D& map, DrawList& list, Labels& labels) {
-  if (!frame.display.boxes) return;
+void draw_broad_boxes(const World2D& w) {
+  if (!w.frame.display.boxes) return;
   constexpr std::size_t kMostBoxes = 400, kFewBodies = 4;
   constexpr double kSeen = 2.5;  // pixels
-  Pen pen(list, mark_limit(map));
+  Pen pen(w.list, mark_limit(w.map));
   std::size_t drawn = 0;
-  for (const FrameBody& body : frame.bodies) {
+  for (const FrameBody& body : w.frame.bodies) {
     if (is_half_space(body) || body.dimmed) continue;
     if (++drawn > kMostBoxes) return;
-    const Box<2> box = map.to_page(body.box);
-    if (!holds(shrunk(map.picture(), -30), box)) continue;
-    const DrawList::Scope scope(list, body_key("world/broad box", body));
+    const Box<2> box = w.map.to_page(body.box);
+    if (!holds(shrunk(w.map.picture(), -30), box)) continue;
+    const DrawList::Scope scope(w.list, body_key("world/broad box", body));
     // What the structure holds, where one can see that it is more.
-    const Box<2> held = map.to_page(body.stored_box.value_or(body.box));
+    const Box<2> held = w.map.to_page(body.stored_box.value_or(body.box));
     const bool more = box.lo.x - held.lo.x > kSeen || held.hi.x - box.hi.x > kSeen;
-    if (more && holds(shrunk(map.picture(), -30), held))
-      list.rect(held, Role::none, {Role::quiet_ink, 1.2, 3});
-    list.marks.add(MarkKind::box);
+    if (more && holds(shrunk(w.map.picture(), -30), held))
+      w.list.rect(held, Role::none, {Role::quiet_ink, 1.2, 3});
+    w.list.marks.add(MarkKind::box);
     if (!body.lit)  // the others have one already
-      list.rect(box, Role::none, {Role::quiet_ink, 1.8, 6});
-    if (const auto edges = half_edges_of(body, map.scale()))
-      draw_projections(body, *edges, box, map, pen, labels);
-    else if (body.lit || frame.bodies.size() <= kFewBodies)
-      draw_half_sizes(body, box, map, pen, labels);
+      w.list.rect(box, Role::none, {Role::quiet_ink, 1.8, 6});
+    if (const auto edges = half_edges_of(body, w.map.scale()))
+      draw_projections(w, body, *edges, box, pen);
+    else if (body.lit || w.frame.bodies.size() <= kFewBodies)
+      draw_half_sizes(w, body, box, pen);
   }
 }
 
-void draw_land(const Frame& frame, const View2D& map, DrawList& list) {
-  for (const Polygon& land : frame.get<FrameLand>().land) {
+void draw_land(const World2D& w) {
+  for (const Polygon& land : w.frame.get<FrameLand>().land) {
     std::vector<Vec<2>> coast;
-    for (const Vec<2>& corner : land) coast.push_back(map.to_page(corner));
-    coast = cut_to(std::move(coast), map.picture());
-    if (coast.size() >= 3) list.polygon(std::move(coast), sector_role(1), {Role::cell_line_3, 1.4});
+    for (const Vec<2>& corner : land) coast.push_back(w.map.to_page(corner));
+    coast = cut_to(std::move(coast), w.map.picture());
+    if (coast.size() >= 3)
+      w.list.polygon(std::move(coast), sector_role(1), {Role::cell_line_3, 1.4});
   }
 }
 

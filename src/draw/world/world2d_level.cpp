@@ -171,20 +171,20 @@ const SectorPlaces& sector_places(const Staging& staging, const Box<2>& panel) {
 }
 
 // Short strokes across the wall where it was cut in two.
-void draw_cuts(const Frame& frame, const View2D& map, Pen& pen) {
-  const auto drawn = first_of(frame.get<FrameLevel>().walls, kMostWalls);
+void draw_cuts(const World2D& w, Pen& pen) {
+  const auto drawn = first_of(w.frame.get<FrameLevel>().walls, kMostWalls);
   std::vector<FrameWall> walls(drawn.begin(), drawn.end());
   std::ranges::stable_sort(walls, {}, &FrameWall::wall);
   for (std::size_t i = 0; i < walls.size(); ++i)
     for (std::size_t j = i + 1; j < walls.size(); ++j) {
       const FrameWall &a = walls[i], &b = walls[j];
       if (a.wall != b.wall) break;
-      const Vec<2> way = map.to_page(a.to) - map.to_page(a.from);
+      const Vec<2> way = w.map.to_page(a.to) - w.map.to_page(a.from);
       const double length = std::hypot(way.x, way.y);
       if (!(length > 1e-6)) continue;
       const Vec<2> across = Vec<2>(-way.y, way.x) / length * 9.0;
-      for (const Vec<2>& p : {map.to_page(a.from), map.to_page(a.to)})
-        for (const Vec<2>& q : {map.to_page(b.from), map.to_page(b.to)})
+      for (const Vec<2>& p : {w.map.to_page(a.from), w.map.to_page(a.to)})
+        for (const Vec<2>& q : {w.map.to_page(b.from), w.map.to_page(b.to)})
           if (std::abs(p.x - q.x) < 0.5 && std::abs(p.y - q.y) < 0.5) {
             pen.line(p - across, p + across, {Role::panel, 6});
             pen.line(p - across, p + across, {Role::ink, 2.4});
@@ -200,12 +200,13 @@ bool is_level(const Frame& frame) {
                              [](const FrameNode& n) { return n.solid || n.order != kNone; });
 }
 
-void fill_sectors(const Frame& frame, const View2D& map, DrawList& list, Grounds& grounds) {
-  const std::vector<const FrameNode*> sectors = sectors_of(frame);
+Grounds fill_sectors(const World2D& w) {
+  Grounds grounds;
+  const std::vector<const FrameNode*> sectors = sectors_of(w.frame);
   std::vector<Polygon> regions;
-  for (const FrameNode* sector : sectors) regions.push_back(page_region(*sector, map));
+  for (const FrameNode* sector : sectors) regions.push_back(page_region(*sector, w.map));
   const std::vector<unsigned> tones = tones_of(regions);
-  Pen pen(list, map.picture());
+  Pen pen(w.list, w.map.picture());
   for (std::size_t i = 0; i < sectors.size(); ++i) {
     if (sectors[i]->mark != Mark::quiet) continue;  // painted as lit or passed
     const bool left_out = sectors[i]->solid || sectors[i]->unseen;
@@ -215,60 +216,59 @@ void fill_sectors(const Frame& frame, const View2D& map, DrawList& list, Grounds
   }
   for (std::size_t i = 0; i < sectors.size(); ++i)
     if (sectors[i]->solid) pen.hatch(regions[i], 13, 1, {Role::cell_line_3, 1.5}, 60);
+  return grounds;
 }
 
-void number_sectors(const Frame& frame, const Staging& staging, const View2D& map,
-                    const std::vector<Box<2>>& bodies, const Grounds& grounds, DrawList& list,
-                    Labels& labels) {
-  if (!is_level(frame)) return;
-  const SectorPlaces& places = sector_places(staging, map.panel());
-  for (const FrameNode* sector : sectors_of(frame)) {
+void number_sectors(const World2D& w) {
+  if (!is_level(w.frame)) return;
+  const SectorPlaces& places = sector_places(w.staging, w.map.panel());
+  for (const FrameNode* sector : sectors_of(w.frame)) {
     const auto found = places.find(sector->label);
     if (found == places.end()) continue;
-    const Vec<2> at = map.to_page(found->second);
-    if (touches(bodies, Box<2>::around(at, kNarrowRoom))) continue;
-    const DrawList::Scope scope(list, node_key("world/cell name", frame.nodes, *sector));
-    if (sector->order != kNone && draw_met(sector->order, at, map.picture(), list, labels))
+    const Vec<2> at = w.map.to_page(found->second);
+    if (touches(w.covered, Box<2>::around(at, kNarrowRoom))) continue;
+    const DrawList::Scope scope(w.list, node_key("world/cell name", w.frame.nodes, *sector));
+    if (sector->order != kNone && draw_met(sector->order, at, w.map.picture(), w.list, w.labels))
       continue;
     TextStyle style{kLabel, Weight::semibold, Role::quiet_ink};
     if (sector->mark == Mark::lit) style.role = Role::lit_ink;
-    style.halo = ground_at(grounds, at);
-    labels.try_add(sector->label, {centred(at, style)}, style, map.picture());
+    style.halo = ground_at(w.grounds, at);
+    w.labels.try_add(sector->label, {centred(at, style)}, style, w.map.picture());
   }
-  list.referents.insert({"sectors", "sector"});
+  w.list.referents.insert({"sectors", "sector"});
 }
 
-void draw_portals(const Frame& frame, const View2D& map, DrawList& list) {
-  Pen pen(list, mark_limit(map));
-  for (const FramePortal& portal : first_of(frame.get<FrameLevel>().portals, kMostWalls)) {
-    const auto at = static_cast<std::size_t>(&portal - frame.get<FrameLevel>().portals.data());
-    const DrawList::Scope scope(list, fmt::format("world/portal/{}", at));
-    draw_portal(map.to_page(portal.from), map.to_page(portal.to), pen);
-    list.marks.add(MarkKind::portal);
+void draw_portals(const World2D& w) {
+  Pen pen(w.list, mark_limit(w.map));
+  for (const FramePortal& portal : first_of(w.frame.get<FrameLevel>().portals, kMostWalls)) {
+    const auto at = static_cast<std::size_t>(&portal - w.frame.get<FrameLevel>().portals.data());
+    const DrawList::Scope scope(w.list, fmt::format("world/portal/{}", at));
+    draw_portal(w.map.to_page(portal.from), w.map.to_page(portal.to), pen);
+    w.list.marks.add(MarkKind::portal);
   }
-  if (!frame.get<FrameLevel>().portals.empty()) list.referents.emplace("portals");
+  if (!w.frame.get<FrameLevel>().portals.empty()) w.list.referents.emplace("portals");
 }
 
-void draw_sights(const Frame& frame, const View2D& map, DrawList& list) {
-  Pen pen(list, mark_limit(map));
-  for (const FrameSight& sight : first_of(frame.get<FrameLevel>().sights, kMostSectors)) {
-    const DrawList::Scope scope(list, fmt::format("world/sight/{}-{}", sight.a, sight.b));
-    draw_sight(map.to_page(sight.from), map.to_page(sight.to), pen);
-    list.marks.add(MarkKind::sight);
+void draw_sights(const World2D& w) {
+  Pen pen(w.list, mark_limit(w.map));
+  for (const FrameSight& sight : first_of(w.frame.get<FrameLevel>().sights, kMostSectors)) {
+    const DrawList::Scope scope(w.list, fmt::format("world/sight/{}-{}", sight.a, sight.b));
+    draw_sight(w.map.to_page(sight.from), w.map.to_page(sight.to), pen);
+    w.list.marks.add(MarkKind::sight);
   }
 }
 
-void draw_walls(const Frame& frame, const View2D& map, DrawList& list) {
-  Pen pen(list, mark_limit(map));
+void draw_walls(const World2D& w) {
+  Pen pen(w.list, mark_limit(w.map));
   for (const Mark mark : {Mark::quiet, Mark::passed, Mark::lit})
-    for (const FrameWall& wall : first_of(frame.get<FrameLevel>().walls, kMostWalls)) {
+    for (const FrameWall& wall : first_of(w.frame.get<FrameLevel>().walls, kMostWalls)) {
       if (wall.mark != mark) continue;
-      const Vec<2> from = map.to_page(wall.from), to = map.to_page(wall.to);
+      const Vec<2> from = w.map.to_page(wall.from), to = w.map.to_page(wall.to);
       const double width = mark == Mark::lit ? 10 : mark == Mark::passed ? 6.5 : 5;
       pen.line(from, to, {Role::ink, width});
       if (mark == Mark::lit) pen.line(from, to, {Role::lit, 6});
     }
-  draw_cuts(frame, map, pen);
+  draw_cuts(w, pen);
 }
 
 }  // namespace lantern::draw

@@ -143,19 +143,19 @@ bool is_ruled_out(const Stand& stand) {
 
 }  // namespace
 
-PageLinks links_of(const Frame& frame, const std::vector<Stand>& stands, const View2D& map) {
+PageLinks links_of(const World2D& w) {
   std::unordered_map<BodyId, std::size_t> stand_of;
-  for (std::size_t i = 0; i < stands.size(); ++i)
-    for (const FrameBody* body : stands[i].bodies) stand_of[body->id] = i;
+  for (std::size_t i = 0; i < w.stands.size(); ++i)
+    for (const FrameBody* body : w.stands[i].bodies) stand_of[body->id] = i;
   std::unordered_map<BodyId, const FrameBody*> grounds;
-  for (const FrameBody& body : frame.bodies)
+  for (const FrameBody& body : w.frame.bodies)
     if (is_half_space(body)) grounds[body.id] = &body;
-  const std::vector<bool> full = full_links(frame);
-  const frame::PairStates states(frame);
+  const std::vector<bool> full = full_links(w.frame);
+  const frame::PairStates states(w.frame);
   PageLinks found;
   std::map<std::pair<std::uint64_t, std::uint64_t>, std::size_t> seen;  // two places -> link
-  for (std::size_t i = 0; i < frame.pairs.size() && found.complete; ++i) {
-    const FramePair& pair = frame.pairs[i];
+  for (std::size_t i = 0; i < w.frame.pairs.size() && found.complete; ++i) {
+    const FramePair& pair = w.frame.pairs[i];
     const LinkLook look{states.state_of(pair.pair), full[i], pair.lit};
     const auto a = stand_of.find(pair.pair.a), b = stand_of.find(pair.pair.b);
     const auto ground_a = grounds.find(pair.pair.a), ground_b = grounds.find(pair.pair.b);
@@ -166,19 +166,19 @@ PageLinks links_of(const Frame& frame, const std::vector<Stand>& stands, const V
     if (of_ground) {
       const std::size_t stand = (a == stand_of.end() ? b : a)->second;
       const FrameBody& ground = *(ground_a != grounds.end() ? ground_a : ground_b)->second;
-      found.links.push_back(link_to_ground(stands[stand], ground, map));
+      found.links.push_back(link_to_ground(w.stands[stand], ground, w.map));
       found.links.back().look = look;
-      found.links.back().key = pair_key("world/pair", *stands[stand].bodies.front(), ground);
+      found.links.back().key = pair_key("world/pair", *w.stands[stand].bodies.front(), ground);
     } else {
-      if (is_ruled_out(stands[a->second]) || is_ruled_out(stands[b->second])) continue;
+      if (is_ruled_out(w.stands[a->second]) || is_ruled_out(w.stands[b->second])) continue;
       const auto [at, is_new] =
           seen.try_emplace(std::minmax<std::uint64_t>(a->second, b->second), found.links.size());
       if (is_new) {
-        const Stand &one = stands[a->second], &other = stands[b->second];
+        const Stand &one = w.stands[a->second], &other = w.stands[b->second];
         found.links.push_back(link_of(one, other));
         found.links.back().key = pair_key("world/pair", *one.bodies.front(), *other.bodies.front());
-        if (full[i] && frame.pairs.size() <= kMostFullLinks)
-          bow_out(stands, one, other, found.links.back());
+        if (full[i] && w.frame.pairs.size() <= kMostFullLinks)
+          bow_out(w.stands, one, other, found.links.back());
       }
       LinkLook& known = found.links[at->second].look;
       if (is_new || weight_of(look) > weight_of(known)) known = look;
@@ -188,16 +188,16 @@ PageLinks links_of(const Frame& frame, const std::vector<Stand>& stands, const V
   return found;
 }
 
-void draw_links(const PageLinks& links, bool over, const View2D& map, DrawList& list) {
-  Pen pen(list, mark_limit(map));
+void draw_links(const World2D& w, const PageLinks& links, bool over) {
+  Pen pen(w.list, mark_limit(w.map));
   for (const bool full : {false, true})
     for (const PageLink& link : links.links) {
       if (link.look.full != full || (link.close && full) != over) continue;
       if (link.look.state == frame::PairState::contact) continue;
       // Among many, only what may still touch is worth a line.
       if (!full && link.look.state != frame::PairState::candidate) continue;
-      list.marks.add(kind_of(link.look));
-      const DrawList::Scope scope(list, link.key, link.key);
+      w.list.marks.add(kind_of(link.look));
+      const DrawList::Scope scope(w.list, link.key, link.key);
       if (!link.bow.empty())
         draw_bow(link, pen);
       else if (!link.close || !link.common)  // the boxes' common frame says it
@@ -207,12 +207,12 @@ void draw_links(const PageLinks& links, bool over, const View2D& map, DrawList& 
   for (const PageLink& link : links.links) {
     if (!link.common || !link.look.full || link.look.state == frame::PairState::contact) continue;
     const std::string key = link.key + "/boxes";
-    const DrawList::Scope scope(list, key, key);
-    const Box<2> limit = mark_limit(map);
+    const DrawList::Scope scope(w.list, key, key);
+    const Box<2> limit = mark_limit(w.map);
     if (overlap(*link.common, limit))
       draw_overlap({glm::clamp(link.common->lo, limit.lo, limit.hi),
                     glm::clamp(link.common->hi, limit.lo, limit.hi)},
-                   list);
+                   w.list);
     if (link.close && link.look.state == frame::PairState::shapes_apart)
       draw_cross(glm::clamp(link.common->center(), limit.lo, limit.hi), Role::rejected_pair, pen);
   }

@@ -83,33 +83,32 @@ const PlatePlaces& chosen_plates(const Staging& staging, const Box<2>& panel) {
 
 // A dividing line's name, on a plate that sits on the line. While something else is there it waits;
 // on a frame that stands alone it may stand elsewhere.
-void label_planes(const Frame& frame, const Staging& staging, const View2D& map,
-                  const std::vector<Box<2>>& bodies, DrawList& list, Labels& labels) {
-  for (std::uint32_t i = 0; i < frame.nodes.size(); ++i) {
-    const FrameNode& node = frame.nodes[i];
+void label_planes(const World2D& w) {
+  for (std::uint32_t i = 0; i < w.frame.nodes.size(); ++i) {
+    const FrameNode& node = w.frame.nodes[i];
     if (!has_plate(node)) continue;
-    const std::string key = node_key("world/plane name", frame.nodes, i);
-    const DrawList::Scope scope(list, key);
-    auto plates = plates_of(node, map);
-    const PlatePlaces& places = chosen_plates(staging, map.panel());
+    const std::string key = node_key("world/plane name", w.frame.nodes, i);
+    const DrawList::Scope scope(w.list, key);
+    auto plates = plates_of(node, w.map);
+    const PlatePlaces& places = chosen_plates(w.staging, w.map.panel());
     if (const auto found = places.find(key); found != places.end())
       std::swap(plates[0], plates[found->second]);
-    const std::size_t tried = staging.frames().size() > 1 ? 1 : plates.size();
+    const std::size_t tried = w.staging.frames().size() > 1 ? 1 : plates.size();
     for (const auto& [at, plate] : std::span(plates).first(tried)) {
-      if (touches(bodies, plate) || !labels.is_free(plate, shrunk(map.picture(), 6))) continue;
+      if (touches(w.covered, plate) || !w.labels.is_free(plate, shrunk(w.map.picture(), 6)))
+        continue;
       const Role role = node.mark == Mark::lit ? Role::lit : cell_line_role(node.depth);
-      list.rect(plate, Role::panel, {role, 1.8}, 6);
-      labels.add(node.plane_name, centred(at, kStrong), kStrong, map.picture());
-      labels.block(plate);
+      w.list.rect(plate, Role::panel, {role, 1.8}, 6);
+      w.labels.add(node.plane_name, centred(at, kStrong), kStrong, w.map.picture());
+      w.labels.block(plate);
       break;
     }
   }
 }
 
 // A leaf's name in the corner of its cell that no body covers; without one it has none.
-bool label_cell(const FrameNode& node, const std::string& name, const View2D& map,
-                const std::vector<Box<2>>& bodies, const Grounds& grounds, Labels& labels) {
-  const Box<2> whole = map.to_page(node.box), &picture = map.picture();
+bool label_cell(const World2D& w, const FrameNode& node, const std::string& name) {
+  const Box<2> whole = w.map.to_page(node.box), &picture = w.map.picture();
   const Box<2> cell{glm::clamp(whole.lo, picture.lo, picture.hi),
                     glm::clamp(whole.hi, picture.lo, picture.hi)};
   TextStyle style{kLeastLabel, Weight::semibold, Role::quiet_ink};
@@ -119,35 +118,34 @@ bool label_cell(const FrameNode& node, const std::string& name, const View2D& ma
   if (cell.size().x < width + 2 * kInset || cell.size().y < style.size + 2 * kInset) return false;
   const double cap = cap_height(style.weight) * style.size;
   const double top = cell.lo.y + kInset + cap + 1, bottom = cell.hi.y - kInset;
-  const Polygon region = inset(page_region(node, map), 5);
+  const Polygon region = inset(page_region(node, w.map), 5);
   const Anchor anchors[] = {{{cell.lo.x + kInset, top}, 0},
                             {{cell.hi.x - kInset, top}, 1},
                             {{cell.lo.x + kInset, bottom}, 0},
                             {{cell.hi.x - kInset, bottom}, 1},
                             centred(cell.center(), style)};
-  const Anchor* free = labels.free_anchor(
-      name, anchors, style, map.picture(),
-      [&](const Box<2>& box) { return !touches(bodies, box) && inside(region, box); });
+  const Anchor* free = w.labels.free_anchor(
+      name, anchors, style, w.map.picture(),
+      [&](const Box<2>& box) { return !touches(w.covered, box) && inside(region, box); });
   if (!free) return false;
-  style.halo = ground_at(grounds, Labels::extent(name, *free, style).center());
-  labels.add(name, *free, style, map.picture());
+  style.halo = ground_at(w.grounds, Labels::extent(name, *free, style).center());
+  w.labels.add(name, *free, style, w.map.picture());
   return true;
 }
 
-void label_unmade(const Frame& frame, const View2D& map, const std::vector<Box<2>>& bodies,
-                  Labels& labels) {
+void label_unmade(const World2D& w) {
   const TextStyle style{kLabel, Weight::regular, Role::quiet_ink, Role::paper};
   constexpr std::size_t kMostNamed = 3;  // then the hatching is known
-  std::vector<Box<2>> quarters = unmade_quarters(frame);
+  std::vector<Box<2>> quarters = unmade_quarters(w.frame);
   std::ranges::stable_sort(quarters, std::greater(), [](const Box<2>& q) { return q.size().x; });
   std::size_t named = 0;
   for (const Box<2>& quarter : quarters) {
     if (named == kMostNamed) return;
-    const Box<2> box = map.to_page(quarter);
+    const Box<2> box = w.map.to_page(quarter);
     const Anchor anchor{{box.center().x, box.center().y + 6}, 0.5};
     const Box<2> extent = Labels::extent("not made", anchor, style);
-    if (!touches(bodies, extent) && holds(shrunk(box, 8), extent))
-      named += labels.try_add("not made", {anchor}, style, map.picture());
+    if (!touches(w.covered, extent) && holds(shrunk(box, 8), extent))
+      named += w.labels.try_add("not made", {anchor}, style, w.map.picture());
   }
 }
 
@@ -238,27 +236,25 @@ std::vector<Box<2>> unmade_quarters(const Frame& frame) {
   return quarters;
 }
 
-void label_cells(const Frame& frame, const Staging& staging, const View2D& map,
-                 const std::vector<Box<2>>& bodies, const Grounds& grounds, DrawList& list,
-                 Labels& labels) {
-  if (!frame.display.cells) return;
-  label_planes(frame, staging, map, bodies, list, labels);
+void label_cells(const World2D& w) {
+  if (!w.frame.display.cells) return;
+  label_planes(w);
   // Of two trees only one has its leaves named, or the same names would stand there twice.
   const bool dynamic =
-      std::ranges::any_of(frame.nodes, [](const FrameNode& node) { return !node.of_static; });
+      std::ranges::any_of(w.frame.nodes, [](const FrameNode& node) { return !node.of_static; });
   std::vector<const FrameNode*> leaves;
-  for (const FrameNode& node : frame.nodes)
-    if (node.leaf && !node.label.empty() && !(node.of_static && dynamic) && !is_level(frame) &&
-        shows_id(staging, node))
+  for (const FrameNode& node : w.frame.nodes)
+    if (node.leaf && !node.label.empty() && !(node.of_static && dynamic) && !is_level(w.frame) &&
+        shows_id(w.staging, node))
       leaves.push_back(&node);
   std::ranges::stable_sort(leaves, {}, &FrameNode::depth);
   if (leaves.size() > kMostLabels) leaves.resize(kMostLabels);
   for (const FrameNode* leaf : leaves) {
-    const DrawList::Scope scope(list, node_key("world/cell name", frame.nodes, *leaf));
-    for (const std::string& name : leaf_names(frame, *leaf))
-      if (label_cell(*leaf, name, map, bodies, grounds, labels)) break;
+    const DrawList::Scope scope(w.list, node_key("world/cell name", w.frame.nodes, *leaf));
+    for (const std::string& name : leaf_names(w.frame, *leaf))
+      if (label_cell(w, *leaf, name)) break;
   }
-  if (frame.display.not_made) label_unmade(frame, map, bodies, labels);
+  if (w.frame.display.not_made) label_unmade(w);
 }
 
 }  // namespace lantern::draw

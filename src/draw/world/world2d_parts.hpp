@@ -30,31 +30,6 @@ struct Ground {
 };
 using Grounds = std::vector<Ground>;
 
-Role ground_at(const Grounds& grounds, const Vec<2>& point);
-
-// The polygon holds the point, or the whole box; any convex polygon, either way round.
-bool inside(const Polygon& polygon, const Vec<2>& point);
-bool inside(const Polygon& polygon, const Box<2>& box);
-
-// The quarters of quadtree nodes for which no child was made, in the world.
-std::vector<Box<2>> unmade_quarters(const Frame& frame);
-
-// Cells and dividing lines; leaves what it painted in `grounds`. False if there are too many cells,
-// and the smallest are left out.
-bool draw_cells(const Frame& frame, const View2D& map, DrawList& list, Grounds& grounds);
-
-// The lines of cells smaller than `place`, a body's box on the page, once more over what is drawn
-// there: a body hides the splits that it causes.
-void draw_cells_over(const Frame& frame, const View2D& map, const Box<2>& place, DrawList& list);
-
-// The names of leaves in their corners, and of dividing lines. Bodies cover cells, so names keep
-// clear of `bodies`, their boxes on the page.
-void label_cells(const Frame& frame, const Staging& staging, const View2D& map,
-                 const std::vector<Box<2>>& bodies, const Grounds& grounds, DrawList& list,
-                 Labels& labels);
-
-// --- bodies: who stands where on the page, as what, and under which name ---
-
 // Bodies that stand at one place, or one body that stands alone.
 struct Stand {
   std::vector<const FrameBody*> bodies;  // in order of ids
@@ -65,6 +40,41 @@ struct Stand {
 
 // In order of the first body's id. Half-spaces stand nowhere.
 std::vector<Stand> stands_of(const Frame& frame, const View2D& map);
+
+// A 2D world that is drawn, and where: what its parts hand on to each other.
+struct World2D {
+  const Frame& frame;
+  const Staging& staging;
+  const View2D& map;
+  DrawList& list;
+  Labels& labels;
+  std::vector<Stand> stands = {};    // its bodies, unless they are a crowd
+  std::vector<Box<2>> covered = {};  // by these, on the page
+  Grounds grounds = {};              // painted so far; the first of two is over the other
+};
+
+Role ground_at(const Grounds& grounds, const Vec<2>& point);
+
+// The polygon holds the point, or the whole box; any convex polygon, either way round.
+bool inside(const Polygon& polygon, const Vec<2>& point);
+bool inside(const Polygon& polygon, const Box<2>& box);
+
+// The quarters of quadtree nodes for which no child was made, in the world.
+std::vector<Box<2>> unmade_quarters(const Frame& frame);
+
+// Cells and dividing lines; leaves what it painted in the world's grounds. False if there are too
+// many cells, and the smallest are left out.
+bool draw_cells(World2D& w);
+
+// The lines of cells smaller than `place`, a body's box on the page, once more over what is drawn
+// there: a body hides the splits that it causes.
+void draw_cells_over(const World2D& w, const Box<2>& place);
+
+// The names of leaves in their corners, and of dividing lines. Bodies cover cells, so names keep
+// clear of these.
+void label_cells(const World2D& w);
+
+// --- bodies: who stands where on the page, as what, and under which name ---
 
 // The link of a pair on the page; of bodies at one place, of all their pairs.
 struct PageLink {
@@ -80,66 +90,59 @@ struct PageLinks {
   std::vector<PageLink> links;
   bool complete = true;  // else there are too many, and some are missing
 };
-PageLinks links_of(const Frame& frame, const std::vector<Stand>& stands, const View2D& map);
+PageLinks links_of(const World2D& w);
 // Under the bodies, or what lies over them.
-void draw_links(const PageLinks& links, bool over, const View2D& map, DrawList& list);
+void draw_links(const World2D& w, const PageLinks& links, bool over);
 
-// What a ray, view or region left out, and the places of cells on a ray's way; free of `bodies`.
-void mark_walk(const Frame& frame, const View2D& map, const std::vector<Box<2>>& bodies,
-               DrawList& list, Labels& labels);
+// What a ray, view or region left out, and the places of cells on a ray's way; free of bodies.
+void mark_walk(const World2D& w);
 // Where the borders of the lit way lie, at the world's lower and left edges.
-void draw_coordinates(const Frame& frame, const View2D& map, DrawList& list, Labels& labels);
+void draw_coordinates(const World2D& w);
 
 // `boxes`: with the dashed boxes of what is no box itself.
-void draw_bodies(const std::vector<Stand>& stands, const View2D& map, bool boxes, DrawList& list);
+void draw_bodies(const World2D& w, bool boxes);
 // Of those that show one; each on its side and free of what is covered by bodies, as far as there
 // is room.
-void name_bodies(const Frame& frame, const std::vector<Stand>& stands,
-                 const std::vector<Box<2>>& covered, const NameSides& sides, const View2D& map,
-                 const Grounds& grounds, Labels& labels);
+void name_bodies(const World2D& w);
 
 // Too many bodies to tell apart: one mark for each small square of the page that holds any.
 // Returns how many marks it made.
-std::size_t draw_crowd(const Frame& frame, const View2D& map, DrawList& list);
+std::size_t draw_crowd(const World2D& w);
 
 // Where bodies were at the ends of steps, as outlines on their way, and before a step is taken
 // where they would be after it.
-void draw_trails(const Frame& frame, const View2D& map, DrawList& list);
+void draw_trails(const World2D& w);
 // The looks for the moment of an impact, each with its share of the step; the last with its gap.
-void draw_looks(const Frame& frame, const View2D& map, DrawList& list, Labels& labels);
+void draw_looks(const World2D& w);
 
 // --- ground, levels and boxes ---
 
 // Half-spaces: hatched ground, cut to the bounds, or to a rim under them where none of it lies
-// inside. Gives the places of their names and adds what was painted to `grounds`.
+// inside. Gives the places of their names and adds what was painted to the grounds.
 struct GroundPlace {
   const FrameBody* body = nullptr;
   Vec<2> label{0.0};  // the middle of a name
 };
-std::vector<GroundPlace> draw_half_spaces(const Frame& frame, const View2D& map, DrawList& list,
-                                          Grounds& grounds);
-void name_half_spaces(const Frame& frame, const std::vector<GroundPlace>& places, const View2D& map,
-                      const Grounds& grounds, Labels& labels);
+std::vector<GroundPlace> draw_half_spaces(World2D& w);
+void name_half_spaces(const World2D& w, const std::vector<GroundPlace>& places);
 
 // Dashed, with its half sizes where the step is about the body or there are few bodies.
-void draw_broad_boxes(const Frame& frame, const View2D& map, DrawList& list, Labels& labels);
+void draw_broad_boxes(const World2D& w);
 
 // The land that the scenario draws its world on, cut to the picture.
-void draw_land(const Frame& frame, const View2D& map, DrawList& list);
+void draw_land(const World2D& w);
 
 // A level's walls, and the place it is looked at from.
-void draw_walls(const Frame& frame, const View2D& map, DrawList& list);
+void draw_walls(const World2D& w);
 // A level's sectors: neighbours in different tones, solid ones hatched.
 bool is_level(const Frame& frame);
-void fill_sectors(const Frame& frame, const View2D& map, DrawList& list, Grounds& grounds);
+Grounds fill_sectors(const World2D& w);
 // The sectors' numbers, or their places in the order from the eye: on all frames of a group at the
-// same places, where on none of them a body stands; none where one of `bodies` does.
-void number_sectors(const Frame& frame, const Staging& staging, const View2D& map,
-                    const std::vector<Box<2>>& bodies, const Grounds& grounds, DrawList& list,
-                    Labels& labels);
+// same places, where on none of them a body stands; none where a body does.
+void number_sectors(const World2D& w);
 // Openings between sectors, and lines of sight.
-void draw_portals(const Frame& frame, const View2D& map, DrawList& list);
-void draw_sights(const Frame& frame, const View2D& map, DrawList& list);
+void draw_portals(const World2D& w);
+void draw_sights(const World2D& w);
 
 // Where marks may be drawn: the bounds and a little beyond.
 inline Box<2> mark_limit(const View2D& map) { return shrunk(map.picture(), -8); }

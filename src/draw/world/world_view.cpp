@@ -154,29 +154,28 @@ void add_contacts(const Frame& frame, const Marks& marks, LeftOut& left_out, Dra
 }
 
 // What lies over the bodies.
-void draw_marks(const Frame& frame, const View2D& map, LeftOut& left_out, DrawList& list,
-                Labels& labels) {
-  Marks marks(map, mark_limit(map), list), inside(map, map.picture(), list);
-  mark_links(frame, marks);
-  mark_views(frame, inside);
-  mark_eyes(frame, map, shrunk(map.picture(), -20), list);
-  mark_queries(frame, inside);
-  mark_velocities(frame, marks);
-  add_contacts(frame, marks, left_out, list);
-  mark_rays(frame, marks);
-  mark_hits(frame, marks, labels);
-  mark_found(frame, inside, list);
-  mark_forces(frame, marks);
-  write_forces(frame, map, labels);
-  mark_rulers(frame, marks, labels);
+void draw_marks(const World2D& w, LeftOut& left_out) {
+  Marks marks(w.map, mark_limit(w.map), w.list), inside(w.map, w.map.picture(), w.list);
+  mark_links(w.frame, marks);
+  mark_views(w.frame, inside);
+  mark_eyes(w.frame, w.map, shrunk(w.map.picture(), -20), w.list);
+  mark_queries(w.frame, inside);
+  mark_velocities(w.frame, marks);
+  add_contacts(w.frame, marks, left_out, w.list);
+  mark_rays(w.frame, marks);
+  mark_hits(w.frame, marks, w.labels);
+  mark_found(w.frame, inside, w.list);
+  mark_forces(w.frame, marks);
+  write_forces(w.frame, w.map, w.labels);
+  mark_rulers(w.frame, marks, w.labels);
   const auto is_in_a_body = [&](const Vec<2>& eye) {  // then the eye is the body's
     return std::ranges::any_of(
-        frame.bodies, [&](const FrameBody& body) { return contains(flat(body.box), eye); });
+        w.frame.bodies, [&](const FrameBody& body) { return contains(flat(body.box), eye); });
   };
-  if (const auto& own = frame.get<FrameLevel>().eye; own && !is_in_a_body(*own)) {
-    const Vec<2> eye = map.to_page(*own);
-    draw_eye(eye, {1, 0}, Role::ink, shrunk(map.picture(), -20), list);
-    labels.block(Box<2>::around(eye, {24, 18}));
+  if (const auto& own = w.frame.get<FrameLevel>().eye; own && !is_in_a_body(*own)) {
+    const Vec<2> eye = w.map.to_page(*own);
+    draw_eye(eye, {1, 0}, Role::ink, shrunk(w.map.picture(), -20), w.list);
+    w.labels.block(Box<2>::around(eye, {24, 18}));
   }
 }
 
@@ -242,70 +241,67 @@ void draw_world3d(const Frame& frame, const Staging& staging, const Box<2>& pane
       labels);
 }
 
-void draw_world2d(const Frame& frame, const Staging& staging, const View2D& map, DrawList& list,
-                  Labels& labels) {
-  Grounds grounds;
+void draw_world2d(World2D w) {
   LeftOut left_out;
-  if (!draw_cells(frame, map, list, grounds))
-    left_out.push_back("the smallest cells are not drawn");
-  draw_portals(frame, map, list);
-  draw_walls(frame, map, list);
-  draw_sights(frame, map, list);
-  if (frame.bodies.size() > kCrowd) {
-    const std::size_t marks = draw_crowd(frame, map, list);
-    left_out.push_back(fmt::format("{} bodies as {} marks", frame.bodies.size(), marks));
-    draw_marks(frame, map, left_out, list, labels);
-    return note(left_out, map.picture(), labels);
+  if (!draw_cells(w)) left_out.push_back("the smallest cells are not drawn");
+  draw_portals(w);
+  draw_walls(w);
+  draw_sights(w);
+  if (w.frame.bodies.size() > kCrowd) {
+    const std::size_t marks = draw_crowd(w);
+    left_out.push_back(fmt::format("{} bodies as {} marks", w.frame.bodies.size(), marks));
+    draw_marks(w, left_out);
+    return note(left_out, w.map.picture(), w.labels);
   }
-  const std::vector<GroundPlace> ground = draw_half_spaces(frame, map, list, grounds);
-  const std::vector<Stand> stands = stands_of(frame, map);
+  const std::vector<GroundPlace> ground = draw_half_spaces(w);
+  w.stands = stands_of(w.frame, w.map);
   // A ray, view or region is about bodies, not about pairs.
-  const bool asks = !frame.get<FrameFinding>().rays.empty() ||
-                    !frame.get<FrameFinding>().views.empty() ||
-                    !frame.get<FrameFinding>().queries.empty();
-  const bool pairs = frame.display.pairs && !asks;
-  const PageLinks links = pairs ? links_of(frame, stands, map) : PageLinks();
+  const bool asks = !w.frame.get<FrameFinding>().rays.empty() ||
+                    !w.frame.get<FrameFinding>().views.empty() ||
+                    !w.frame.get<FrameFinding>().queries.empty();
+  const bool pairs = w.frame.display.pairs && !asks;
+  const PageLinks links = pairs ? links_of(w) : PageLinks();
   if (!links.complete)
     left_out.push_back("not all pairs are drawn");
   else if (pairs)
-    list.referents.insert({"pairs", "overlaps", "shapes_tested"});
-  draw_links(links, false, map, list);
-  draw_trails(frame, map, list);
-  const bool own_boxes = frame.structure != StructureKind::none && !frame.display.boxes;
-  draw_bodies(stands, map, own_boxes, list);
-  for (const Stand& stand : stands) {
+    w.list.referents.insert({"pairs", "overlaps", "shapes_tested"});
+  draw_links(w, links, false);
+  draw_trails(w);
+  const bool own_boxes = w.frame.structure != StructureKind::none && !w.frame.display.boxes;
+  draw_bodies(w, own_boxes);
+  for (const Stand& stand : w.stands) {
     if (stand.outside) continue;
-    const DrawList::Scope scope(list, body_key("world/over", *stand.bodies[0]));
-    draw_cells_over(frame, map, map.to_page(stand.bodies[0]->box), list);
+    const DrawList::Scope scope(w.list, body_key("world/over", *stand.bodies[0]));
+    draw_cells_over(w, w.map.to_page(stand.bodies[0]->box));
   }
-  draw_links(links, true, map, list);
-  depict_bodies(frame, list);
-  draw_broad_boxes(frame, map, list, labels);
-  draw_marks(frame, map, left_out, list, labels);
-  mark_separation(frame, map, list, labels);
-  mark_search(frame, map, list, labels);
-  draw_looks(frame, map, list, labels);
-  note(left_out, map.picture(), labels);
-  std::vector<Box<2>> covered;
-  for (const Stand& stand : stands) covered.push_back(stand.box);
-  write_depths(frame, map, covered, labels);
-  draw_coordinates(frame, map, list, labels);
-  mark_walk(frame, map, covered, list, labels);
-  number_sectors(frame, staging, map, covered, grounds, list, labels);
-  label_cells(frame, staging, map, covered, grounds, list, labels);
-  name_half_spaces(frame, ground, map, grounds, labels);
-  name_bodies(frame, stands, covered, name_sides(staging, map.panel()), map, grounds, labels);
-  if (!labels.has_notes()) return;
+  draw_links(w, links, true);
+  depict_bodies(w.frame, w.list);
+  draw_broad_boxes(w);
+  draw_marks(w, left_out);
+  mark_separation(w.frame, w.map, w.list, w.labels);
+  mark_search(w.frame, w.map, w.list, w.labels);
+  draw_looks(w);
+  note(left_out, w.map.picture(), w.labels);
+  for (const Stand& stand : w.stands) w.covered.push_back(stand.box);
+  write_depths(w.frame, w.map, w.covered, w.labels);
+  draw_coordinates(w);
+  mark_walk(w);
+  number_sectors(w);
+  label_cells(w);
+  name_half_spaces(w, ground);
+  name_bodies(w);
+  if (!w.labels.has_notes()) return;
   const auto seen = [&](const Box<2>& box) -> std::optional<Box<2>> {
-    const Box<2>& picture = map.picture();
+    const Box<2>& picture = w.map.picture();
     if (!overlap(box, picture)) return {};
     return Box<2>{glm::clamp(box.lo, picture.lo, picture.hi),
                   glm::clamp(box.hi, picture.lo, picture.hi)};
   };
-  for (const Stand& stand : stands)
-    if (const auto box = seen(stand.box)) tell_body(*box, stand.bodies, labels);
+  for (const Stand& stand : w.stands)
+    if (const auto box = seen(stand.box)) tell_body(*box, stand.bodies, w.labels);
   tell_places(
-      frame, map, [&](const FrameNode& node) { return seen(map.to_page(node.box)); }, labels);
+      w.frame, w.map, [&](const FrameNode& node) { return seen(w.map.to_page(node.box)); },
+      w.labels);
 }
 
 }  // namespace
@@ -328,13 +324,13 @@ void draw_world(const Frame& frame, const Staging& staging, const Box<2>& panel,
   if (frame.dimension == 3) return draw_world3d(frame, staging, panel, list, labels);
   const View2D map(flat(frame.bounds), panel, frame.view);
   list.maps.push_back({list.prefix, map.picture(), map.to_page(Vec<2>(0.0)), map.scale()});
-  if (!frame.view) return draw_world2d(frame, staging, map, list, labels);
+  if (!frame.view) return draw_world2d({frame, staging, map, list, labels});
   // Of a part all is drawn as ever and then cut. The corner with the whole is kept free of names.
   const Box<2> corner = place_of_locator(frame, map);
   labels.block(shrunk(corner, -4));
   if (labels.has_notes()) labels.tell_body(corner);
   const std::size_t first = list.shapes.size();
-  draw_world2d(frame, staging, map, list, labels);
+  draw_world2d({frame, staging, map, list, labels});
   keep_within(list, first, map.picture());
   draw_locator(frame, corner, list);
 }
