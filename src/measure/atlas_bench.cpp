@@ -1,6 +1,5 @@
 #include "measure/atlas_bench.hpp"
 
-#include <charconv>
 #include <numeric>
 
 #include "atlas/atlas.hpp"
@@ -30,16 +29,14 @@ constexpr SetDoc kSets[] = {
 };
 
 int pixels_in(const CsvFile& csv, const CsvCell& cell) {
-  int value = 0;
-  const char* end = cell.text.data() + cell.text.size();
-  const auto [at, error] = std::from_chars(cell.text.data(), end, value);
-  if (error != std::errc() || at != end)
+  const auto value = number_in<int>(cell.text);
+  if (!value)
     csv.fail(cell.column, fmt::format("{} is no whole number of pixels", in_quotes(cell.text)),
              kLineAdvice);
-  if (value < 1 || value > kLongestSide)
-    csv.fail(cell.column, fmt::format("{} pixels", value),
+  if (*value < 1 || *value > kLongestSide)
+    csv.fail(cell.column, fmt::format("{} pixels", *value),
              fmt::format("a texture has 1 to {} pixels each way", kLongestSide));
-  return value;
+  return *value;
 }
 
 std::vector<TextureSize> sizes_in(CsvFile csv) {

@@ -1,8 +1,8 @@
 #include "measure/step_bench.hpp"
 
-#include <charconv>
 #include <numeric>
 
+#include "base/number.hpp"
 #include "base/random.hpp"
 #include "geometry/not_finite.hpp"
 #include "measure/peers.hpp"
@@ -324,12 +324,9 @@ std::optional<Pile> pile_named(std::string_view name) {
   const std::size_t colon = name.find(':');
   const auto kind = std::ranges::find(kKinds, name.substr(0, colon), &Kind::name);
   if (colon == std::string_view::npos || kind == std::end(kKinds)) return std::nullopt;
-  Pile pile{kind->dimension, kind->balls, 0};
-  const char* end = name.data() + name.size();
-  const auto [at, error] = std::from_chars(name.data() + colon + 1, end, pile.bodies);
-  if (error != std::errc() || at != end || pile.bodies < 1 || pile.bodies > kMostBodies)
-    return std::nullopt;
-  return pile;
+  const auto bodies = number_in<std::size_t>(name.substr(colon + 1));
+  if (!bodies || *bodies < 1 || *bodies > kMostBodies) return std::nullopt;
+  return Pile{kind->dimension, kind->balls, *bodies};
 }
 
 Scenario pile_scene(const Pile& pile, double step, StructureKind structure) {

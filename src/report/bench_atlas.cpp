@@ -1,6 +1,6 @@
 // `bench atlas`: how full texture atlases become, and how soon.
-#include <charconv>
 
+#include "base/number.hpp"
 #include "report/benches.hpp"
 
 namespace lantern::measure {
@@ -153,17 +153,13 @@ class AtlasBench : public ExperimentOf<AtlasBenchResult> {
  private:
   TextureSize atlas_size() const {
     constexpr int kLeast = 16, kMost = 65536;
-    TextureSize size{};
-    const char* const end = atlas_.data() + atlas_.size();
-    const auto width = std::from_chars(atlas_.data(), end, size.width);
-    const bool goes_on = width.ec == std::errc() && width.ptr != end && *width.ptr == 'x';
-    const auto height = std::from_chars(goes_on ? width.ptr + 1 : end, end, size.height);
-    if (height.ec != std::errc() || height.ptr != end ||
-        std::min(size.width, size.height) < kLeast || std::max(size.width, size.height) > kMost)
+    const auto size = two_numbers_in<int>(atlas_, 'x');
+    if (!size || std::min(size->first, size->second) < kLeast ||
+        std::max(size->first, size->second) > kMost)
       throw Refused(
           fmt::format("--size {}: give width x height in pixels, {} to {} each, as 1280x720",
                       atlas_, kLeast, kMost));
-    return size;
+    return {size->first, size->second};
   }
 
   std::string sizes_, atlas_;

@@ -1,4 +1,3 @@
-#include <charconv>
 #include <cstring>
 
 #include "base/error.hpp"
@@ -83,7 +82,7 @@ class BoxesReader {
 
   void line(const std::vector<CsvCell>& cells, std::vector<FileBody>& bodies) {
     if (columns_.empty()) {
-      if (!number(cells[0].text)) return name_columns(cells);
+      if (!number_in<double>(cells[0].text)) return name_columns(cells);
       columns_ = {lo_x, lo_y, hi_x, hi_y};
       if (cells.size() != 4) columns_ = {lo_x, lo_y, lo_z, hi_x, hi_y, hi_z};
       dimension_ = cells.size() == 4 ? 2 : 3;
@@ -122,18 +121,11 @@ class BoxesReader {
                            : std::vector{lo_x, lo_y, lo_z, hi_x, hi_y, hi_z};
   }
 
-  static std::optional<double> number(std::string_view text) {
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-    return value;
-  }
-
   FileBody body(const std::vector<CsvCell>& cells, BodyId id) const {
     std::array<double, kColumns.size()> values{};
     std::array<int, kColumns.size()> places{};
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      const auto value = number(cells[i].text);
+      const auto value = number_in<double>(cells[i].text);
       if (!value || !std::isfinite(*value))
         csv_.fail(cells[i].column, fmt::format("{} is no finite number", in_quotes(cells[i].text)));
       values[columns_[i]] = *value;
