@@ -37,6 +37,17 @@ auto none_above(double bound, const char* unit, const char* detail, Figures... f
   return [=] { return at_most(bound, largest({figures()...}), unit, detail); };
 }
 
+// A run of a case: none of what each `count(tried)` looks at may be wrong; `detail` has a place for
+// how many these are.
+template <class... Counts>
+auto none_wrong(const char* unit, const char* detail, Counts... count) {
+  return [=] {
+    int tried = 0;
+    const int wrong = (count(tried) + ...);
+    return at_most(0, wrong, unit, fmt::format(fmt::runtime(detail), tried));
+  };
+}
+
 // (x, y) in either dimension.
 template <int D>
 Vec<D> at(double x, double y = 0) {

@@ -88,13 +88,6 @@ int insane_centres(int& tried) {
   return insane;
 }
 
-StressResult fallback_normal() {
-  int tried = 0;
-  const int insane = insane_centres<2>(tried) + insane_centres<3>(tried);
-  return at_most(0, insane, "normals",
-                 fmt::format("not finite, unit and fixed, of {} pairs of shapes", tried));
-}
-
 // --- sizes ---
 
 // Balls and boxes of size ratio 1e-6 ... 1e6 in any direction, with the closed form of their
@@ -286,7 +279,8 @@ std::vector<StressCase> shape_cases() {
       {"parallel_capsules", kGroup, "Nearly parallel capsules keep their normal.",
        parallel_capsules},
       {"fallback_normal", kGroup, "Shapes with a common centre get a fixed normal of unit length.",
-       fallback_normal},
+       none_wrong("normals", "not finite, unit and fixed, of {} pairs of shapes", insane_centres<2>,
+                  insane_centres<3>)},
       {"contact_size_ratio", kGroup, "Contacts are exact at size ratios from 1e-6 to 1e6.",
        none_above(4e-12, "of the size", "separations of balls and boxes, ratios 1e-6 ... 1e6",
                   ratio_error<2>, ratio_error<3>)},

@@ -48,13 +48,6 @@ int bad_steps_taken(int& tried) {
   return taken;
 }
 
-StressResult step_negative() {
-  int tried = 0;
-  const int taken = bad_steps_taken<2>(tried) + bad_steps_taken<3>(tried);
-  return at_most(0, taken, "steps",
-                 fmt::format("taken, of {} that are negative or no number", tried));
-}
-
 // How far what rests is from its place after steps of `h`; endless if anything is not finite. A
 // step that is refused must name body and step.
 template <int D>
@@ -267,7 +260,8 @@ std::vector<StressCase> step_cases() {
   return {
       {"step_zero", kGroup, "A step of no time changes not a bit of the world.", step_zero},
       {"step_negative", kGroup, "A negative step is refused, and the world stays as it was.",
-       step_negative},
+       none_wrong("steps", "taken, of {} that are negative or no number", bad_steps_taken<2>,
+                  bad_steps_taken<3>)},
       {"step_tiny", kGroup, "What rests does so at steps of 1e-12 s.",
        none_above(1e-3, "m", "what rests has moved; h = 1e-12 and 1e-9, every method, 2D and 3D",
                   step_tiny)},
