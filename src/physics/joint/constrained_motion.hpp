@@ -190,7 +190,7 @@ class JointSystem {
   bool stop_parting(SmoothState<D>& state, bool counts) {
     return settle([&] { return missing_speed(state); },
                   [&] {
-                    kick(state, values_);
+                    act(state.kick, state.twist);
                     for (std::size_t r = 0; counts && r < rows_.size(); ++r)
                       impulses_[r] += values_[r];
                   });
@@ -202,7 +202,7 @@ class JointSystem {
     return settle([&] { return find_errors(state); },
                   [&] {
                     for (double& value : values_) value /= h;
-                    kick(state, values_);
+                    act(state.kick, state.twist);
                     for (std::size_t r = 0; r < rows_.size(); ++r) impulses_[r] += values_[r];
                     system_.fly(state, state, h);
                   });
@@ -240,14 +240,8 @@ class JointSystem {
         }
       }
       solve();
-      for (std::size_t r = 0; r < rows_.size(); ++r) {
-        const ConstraintRow<D>& row = rows_[r];
-        pull.acceleration[row.a] -= row.direction * (row.mass_a * values_[r]);
-        pull.acceleration[row.b] += row.direction * (row.mass_b * values_[r]);
-        if (held_[row.a].turns) pull.torque[row.a] -= row.turn_a * values_[r];
-        if (held_[row.b].turns) pull.torque[row.b] += row.turn_b * values_[r];
-        impulses_[r] += values_[r] * time;
-      }
+      act(pull.acceleration, pull.torque);
+      for (std::size_t r = 0; r < rows_.size(); ++r) impulses_[r] += values_[r] * time;
     }
   }
 
@@ -336,13 +330,14 @@ class JointSystem {
     factor_.solve(values_);
   }
 
-  void kick(SmoothState<D>& state, std::span<const double> impulses) const {
+  // What was solved for acts upon the bodies: impulses upon velocities, forces upon accelerations.
+  void act(std::vector<Vec<D>>& linear, std::vector<Spin<D>>& angular) const {
     for (std::size_t r = 0; r < rows_.size(); ++r) {
       const ConstraintRow<D>& row = rows_[r];
-      state.kick[row.a] -= row.direction * (row.mass_a * impulses[r]);
-      state.kick[row.b] += row.direction * (row.mass_b * impulses[r]);
-      if (held_[row.a].turns) state.twist[row.a] -= row.turn_a * impulses[r];
-      if (held_[row.b].turns) state.twist[row.b] += row.turn_b * impulses[r];
+      linear[row.a] -= row.direction * (row.mass_a * values_[r]);
+      linear[row.b] += row.direction * (row.mass_b * values_[r]);
+      if (held_[row.a].turns) angular[row.a] -= row.turn_a * values_[r];
+      if (held_[row.b].turns) angular[row.b] += row.turn_b * values_[r];
     }
   }
 
