@@ -57,8 +57,8 @@ struct PeerSettings {
 class Solver {
  public:
   virtual ~Solver() = default;
-  virtual std::string name() const = 0;     // "velocity_verlet", "Bullet"
-  virtual std::string version() const = 0;  // of a peer; empty for Lantern itself
+  virtual std::string name() const = 0;               // "velocity_verlet", "Bullet"
+  virtual std::string version() const { return {}; }  // of a peer; empty for Lantern itself
   bool is_peer() const { return !version().empty(); }
   virtual PeerSettings settings() const { return {}; }  // of a peer
 

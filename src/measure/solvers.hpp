@@ -10,7 +10,6 @@ class LanternSolver : public Solver {
  public:
   explicit LanternSolver(Method method) : method_(std::move(method)) {}
   std::string name() const override { return method_.name; }
-  std::string version() const override { return {}; }
   // What the method would not change it leaves to others: no contacts, no method of contacts.
   std::optional<std::string> cannot(const Scenario& scenario) const override;
   // A scenario without a [problem] starts empty: its script inserts the bodies.
@@ -33,7 +32,6 @@ std::vector<Method> methods_for(const Scenario& scenario);
 class DormandPrinceSolver : public Solver {
  public:
   std::string name() const override { return "dormand_prince"; }
-  std::string version() const override { return {}; }
   std::optional<std::string> cannot(const Scenario& scenario) const override;
   std::unique_ptr<Simulation> start(const Scenario& scenario, double h) const override;
 };

@@ -164,8 +164,7 @@ constexpr std::array<GridTone, 5> kTones = {
      {1e300, in_tone(Role::body_4, Tone::shade), Role::eye}}};
 
 const GridTone& tone_of(double ratio) {
-  return *std::find_if(kTones.begin(), kTones.end(),
-                       [&](const GridTone& tone) { return ratio <= tone.above; });
+  return *std::ranges::find_if(kTones, [&](const GridTone& tone) { return ratio <= tone.above; });
 }
 
 std::string words_of(StructureKind kind) {

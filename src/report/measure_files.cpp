@@ -20,8 +20,7 @@ void each_field(R& row, Visit&& visit) {
   visit(Field("momentum", "drift_momentum", "drift"), row.drift.momentum);
   visit(Field("angular_momentum", "drift_angular_momentum", "drift"), row.drift.angular_momentum);
   visit(Field("samples", ""), row.samples);
-  visit(Field("penetration"), row.penetration);
-  visit(Field("skin"), row.skin);
+  visit_fields(visit, "penetration", row.penetration, "skin", row.skin);
   each_timing(row.timing, "timing", "spread", "seconds_spread", visit);
   visit(Field("steps", "steps", "counted"), row.counted.steps);
   visit(Field("force_evaluations", "force_evaluations", "counted"), row.counted.force_evaluations);

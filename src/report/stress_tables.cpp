@@ -16,8 +16,7 @@ namespace lantern::measure {
 template <class Visit>
 void each_field(const StressOutcome& outcome, Visit&& visit) {
   const StressResult& result = outcome.result;
-  visit(Field("name"), outcome.of.name);
-  visit(Field("group"), outcome.of.group);
+  visit_fields(visit, "name", outcome.of.name, "group", outcome.of.group);
   visit(Field("", "verdict"), report::verdict_of(result));
   visit(Field("good", ""), result.good);
   visit_fields(visit, "figure", result.figure, "sense", result.at_least ? "at least" : "at most",

@@ -209,8 +209,7 @@ FreeTop::FreeTop(const LongVec& inverse_inertia, const LongQuat& orientation,
   fixed_ = glm::cross(momentum, spin_) == LongVec(0.0L);
   if (fixed_) return;
   std::array<int, 3> axis{0, 1, 2};
-  std::stable_sort(axis.begin(), axis.end(),
-                   [&](int i, int j) { return inverse_inertia[i] < inverse_inertia[j]; });
+  std::ranges::stable_sort(axis, {}, [&](int i) { return inverse_inertia[i]; });
   // 2T - L^2 a2 tells which of the outer axes L circles.
   const auto part = [&](int i) {
     return (inverse_inertia[axis[i]] - inverse_inertia[axis[1]]) * momentum[axis[i]] *

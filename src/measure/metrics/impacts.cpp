@@ -229,8 +229,7 @@ class Collisions : public ErrorMetric {
       balls_.push_back({i, mass_of_body(scenario, i), glm::dot(away, along_),
                         glm::dot(body.velocity, along_), reach_along(body, along_)});
     }
-    std::sort(balls_.begin(), balls_.end(),
-              [](const Ball& a, const Ball& b) { return a.place < b.place; });
+    std::ranges::sort(balls_, {}, &Ball::place);
     for (std::size_t i = 0; i + 1 < balls_.size(); ++i) {
       const double e = restitution_between(scenario, balls_[i].body, balls_[i + 1].body);
       restitution_.push_back(e);

@@ -275,8 +275,7 @@ std::vector<Bond> read_bonds(const Scenario& scenario) {
 
 // Follows the springs from a fixed point to the other, or to a free end. Gives the last point.
 std::optional<LongVec> follow(const Scenario& scenario, std::vector<Bond>& bonds, Line& row) {
-  const auto first =
-      std::find_if(bonds.begin(), bonds.end(), [](const Bond& b) { return !b.tie.b; });
+  const auto first = std::ranges::find_if(bonds, [](const Bond& b) { return !b.tie.b; });
   if (first == bonds.end()) refuse_problem(scenario, "no end of it is fixed");
   row.from = first->tie.anchor;
   std::size_t at = first->tie.a;
@@ -351,7 +350,7 @@ Line line_of(const Scenario& scenario) {
   std::vector<Bond> bonds = read_bonds(scenario);
   Line row;
   const std::optional<LongVec> end = follow(scenario, bonds, row);
-  const bool all = std::all_of(bonds.begin(), bonds.end(), [](const Bond& b) { return b.used; });
+  const bool all = std::ranges::all_of(bonds, &Bond::used);
   if (!all || row.bodies.size() != dynamic_bodies(scenario).size())
     refuse_problem(scenario, "its bodies are not one row from a fixed point on");
   find_rest(scenario, end, row);
