@@ -219,6 +219,7 @@ std::vector<std::vector<Vec<3>>> cuts_of(const Frame& frame) {
       cuts.push_back(part_in(node.box, node.plane->normal, node.plane->offset));
       continue;
     }
+    if (!traits_of(frame.structure).splits) continue;
     const Vec<3> c = node.box.center();
     for (const int axis : {1, 0, 2}) {
       if (axis == 1 && traits_of(frame.structure).ignores_height) continue;
