@@ -1,4 +1,4 @@
-#include "run/atlas_stage.hpp"
+#include "run/stage.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,4 +1,4 @@
-#include "run/level_stage.hpp"
+#include "run/stage.hpp"
 
 #include <set>
 

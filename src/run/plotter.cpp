@@ -1,4 +1,4 @@
-#include "run/plotter.hpp"
+#include "run/shown.hpp"
 
 #include <algorithm>
 #include <set>
