@@ -71,7 +71,7 @@ std::uint64_t state_hash(const Frame& frame) {
   }
   for (const FramePair& p : frame.pairs)
     hash.add(std::uint64_t{p.pair.a}).add(std::uint64_t{p.pair.b});
-  frame.parts.each([&](const PartType& type, const std::any& part) { type.add_state(part, hash); });
+  frame.each_part([&](const PartType& type, const std::any& part) { type.add_state(part, hash); });
   return hash.value();
 }
 
@@ -81,7 +81,7 @@ std::size_t estimated_bytes(const Frame& frame) {
               frame.measures);
   for (const FrameNode& node : frame.nodes) lists.drawn(node.bodies, node.region);
   std::size_t bytes = sizeof(Frame) + lists.bytes;
-  frame.parts.each([&](const PartType& type, const std::any& part) { bytes += type.bytes(part); });
+  frame.each_part([&](const PartType& type, const std::any& part) { bytes += type.bytes(part); });
   for (const Frame& side : frame.sides) bytes += estimated_bytes(side);
   return bytes;
 }
