@@ -21,6 +21,7 @@
 #include "draw/page.hpp"
 #include "language/text/problems.hpp"
 #include "run/warnings.hpp"
+#include "run/watcher.hpp"
 
 namespace lantern::app {
 
@@ -175,13 +176,6 @@ SourcePosition place_in(const Scenario& scenario, std::string_view letter) {
     return {scenario.file, place.line, place.column};
   }
   return {scenario.file, 0, 0};
-}
-
-Diagnostic warning(const Scenario& scenario, const SourcePosition& where, std::string message,
-                   const std::string& suggestion) {
-  Diagnostic found = diagnose(scenario, where, std::move(message), suggestion);
-  found.severity = Severity::warning;
-  return found;
 }
 
 void add_missing_letters(const Scenario& scenario, std::vector<Diagnostic>& found) {

@@ -53,15 +53,21 @@ const PartType& part_type();
 // At most one part of each type. Copies are whole copies.
 class FrameParts {
  public:
-  // Null if there is none.
+  // The part of that type: null, or an empty one, if there is none.
   template <class P>
   const P* find() const {
-    const auto at = place_of(part_type<P>());
+    const auto at = std::ranges::find(parts_, &part_type<P>(), &List::value_type::first);
     return at == parts_.end() ? nullptr : &std::any_cast<const P&>(at->second);
   }
   template <class P>
   P* find() {
     return const_cast<P*>(std::as_const(*this).find<P>());
+  }
+  template <class P>
+  const P& get() const {
+    static const P kNothing{};
+    const P* found = find<P>();
+    return found ? *found : kNothing;
   }
   // The part that is there, or else a new one.
   template <class P>
@@ -69,21 +75,23 @@ class FrameParts {
     if (P* part = find<P>()) return *part;
     return std::any_cast<P&>(parts_.emplace_back(&part_type<P>(), P()).second);
   }
+  // This one from now on, or none.
+  template <class P>
+  void put(const std::optional<P>& one) {
+    one ? void(add<P>() = *one) : drop<P>();
+  }
   template <class P>
   void drop() {
     std::erase_if(parts_, [](const auto& part) { return part.first == &part_type<P>(); });
   }
   // f(type, part) for each.
   template <class F>
-  void each(const F& f) const {
+  void each_part(const F& f) const {
     for (const auto& [type, part] : parts_) f(*type, part);
   }
 
  private:
   using List = std::vector<std::pair<const PartType*, std::any>>;
-  List::const_iterator place_of(const PartType& type) const {
-    return std::ranges::find(parts_, &type, &List::value_type::first);
-  }
   List parts_;
 };
 
@@ -314,7 +322,7 @@ struct FramePage {
 };
 
 // What every picture has, and the parts that some have.
-struct Frame : FramePage {
+struct Frame : FramePage, FrameParts {
   std::uint32_t index = 0;  // of this frame, from 0
   std::string event;        // the step's name or the algorithm's event; for --at
   StepPhase phase = StepPhase::whole;
@@ -336,37 +344,10 @@ struct Frame : FramePage {
   // What is measured rather than counted: energies, in a fixed order.
   std::vector<std::pair<std::string, double>> measures;
   std::uint64_t hash = 0;  // of all of the above that is state
-  FrameParts parts;
 
   // The same moment under each side's settings. What the sides share stands above, their bodies,
   // nodes, counts and all else that they have of their own only here.
   std::vector<Frame> sides;
-
-  // The part of that type: null, or an empty one, if there is none.
-  template <class P>
-  const P* find() const {
-    return parts.find<P>();
-  }
-  template <class P>
-  const P& get() const {
-    static const P kNothing{};
-    const P* found = find<P>();
-    return found ? *found : kNothing;
-  }
-  template <class P>
-  P* find() {
-    return parts.find<P>();
-  }
-  // The part that is there, or else a new one.
-  template <class P>
-  P& add() {
-    return parts.add<P>();
-  }
-  // This one from now on, or none.
-  template <class P>
-  void put(const std::optional<P>& one) {
-    one ? void(add<P>() = *one) : parts.drop<P>();
-  }
 
   // Is this node drawn as one that sleeps? What never moves or holds nothing is not, nor what only
   // rests in a world where nothing falls asleep.

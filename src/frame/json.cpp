@@ -76,7 +76,7 @@ class FrameWriter {
   }
 
   void write_part(const PartType& type, const Frame& frame) {
-    frame.parts.each([&](const PartType& of, const std::any& part) {
+    frame.each_part([&](const PartType& of, const std::any& part) {
       if (&of == &type) type.write(part, frame_.dimension, json_);
     });
   }
@@ -84,7 +84,7 @@ class FrameWriter {
   void write_parts(const Frame& frame) {
     std::vector<const PartType*> others;
     for (const PartType* type : part_order()) write_part(*type, frame);
-    frame.parts.each([&](const PartType& type, const std::any&) {
+    frame.each_part([&](const PartType& type, const std::any&) {
       const bool told = &type == &part_type<FrameQuestion>();  // above the sides
       if (!told && std::ranges::count(part_order(), &type) == 0) others.push_back(&type);
     });

@@ -12,7 +12,7 @@ namespace lantern::language {
 struct CountDoc;
 }
 namespace lantern::run {
-struct Stage;  // what a step changes (run/frame_maker.hpp)
+struct Stage;  // what a step changes (run/stage.hpp)
 }
 
 namespace lantern::frame {

@@ -1,5 +1,3 @@
-#include "run/atlas_stage.hpp"
-
 #include <algorithm>
 #include <numeric>
 #include <utility>
@@ -8,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "language/counts.hpp"
+#include "run/stage.hpp"
 
 namespace lantern::run {
 

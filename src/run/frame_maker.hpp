@@ -1,30 +1,11 @@
 // From the pieces on the stage to finished frames: pictured, lit, captioned, verified and given on.
 #pragma once
 
-#include "run/atlas_stage.hpp"
 #include "run/director.hpp"
-#include "run/engine.hpp"
-#include "run/level_stage.hpp"
-#include "run/plotter.hpp"
 #include "run/shown.hpp"
+#include "run/stage.hpp"
 
 namespace lantern::run {
-
-// The pieces that a scenario needs, and none that it does not.
-struct Stage {
-  Stage(const Scenario& scenario, Work& work) {
-    if (!scenario.bodies.empty()) engine = make_engine(scenario, work);
-    if (scenario.atlas) atlas.emplace(scenario, work);
-    if (!scenario.elements.empty()) screen.emplace(scenario);
-    if (scenario.level) level.emplace(scenario);
-  }
-
-  std::unique_ptr<Engine> engine;  // if there are bodies
-  std::optional<AtlasStage> atlas;
-  std::optional<ScreenStage> screen;
-  std::optional<LevelStage> level;
-  double time = 0;  // seconds of world time
-};
 
 class FrameMaker {
  public:

@@ -1,5 +1,3 @@
-#include "run/level_stage.hpp"
-
 #include <set>
 
 #include <fmt/format.h>
@@ -10,6 +8,7 @@
 #include "frame/parts/level.hpp"
 #include "frame/parts/panels.hpp"
 #include "language/counts.hpp"
+#include "run/stage.hpp"
 #include "spatial/pairs.hpp"
 
 namespace lantern::run {

@@ -1,9 +1,8 @@
-#include "run/plotter.hpp"
-
 #include <algorithm>
 #include <set>
 
 #include "language/counts.hpp"
+#include "run/shown.hpp"
 
 namespace lantern::run {
 namespace {

@@ -133,7 +133,7 @@ class SidesRun {
       Frame& shown = frame.sides.emplace_back(side.at(k).frame);
       const bool held = shown.add<FrameSide>().held = side.holds(k);
       shown.index = frame.index;
-      shown.parts.drop<FrameChart>();  // drawn once, for all
+      shown.drop<FrameChart>();  // drawn once, for all
       std::erase_if(shown.panels, [](Panel panel) { return kind_of(panel).of_all_sides; });
       if (held) shown.since_last_frame.reset();
       if (frame.event.empty() && !held) frame.event = shown.event;

@@ -1,8 +1,12 @@
 // What the verbs of bodies do: `insert`, `emit`, `remove`, `move`, `sleep`, `wake`, `force`,
-// `impulse`, and `solve_by`.
+// `impulse`, and `solve_by`; and those with which time passes: `run`, `wait` and `phases`.
+#include <algorithm>
 #include <cmath>
 #include <span>
 
+#include <fmt/format.h>
+
+#include "run/event_text.hpp"
 #include "run/script_run.hpp"
 
 namespace lantern::run {
@@ -53,6 +57,85 @@ void act(const Move& move, ScriptRun& run) {
     run.engine().rebuild();
   run.frames.touched = {};
   run.frames.settle("move");
+}
+
+void act(const Run& verb, ScriptRun& run) {
+  if (run.stage.engine) run.watch_movers();
+  const std::uint32_t ticks = run.ticks_in(verb.seconds);
+  for (std::uint32_t tick = 1; tick <= ticks && !run.frames.stopped(); ++tick) {
+    run.let_time_pass();
+    if (tick % run.frame_every(verb.every) == 0 || tick == ticks)
+      run.frames.settle("run", tick == ticks);
+  }
+}
+
+// Until the event, which must happen in time.
+void act(const Wait& wait, ScriptRun& run) {
+  run.watch_movers();
+  const std::uint32_t ticks = run.ticks_in(wait.at_most);
+  for (std::uint32_t tick = 1; tick <= ticks && !run.frames.stopped(); ++tick) {
+    run.let_time_pass();
+    if (run.engine().has_happened(wait.event, wait.bodies)) return run.frames.settle("wait");
+    if (tick == ticks)
+      run.frames.fail(
+          fmt::format("what this step waits for has not happened within {} s", wait.at_most));
+    if (tick % run.frame_every(wait.every) == 0 || tick == ticks)
+      run.frames.settle("wait", tick == ticks);
+  }
+}
+
+namespace {
+
+bool is_look(std::string_view event) { return event == "approach" || event == "impact"; }
+
+// Bodies as they were before the step, and the looks so far; nobody knows yet who will touch.
+void show_looks(const std::vector<FrameLook>& looks, StepFindings found, Frame frame,
+                ScriptRun& run) {
+  frame.phase = StepPhase::narrow;
+  found.contacts.clear();
+  found.begins = found.ends = found.work.impacts_located = 0;
+  found.time_of_impact = 1;
+  for (const FrameLook& look : looks) {
+    frame.add<FrameLooks>().looks.push_back(look);
+    frame.event = look.meets ? "impact" : "approach";
+    if (!run.frames.wanted(frame.event)) continue;
+    found.work.impact_looks = static_cast<std::uint64_t>(look.number);
+    if (look.meets) found.time_of_impact = look.time;
+    found.put_on(frame);
+    frame.caption = look_text(look);
+    run.frames.give(frame);
+  }
+}
+
+}  // namespace
+
+// The state before the step, with what each phase of it finds, then the state after it.
+void act(const Phases&, ScriptRun& run) {
+  const Frame before = run.frames.picture(run.frames.touched, "broad_phase");
+  const auto show = [&](std::string_view event, StepPhase phase, const StepFindings& found) {
+    if (!run.frames.wanted(event)) return;
+    Frame shown = before;
+    found.put_on(shown);
+    shown.event = event;
+    shown.phase = phase;
+    shown.caption = phase_text(event, shown);
+    run.frames.show_phase(event, shown);
+    run.frames.give(shown);
+  };
+  const StepFindings nothing;
+  show("broad_phase", StepPhase::broad, nothing);
+  if (before.count("overlaps") && before.count("contacts"))
+    show("boxes", StepPhase::boxes, nothing);
+  const std::vector<FrameLook> looks =
+      run.let_time_pass(std::ranges::any_of(run.frames.step().events, is_look));
+  const StepFindings found = run.stage.engine ? run.engine().findings() : nothing;
+  StepFindings narrow = found;  // before any impulse
+  for (FrameContact& contact : narrow.contacts)
+    for (FrameContact::Point& point : contact.points) point.impulse = 0;
+  show("narrow_phase", StepPhase::narrow, narrow);
+  show_looks(looks, narrow, before, run);
+  show("solve", StepPhase::resolve, found);
+  run.frames.settle("integrate");
 }
 
 }  // namespace lantern::run

@@ -76,7 +76,7 @@ TEST(Parts, AreToldByTheirFieldsBehindThoseOfLantern) {
   copy.add<Stars>().sky = "clear";
   EXPECT_TRUE(frame.get<Stars>().sky.empty()) << "copies have parts of their own";
   EXPECT_EQ(copy.get<Stars>().stars.size(), 2u);
-  frame.parts.drop<Stars>();
+  frame.drop<Stars>();
   frame.put<FrameLinks>(std::nullopt);
   EXPECT_EQ(to_json(frame), without);
   EXPECT_EQ(estimated_bytes(frame), bytes);

@@ -173,14 +173,11 @@ const Command& whole_program() {
                 [](Options& rows) -> Run {
                   rows = {memory_option()};
                   return nullptr;
-                },
-                {render_command(), watch_command(), merge_command(), check_command(),
-                 list_command(), explain_command(), doctor_command(), golden_command(),
-                 compare_command(), structure_command()}};
-    std::ranges::move(lab_commands(), std::back_inserter(all.commands));
-    for (Command (*row)() :
-         {reference_command, schema_command, manual_command, completions_command, help_command})
-      all.commands.push_back(row());
+                }};
+    for (std::vector<Command> (*some)() :
+         {drawing_commands, merge_commands, inspecting_commands, golden_commands, compare_commands,
+          structure_commands, lab_commands, manual_commands, help_commands})
+      std::ranges::move(some(), std::back_inserter(all.commands));
     return all;
   }();
   return program;

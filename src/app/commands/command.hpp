@@ -75,24 +75,17 @@ Option fraction_option(double& fraction);
 // Of the program and of each command: before and after its name.
 Options manners();
 
-// ---- The commands
+// ---- The commands, a list of each source
 
-Command render_command();
-Command watch_command();
-Command merge_command();
-Command check_command();
-Command list_command();
-Command explain_command();
-Command doctor_command();
-Command golden_command();
-Command compare_command();
-Command structure_command();
-std::vector<Command> lab_commands();  // measure, bench and stress (app/lab.hpp)
-Command reference_command();
-Command schema_command();
-Command manual_command();
-Command completions_command();
-Command help_command();
+std::vector<Command> drawing_commands();  // render and watch
+std::vector<Command> merge_commands();
+std::vector<Command> inspecting_commands();  // check, list, explain and doctor
+std::vector<Command> golden_commands();
+std::vector<Command> compare_commands();
+std::vector<Command> structure_commands();
+std::vector<Command> lab_commands();     // measure, bench and stress (app/lab.hpp)
+std::vector<Command> manual_commands();  // reference, schema, man and completions
+std::vector<Command> help_commands();
 
 // The words of this process's command line, without the program's name.
 Words& command_line_words();

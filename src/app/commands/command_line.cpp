@@ -248,9 +248,9 @@ int print_help(const HelpOptions& options) {
 
 }  // namespace
 
-Command help_command() {
-  return command("help", "Print the help of a command, as its --help does", print_help,
-                 help_options);
+std::vector<Command> help_commands() {
+  return {
+      command("help", "Print the help of a command, as its --help does", print_help, help_options)};
 }
 
 }  // namespace lantern::app

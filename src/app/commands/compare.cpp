@@ -185,9 +185,9 @@ int compare_paths(const CompareOptions& options) {
 
 }  // namespace
 
-Command compare_command() {
-  return command("compare", "Compare two PNG, SVG or JSON files, or two folders of them",
-                 compare_paths, compare_options);
+std::vector<Command> compare_commands() {
+  return {command("compare", "Compare two PNG, SVG or JSON files, or two folders of them",
+                  compare_paths, compare_options)};
 }
 
 }  // namespace lantern::app

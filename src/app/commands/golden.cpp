@@ -288,10 +288,10 @@ class GoldenRun {
 
 }  // namespace
 
-Command golden_command() {
-  return command(
+std::vector<Command> golden_commands() {
+  return {command(
       "golden", "Compare scenarios' pictures and facts with golden ones, or update those",
-      +[](const GoldenOptions& options) { return GoldenRun(options).run(); }, golden_options);
+      +[](const GoldenOptions& options) { return GoldenRun(options).run(); }, golden_options)};
 }
 
 }  // namespace lantern::app

@@ -331,23 +331,14 @@ int print_reference(const ReferenceOptions& options) {
 
 }  // namespace
 
-Command manual_command() {
-  return command("man", "Print a command's manual page, or write all of them", write_manual,
-                 manual_options);
-}
-
-Command completions_command() {
-  return command("completions", "Print the completions of a shell", write_completions,
-                 completions_options);
-}
-
-Command reference_command() {
-  return command("reference", "Print the scenario language's reference page (Markdown)",
-                 print_reference, reference_options);
-}
-
-Command schema_command() {
-  return command("schema", "Print a JSON Schema", print_schema, schema_options);
+std::vector<Command> manual_commands() {
+  return {command("reference", "Print the scenario language's reference page (Markdown)",
+                  print_reference, reference_options),
+          command("schema", "Print a JSON Schema", print_schema, schema_options),
+          command("man", "Print a command's manual page, or write all of them", write_manual,
+                  manual_options),
+          command("completions", "Print the completions of a shell", write_completions,
+                  completions_options)};
 }
 
 }  // namespace lantern::app

@@ -419,9 +419,9 @@ int merge_parts(const MergeOptions& options) {
 
 }  // namespace
 
-Command merge_command() {
-  return command("merge", "Make one folder of the parts that --shard has made", merge_parts,
-                 merge_options);
+std::vector<Command> merge_commands() {
+  return {command("merge", "Make one folder of the parts that --shard has made", merge_parts,
+                  merge_options)};
 }
 
 }  // namespace lantern::app

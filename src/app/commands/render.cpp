@@ -240,14 +240,11 @@ int draw_scenarios(const RenderOptions& asked) {
   return code;
 }
 
-Command render_command() {
-  return command("render", "Draw a scenario's frames: pictures, films, documents, lesson pages",
-                 draw_scenarios, render_options);
-}
-
-Command watch_command() {
-  return command("watch", "Render scenarios again whenever they are saved", watch_scenarios,
-                 watch_options);
+std::vector<Command> drawing_commands() {
+  return {command("render", "Draw a scenario's frames: pictures, films, documents, lesson pages",
+                  draw_scenarios, render_options),
+          command("watch", "Render scenarios again whenever they are saved", watch_scenarios,
+                  watch_options)};
 }
 
 }  // namespace lantern::app

@@ -225,18 +225,18 @@ int bench(const StructureBenchOptions& options) {
 
 }  // namespace
 
-Command structure_command() {
+std::vector<Command> structure_commands() {
   return {
-      "structure",
-      "The spatial structures, and those of your own: list, check, bench",
-      nullptr,
-      {command("list", "List the structures that this program knows", list_structures, json_only),
-       command("check",
-               "Hold structures against brute force on random worlds; the smallest world on "
-               "which one fails is told and written as a scenario",
-               check_structures, structure_check_options),
-       command("bench", "Time structures beside each other and brute force, in turns", bench,
-               structure_bench_options)}};
+      {"structure",
+       "The spatial structures, and those of your own: list, check, bench",
+       nullptr,
+       {command("list", "List the structures that this program knows", list_structures, json_only),
+        command("check",
+                "Hold structures against brute force on random worlds; the smallest world on "
+                "which one fails is told and written as a scenario",
+                check_structures, structure_check_options),
+        command("bench", "Time structures beside each other and brute force, in turns", bench,
+                structure_bench_options)}}};
 }
 
 }  // namespace lantern::app
