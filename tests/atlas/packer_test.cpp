@@ -230,7 +230,9 @@ TEST(Packer, CountsTheBytesItHolds) {
   EXPECT_EQ(packer.bytes(), alone);
   packer.pack(std::vector<Rect>{{0, 0, 1000, 1000}}, 1);
   // Of each kind also its place in the order, how many are left, and how wide they are.
-  const std::uint64_t least = n * (sizeof(Stock::Kind) + 12) + 32 * sizeof(Stock::HeightClass);
+  // Of sixteen kinds each how wide the narrowest is, and of each height, 0 too, its class.
+  const std::uint64_t least = n * (sizeof(Stock::Kind) + 12) + 32 * sizeof(Stock::HeightClass) +
+                              n / 16 * sizeof(int) + 33 * sizeof(std::uint32_t);
   EXPECT_GE(packer.bytes(), alone + least);
   EXPECT_LE(packer.bytes(), alone + least + n);
 }
@@ -242,6 +244,39 @@ TEST(Packer, OnlyTurnedOnesFit) {
   const Packing packing = Packer(sizes, true).pack(leaf);
   ASSERT_TRUE(packing.complete);
   expect_sound(places_of(packing, leaf, 2), sizes, leaf, true);
+}
+
+// Turned or not it is the same rectangle: nobody shall have to turn its picture.
+TEST(Packer, ASquareIsNeverTurned) {
+  for (const auto& sizes : {std::vector<TextureSize>(4, {10, 10}),
+                            std::vector<TextureSize>{{10, 10}, {10, 30}, {30, 10}, {10, 10}}}) {
+    Packer packer(sizes, true);
+    for (std::size_t trials = 1; trials <= trial_count(true); ++trials) {
+      const Packing packing =
+          packer.pack_most(std::vector<Rect>{{0, 0, 20, 25}, {20, 0, 10, 40}}, trials);
+      for (const PackStep& step : packing.steps)
+        EXPECT_FALSE(step.turned && sizes[step.value] == TextureSize(10, 10)) << trials;
+    }
+  }
+  using Hold = Holding::Hold;
+  for (const Hold hold : {Hold::as_given, Hold::lying, Hold::standing}) {
+    const Stock stock(std::vector<TextureSize>{{10, 10}}, {hold, false});
+    EXPECT_FALSE(stock.turns({10, 10}));
+    EXPECT_EQ(stock.turns({10, 30}), hold == Hold::lying);
+    EXPECT_EQ(stock.turns({30, 10}), hold == Hold::standing);
+  }
+}
+
+TEST(Stock, NothingIsAsLowAsNoPixel) {
+  const Stock stock(std::vector<TextureSize>{{3, 2}, {4, 5}}, {});
+  ASSERT_EQ(stock.classes().size(), 2u);
+  for (const int height : {0, 1}) {
+    EXPECT_EQ(stock.class_up_to(height), 2u) << height;
+    EXPECT_EQ(stock.tallest(9, height), Stock::kNone) << height;
+  }
+  EXPECT_EQ(stock.class_up_to(2), 1u);
+  EXPECT_EQ(stock.class_up_to(5), 0u);
+  EXPECT_EQ(stock.class_up_to(100), 0u);
 }
 
 TEST(Packer, NothingAndBadSizes) {

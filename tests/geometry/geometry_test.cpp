@@ -58,6 +58,21 @@ TEST(Box, OverlapIsACommonPoint) {
   expect_overlap_is_a_common_point<3>();
 }
 
+TEST(Box, ItsExtentIsTheLargestOnAnyAxis) {
+  EXPECT_EQ(extent_of(Box<2>{{1, 2}, {4, 3}}), 3);
+  EXPECT_EQ(extent_of(Box<2>{{1, 2}, {2, 9}}), 7);
+  EXPECT_EQ(extent_of(Box<3>{{0, 0, -5}, {1, 2, 5}}), 10);
+  EXPECT_EQ(extent_of(Box<3>{{0, 4, 0}, {0, 4, 0}}), 0);
+}
+
+TEST(NotFinite, ZeroIsNotNegative) {
+  EXPECT_NO_THROW(require_not_negative(0.0, "ball", "radius"));
+  EXPECT_NO_THROW(require_not_negative(-0.0, "ball", "radius"));
+  EXPECT_NO_THROW(require_not_negative(3.0, "ball", "radius"));
+  for (const double bad : {-1e-300, kNan, kInfinity})
+    EXPECT_THROW(require_not_negative(bad, "ball", "radius"), Refused);
+}
+
 TEST(Box, IsValidOnlyWhenFiniteAndInOrder) {
   EXPECT_TRUE(is_valid(Box<2>{{1, 1}, {1, 1}})) << "a box may have no size";
   EXPECT_FALSE(is_valid(Box<2>{{1, 2}, {3, 1}}));

@@ -75,6 +75,17 @@ TEST(Shape, ThicknessIsHalfOfTheSmallestWidth) {
   EXPECT_GE(thickness<2>(HalfSpace<2>{{0, 1}}), kEndless);
 }
 
+// By corners: 3, 4, 5 and 2, 3, 6, 7.
+TEST(Shape, TurningReachesAsFarAsItsFarthestCorner) {
+  EXPECT_EQ(turning_reach<2>(OrientedBox<2>{{3, 4}}), 5);
+  EXPECT_EQ(turning_reach<3>(OrientedBox<3>{{6, 2, 3}}), 7);
+  EXPECT_EQ(turning_reach<2>(Capsule{2, 5}), 5) << "its ball turns within itself";
+  EXPECT_EQ(turning_reach<3>(Capsule{2, 1e-200}), 1e-200) << "whose square is no number";
+  EXPECT_EQ(turning_reach<2>(AxisBox<2>{{3, 4}}), 0) << "it does not turn";
+  EXPECT_EQ(turning_reach<3>(Sphere{7}), 0);
+  EXPECT_EQ(turning_reach<3>(HalfSpace<3>{{0, 1, 0}}), 0);
+}
+
 // The farthest point of a capsule along an axis is that of one of its end balls.
 template <int D>
 void expect_box_of_end_balls() {

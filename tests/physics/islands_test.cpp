@@ -101,6 +101,22 @@ TEST(Islands, AFreeBodyThatMovesSlowlyDoesNotSleep) {
   EXPECT_NEAR(world.bodies()[0].position.x, 1e-3, 1e-12);
 }
 
+// Drag brakes its way, but nothing its spin.
+TEST(Islands, AFreeBodyThatTurnsSlowlyDoesNotSleepUnlessDragBrakesThat) {
+  for (const double angular_drag : {0.0, 1e-6}) {
+    World<2> world((WorldConfig<2>()));
+    Body<2> ball = ball_at<2>({0, 0});
+    ball.linear_drag = 1;
+    ball.angular_drag = angular_drag;
+    const BodyId id = world.add(ball);
+    world.set_angular_velocity(id, 1e-3);
+    run(world, 10);
+    EXPECT_EQ(world.bodies()[0].asleep, angular_drag > 0) << angular_drag;
+    if (angular_drag > 0) continue;
+    EXPECT_NEAR(world.bodies()[0].orientation.angle, 1e-2, 1e-12);
+  }
+}
+
 TEST(Islands, AreAsManyAsThereArePiles) {
   World<2> world(falling<2>());
   world.add(floor_at<2>());

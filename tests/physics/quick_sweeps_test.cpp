@@ -85,7 +85,11 @@ void from_quick_to_exact(int count, double seconds) {
     const double found = worst_mean_depth(world, seconds);
     EXPECT_LT(found, depth) << error;
     EXPECT_LT(found, error) << error;
-    EXPECT_GT(world.work().constraint_rows, rows) << error;
+    const WorldWork& work = world.work();
+    EXPECT_GT(work.constraint_rows, rows) << error;
+    // Each sweep looks at a point's normal, and then at D - 1 tangents, if anything presses.
+    EXPECT_GT(work.friction_rows, 0u) << error;
+    EXPECT_LE(work.friction_rows, (D - 1) * work.normal_rows) << error;
     depth = found;
     rows = world.work().constraint_rows;
   }

@@ -155,6 +155,21 @@ TEST(World, HasThreeDimensionsToo) {
   EXPECT_EQ(world.bodies()[0].box(), (Box<3>{{1, 2, 3}, {3, 6, 9}}));
 }
 
+// By p / m, and by the arm times p about the centre.
+TEST(World, AnImpulseChangesVelocityAndSpin) {
+  World<2> world;
+  Body<2> struck = ball("struck", {1, 2}, {0.5, 0});
+  struck.mass = 4;
+  const BodyId id = world.add(struck);
+  world.apply_impulse(id, {2, -6}, {4, 2});
+  const Body<2>& body = *world.find(id);
+  EXPECT_EQ(body.velocity, Vec<2>(1, -1.5));
+  EXPECT_EQ(body.angular_momentum, -18);
+  world.apply_impulse(id, {-4, 6}, {1, 2});
+  EXPECT_EQ(body.velocity, Vec<2>(0.0)) << "through the centre: it stops";
+  EXPECT_EQ(body.angular_momentum, -18) << "and turns on";
+}
+
 TEST(World, RemovingASpringThatIsNotThereDoesNothing) {
   World<2> world;
   world.remove_spring(0);

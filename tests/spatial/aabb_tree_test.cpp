@@ -455,6 +455,26 @@ TEST(AabbTree, WithoutAMarginRefitsWhoseBoxHasChanged) {
   EXPECT_EQ(tree.counters().refitted + tree.counters().reinserted, 1u) << "an upper one";
 }
 
+// Inserted one by one, leaves are asked one by one; after an update, though nothing moved, those
+// of a block together.
+TEST(AabbTree, AnUpdateArrangesWhatWasInserted) {
+  Random random(32);
+  const auto items = numbered_world<2>(Sort::uniform, 60, random);
+  AabbTree<2> tree;
+  for (const Item<2>& item : items) tree.insert(item);
+  const auto all = [&] {
+    std::set<BodyId> ids;
+    const WalkCounts walk =
+        tree.each_near({Vec<2>(-1e3), Vec<2>(1e3)}, [&](BodyId id, bool) { ids.insert(id); });
+    EXPECT_EQ(ids.size(), items.size());
+    return walk.compared;
+  };
+  EXPECT_EQ(all(), 0u);
+  tree.update(items);
+  EXPECT_EQ(tree.counters().refitted + tree.counters().reinserted, 0u);
+  EXPECT_EQ(all(), items.size());
+}
+
 // All have changed places: mended, the boxes would be far too large.
 TEST(AabbTree, IsBuiltAnewOnceItHasBecomeMuchWorse) {
   Random random(13);

@@ -129,6 +129,22 @@ TEST(BoxTable, AsksBeforeItsListsGrow) {
   EXPECT_LE(found.size(), 2000u);
 }
 
+// However far back the places lie: room is asked for the length of a run.
+TEST(BoxTable, AShortRunAsksForLittleRoom) {
+  std::vector<Item<2>> items(20'000);
+  for (BodyId i = 0; i < items.size(); ++i) items[i] = {i, {{3.0 * i, 0}, {3.0 * i + 1, 1}}};
+  BoxTable<2> table;
+  table.resize(items.size());
+  for (const Item<2>& item : items) table.set(item.id, item.id, item.box);
+  FoundPairs found;
+  found.ask_before_growing(
+      [](BodyId, std::size_t pairs) { EXPECT_LT(pairs, 1000u) << "for a run of nine places"; });
+  RunScanner<2> runs(table, table, items, found);
+  runs.add(19'990, 19'991, 20'000);
+  runs.finish();
+  EXPECT_EQ(found.size(), 0u);
+}
+
 // By their numbers, below `numbers`.
 void order_pairs(std::vector<Pair>& pairs, std::uint32_t numbers) {
   FoundPairs found;

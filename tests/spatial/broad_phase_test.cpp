@@ -1,10 +1,13 @@
 // Every kind of broad phase against n(n-1)/2 comparisons, in worlds that move, sleep and wake.
 #include "spatial/broad_phase.hpp"
 
+#include <numeric>
+
 #include <gtest/gtest.h>
 
 #include "geometry/shape.hpp"
 #include "spatial/planes.hpp"
+#include "spatial/query.hpp"
 #include "spatial/worlds.hpp"
 
 namespace lantern::spatial {
@@ -370,6 +373,30 @@ TEST(BroadPhase, StaticBodiesHaveTheSameTreeAsMovingOnes) {
     const auto proxies = grid(48);  // of more entries than a tree may have that is made for none
     EXPECT_EQ(nodes_shown(proxies, true, config), nodes_shown(proxies, false, config))
         << to_string(kind);
+  }
+}
+
+// Of a structure that is fitted to its bodies as well, though it takes none after the others.
+TEST(BroadPhase, WhatIsInsertedIsFoundAtOnce) {
+  const Box<2> world{Vec<2>(0.0), Vec<2>(64.0)};
+  for (const StructureKind kind : kinds<2>()) {
+    Random random(21);
+    BroadPhaseConfig<2> config = config_of<2>(kind, Sort::uniform, random);
+    config.split_static = false;
+    BroadPhase<2> phase(config);
+    std::vector<Proxy<2>> proxies;
+    for (BodyId id = 0; id < 40; ++id)
+      proxies.push_back({id, testing::random_box<2>(Sort::uniform, random)});
+    const std::span<const Proxy<2>> all(proxies);
+    std::size_t inserted = 0;
+    for (const std::size_t more : {1u, 24u, 15u}) {
+      phase.insert(all.subspan(inserted, more));
+      inserted += more;
+      std::vector<BodyId> ids(inserted);
+      std::iota(ids.begin(), ids.end(), BodyId{0});
+      const auto box_of = [&](BodyId id) { return proxies[id].box; };
+      EXPECT_EQ(overlap_query<2>(phase.dynamic(), world, box_of).ids, ids) << to_string(kind);
+    }
   }
 }
 

@@ -266,6 +266,35 @@ TEST(Grid, AHashedGridShowsItsBuckets) {
   EXPECT_GT(buckets, 30u);
 }
 
+TEST(Grid, AHashedGridIsNoLargerThanItsCellsEvenFarFromItsBounds) {
+  Grid<2> grid({.bounds = {{0, 0}, {16, 16}}, .cell = 1, .open = true});
+  grid.insert({0, Box<2>::around({100.5, 200.5}, Vec<2>(0.2))});
+  grid.insert({1, Box<2>::around({103.5, 201.5}, Vec<2>(0.2))});
+  std::vector<Box<2>> boxes;
+  grid.visit([&](const NodeView<2>& node) {
+    if (node.depth != 1) boxes.push_back(node.box);  // the root, and the cells
+    return true;
+  });
+  ASSERT_EQ(boxes.size(), 3u);
+  EXPECT_EQ(boxes[0], united(boxes[1], boxes[2]));
+  EXPECT_EQ(boxes[0], (Box<2>{{100, 200}, {104, 202}}));
+}
+
+// A solid one's slices follow one another.
+TEST(Grid, IsArrangedInRowsOfItsCells) {
+  Grid<2> flat({.bounds = {{0, 0}, {10, 6}}, .cell = 2});
+  const Arrangement rows = flat.arrangement();
+  ASSERT_EQ(rows.levels.size(), 1u);
+  EXPECT_EQ(rows.levels[0].side, 2);
+  EXPECT_EQ(rows.levels[0].columns, 5u);
+  EXPECT_EQ(rows.levels[0].rows, 3u);
+  Grid<3> solid({.bounds = {{0, 0, 0}, {10, 6, 8}}, .cell = 2});
+  const Arrangement slices = solid.arrangement();
+  ASSERT_EQ(slices.levels.size(), 1u);
+  EXPECT_EQ(slices.levels[0].columns, 5u);
+  EXPECT_EQ(slices.levels[0].rows, 3u * 4u);
+}
+
 TEST(Grid, ChoosesCellsThatSuitItsBodies) {
   Random random(3);
   for (const double size : {1e-6, 1.0, 1e6}) {

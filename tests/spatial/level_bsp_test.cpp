@@ -211,5 +211,23 @@ TEST(LevelBsp, WallsOnOneLineAreTriedOnce) {
   EXPECT_EQ(c.depth, 0u);
 }
 
+// Far above the origin, and leaning over so that of each side's ends neither tells on which side
+// the pillar lies.
+TEST(LevelBsp, APillarInALeaningRoomIsStoneWhicheverWayItsCornersRun) {
+  const std::vector<Vec<2>> room = {{10, 10}, {14, 10}, {24, 20}, {20, 20}};
+  const std::vector<Vec<2>> pillar = {{20.5, 18.5}, {21.5, 18.5}, {21.5, 19.5}, {20.5, 19.5}};
+  for (const bool room_turned : {false, true})
+    for (const bool pillar_turned : {false, true}) {
+      testing::Loops loops = {room, pillar};
+      if (room_turned) std::ranges::reverse(loops[0]);
+      if (pillar_turned) std::ranges::reverse(loops[1]);
+      const LevelBsp bsp = compile_level(walls_of_loops(loops), {{0, 0}, {32, 32}});
+      EXPECT_FALSE(bsp.locate({21, 19})->floor) << "in the pillar";
+      for (const Vec<2> beside :
+           {Vec<2>(20, 19), Vec<2>(22, 19), Vec<2>(20.5, 18), Vec<2>(22, 19.7)})
+        EXPECT_TRUE(bsp.locate(beside)->floor) << beside.x << ", " << beside.y;
+    }
+}
+
 }  // namespace
 }  // namespace lantern::spatial

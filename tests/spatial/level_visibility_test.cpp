@@ -123,6 +123,17 @@ TEST(LevelVisibility, SeesThePassageButNotBackThroughTheOtherDoor) {
   EXPECT_FALSE(seen.sees(sector({1, 3.5}), sector({1, 7.5})));
 }
 
+// Both halves of an L border on the other, and on nothing else but walls.
+TEST(LevelVisibility, APortalLiesBetweenTwoSectors) {
+  const Loops loops = {{{1, 1}, {4, 1}, {4, 4}, {7, 4}, {7, 7}, {1, 7}}};
+  const LevelBsp bsp = compile_level(walls_of_loops(loops), {{0, 0}, {8, 8}});
+  const LevelVisibility seen = find_visibility(bsp);
+  ASSERT_EQ(seen.portals.size(), 1u);
+  EXPECT_EQ(seen.portals[0].a, 0u);
+  EXPECT_EQ(seen.portals[0].b, 1u);
+  EXPECT_NEAR(length(seen.portals[0].line), 3, 1e-9);
+}
+
 TEST(LevelVisibility, TellsThePortalsAndThenEachSector) {
   const LevelBsp bsp = compile_level(watchtower().walls, kWatchtowerBounds);
   std::vector<std::uint32_t> done;

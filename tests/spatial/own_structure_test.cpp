@@ -419,6 +419,48 @@ TEST(StructureTrial, AWrongTreeFailsOnASmallWorld) {
   EXPECT_EQ(try_structure(kind_named("by_middle"), 28, 1).fault, trial.fault);
 }
 
+// Two bodies whose middles lie apart are enough for by_middle to miss their pair. They come first:
+// one alone that is not listed where it reaches is a fault, too.
+TEST(StructureTrial, AWorldIsShrunkToThePairThatIsMissed) {
+  const StructureKind kind = kind_named("by_middle");
+  TrialWorld world;
+  world.bounds = kWorld;
+  world.max_depth = 3;
+  world.bodies.push_back({{29.3, 10.1}, Vec<2>(4.7)});
+  world.bodies.push_back({{34.9, 11.2}, Vec<2>(4.6)});
+  for (int i = 0; i < 6; ++i) world.bodies.push_back({{10.5 * i + 1.3, 50.7 - i}, Vec<2>(0.3)});
+  EXPECT_TOLD(fault_in(kind, world).value_or(""), "their pair is missed");
+  const TrialWorld least = shrunk(kind, world);
+  EXPECT_EQ(least.bodies.size(), 2u);
+  EXPECT_EQ(least.max_depth, 1u) << "one split parts them";
+  EXPECT_TOLD(fault_in(kind, least).value_or(""), "their pair is missed");
+}
+
+// What all with all compare is known.
+TEST(StructureTrial, ABenchTimesStructuresOfTheSameBodies) {
+  const StructureBench bench{.kinds = {StructureKind::brute_force, StructureKind::quadtree,
+                                       StructureKind::sort_and_sweep, kind_named("borrowed")},
+                             .bodies = {60},
+                             .rounds = 1};
+  std::uint64_t told = 0;
+  const std::vector<StructureTime> rows = bench_structures(bench, [&] { ++told; });
+  EXPECT_EQ(rows.size(), structure_bench_rows(bench));
+  EXPECT_EQ(told, rows.size());
+  for (const StructureTime& row : rows) {
+    SCOPED_TRACE(row.scene + " " + std::string(to_string(row.kind)));
+    EXPECT_EQ(row.fault, "");
+    EXPECT_EQ(row.bodies, 60u);
+    EXPECT_EQ(row.missed + row.invented, 0u);
+    EXPECT_EQ(row.build.repeats, 1);
+    EXPECT_GE(row.entries, 60u) << "each body lies somewhere";
+    EXPECT_GT(row.pair_tests, 0u);
+    if (row.kind != StructureKind::brute_force) continue;
+    EXPECT_EQ(row.nodes, 1u);
+    EXPECT_EQ(row.entries, 60u);
+    EXPECT_EQ(row.pair_tests, 60u * 59 / 2);
+  }
+}
+
 // One that covers the world is listed in six of seven leaves: four are named.
 TEST(OwnStructure, OfManyLeavesOnlyTheFirstAreNamed) {
   std::vector<Said> said{{kWorld, 0, false}};

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "spatial/box_worlds.hpp"
 #include "spatial/trees/brute_force.hpp"
 #include "spatial/trees/bsp.hpp"
 #include "spatial/trees/orthtree.hpp"
@@ -91,6 +92,39 @@ TEST(BruteForce, HoldsAllInOneLeafAscending) {
   EXPECT_EQ(all.counters().entries, 3u);
   all.clear();
   EXPECT_EQ(all.counters().entries, 0u);
+}
+
+// Its one leaf has no limit that a count could pass.
+TEST(BruteForce, TellsThatItsLeafHasNoLimit) {
+  BruteForce<2> all;
+  std::vector<std::uint32_t> counts;
+  const auto watch = [&](const Event& event) {
+    EXPECT_EQ(event.kind, Event::Kind::store);
+    EXPECT_EQ(event.node, 0u);
+    EXPECT_EQ(event.limit, 0u);
+    counts.push_back(event.count);
+  };
+  for (BodyId id = 5; id < 8; ++id) all.insert({id, {{0, 0}, {1, 1}}}, watch);
+  EXPECT_EQ(counts, (std::vector<std::uint32_t>{1, 2, 3}));
+}
+
+template <int D>
+void expect_one_huge_box() {
+  for (const BoxSort sort : {BoxSort::uniform, BoxSort::clustered, BoxSort::one_huge,
+                             BoxSort::in_line, BoxSort::moving}) {
+    const BoxUpdates<D> scene = seeded_boxes<D>(sort, 60, 3);
+    const double half_a_world = extent_of(scene.bounds) / 2;
+    for (const std::vector<Proxy<D>>& frame : scene.frames)
+      EXPECT_EQ(std::ranges::count_if(
+                    frame, [&](const Proxy<D>& p) { return extent_of(p.box) > half_a_world; }),
+                sort == BoxSort::one_huge)
+          << D << "D, sort " << static_cast<int>(sort);
+  }
+}
+
+TEST(SeededBoxes, OneIsHugeOnlyWhereOneShallBe) {
+  expect_one_huge_box<2>();
+  expect_one_huge_box<3>();
 }
 
 }  // namespace

@@ -402,5 +402,21 @@ TEST(RayProbe, ARayInAPlaneLiesOnBothItsSides) {
   }
 }
 
+// Of each side of a plane the ray has a part, which ends, or begins, where it crosses.
+TEST(RayProbe, ARayIsPartedWhereItCrossesAPlane) {
+  const Plane<2> plane{{1, 0}, 4};
+  for (const bool rises : {true, false}) {
+    const Ray<2> ray{{rises ? 0.0 : 8.0, 5}, {rises ? 1.0 : -1.0, 0}, 7};
+    const RayProbe<2> probe{ray};
+    const auto first = probe.beside(probe.whole(), plane, !rises);
+    const auto second = probe.beside(probe.whole(), plane, rises);
+    ASSERT_TRUE(first && second);
+    EXPECT_EQ(first->from, 0);
+    EXPECT_NEAR(first->to, 4, 1e-12);
+    EXPECT_NEAR(second->from, 4, 1e-12);
+    EXPECT_EQ(second->to, 7);
+  }
+}
+
 }  // namespace
 }  // namespace lantern::spatial

@@ -12,6 +12,7 @@
 #include "spatial/query.hpp"
 #include "spatial/trees/bsp.hpp"
 #include "spatial/trees/kd_tree.hpp"
+#include "spatial/trees/lecture_quadtree.hpp"
 #include "spatial/trees/orthtree.hpp"
 #include "spatial/trees/sort_and_sweep.hpp"
 #include "spatial/worlds.hpp"
@@ -90,6 +91,18 @@ TEST_F(HearsStop, AWalkThroughATree) {
   const auto box_of = [&](BodyId id) { return items[id].box; };
   EXPECT_THROW(overlap_query(tree, kStopBounds, box_of, wish_at(500)), Stopped);
   EXPECT_LE(after_, kMostAfter);
+}
+
+TEST_F(HearsStop, AWalkThroughTheLecturesTree) {
+  LectureQuadtree tree({.bounds = kStopBounds, .capacity = 2, .max_depth = 8});
+  for (const Item<2>& item : stop_items(500)) tree.insert(item);
+  auto wish = wish_at(100);
+  const auto all = [&](const NodeView<2>&) {
+    wish();
+    return true;
+  };
+  EXPECT_THROW(tree.visit(all), Stopped);
+  EXPECT_EQ(after_, 0) << "it is asked at each node";
 }
 
 TEST_F(HearsStop, ThePairsOfLeaves) {

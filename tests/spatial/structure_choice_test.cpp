@@ -30,6 +30,9 @@ TEST(StructureChoice, ComparesAllOfAFewAndOfACrowdAndPartsTheRest) {
   const auto grounded = choose_structure<2>(on_ground, config);
   EXPECT_NE(grounded.why.find("largest 1 times"), std::string::npos) << grounded.why;
   EXPECT_LT(grounded.config.bounds.size().x, 200);
+  on_ground.push_back({3001, {Vec<2>(50.0), Vec<2>(60.0)}});
+  const auto with_large = choose_structure<2>(on_ground, config);
+  EXPECT_NE(with_large.why.find("largest 10 times"), std::string::npos) << with_large.why;
   const auto many = choose_structure<2>(spread<2>(3000, 100, random), config);
   EXPECT_EQ(many.kind, StructureKind::grid);
   EXPECT_NE(many.why.find("3000 bodies"), std::string::npos) << many.why;
