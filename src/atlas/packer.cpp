@@ -212,7 +212,7 @@ std::uint64_t Packer::bytes() const {
   return sum;
 }
 
-bool Packer::try_one(std::size_t number, std::span<const Rect> leaves, std::int64_t spare,
+void Packer::try_one(std::size_t number, std::span<const Rect> leaves, std::int64_t spare,
                      Packing& best) {
   const Hold hold = turn_ ? kTurnedHolds[number / kTrials.size()] : Hold::as_given;
   const bool columns = hold == Hold::standing || (hold == Hold::as_given && are_high_);
@@ -226,11 +226,10 @@ bool Packer::try_one(std::size_t number, std::span<const Rect> leaves, std::int6
   const bool ended = filling.fill(leaves, spare);
   ++best.trials;
   best.leaf_tests += filling.leaf_tests;
-  if (!ended || filling.packed_area <= best.packed_area) return false;
+  if (!ended || filling.packed_area <= best.packed_area) return;
   best.packed_area = filling.packed_area;
   best.steps = std::move(filling.steps);
   best.complete = textures.left() == 0;
-  return best.complete;
 }
 
 Packing Packer::pack(std::span<const Rect> leaves, std::size_t trials) {

@@ -171,7 +171,7 @@ class Packer {
 
  private:
   Stock& stock(Holding holding);
-  bool try_one(std::size_t number, std::span<const Rect> leaves, std::int64_t spare, Packing& best);
+  void try_one(std::size_t number, std::span<const Rect> leaves, std::int64_t spare, Packing& best);
 
   std::vector<TextureSize> textures_;
   bool turn_;
