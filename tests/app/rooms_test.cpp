@@ -147,6 +147,19 @@ TEST(Rooms, PagesNameFilesThatAreThere) {
   }
 }
 
+// A script that compiles a source by name must not outlive it.
+TEST(Rooms, ScriptsNameSourcesThatAreThere) {
+  const std::regex source("src/[A-Za-z0-9_/]+\\.[ch]pp");
+  std::size_t named = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(repository("tests"))) {
+    if (entry.path().extension() != ".sh") continue;
+    const std::string text = read_text(entry.path());
+    for (std::sregex_iterator it(text.begin(), text.end(), source), end; it != end; ++it, ++named)
+      EXPECT_TRUE(fs::exists(repository(it->str()))) << entry.path() << " names " << it->str();
+  }
+  EXPECT_GT(named, 0u) << "the search found nothing: is it broken?";
+}
+
 // Whoever asks what a structure is like asks its traits (src/spatial/structure_kind.hpp), so that a
 // new one is known everywhere. Named are kinds only where one of them is meant, as often as this.
 TEST(Rooms, NameNoStructureButWhereItIsMeant) {
