@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "app/progress.hpp"
 #include "app/report_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "frame/frame.hpp"
+#include "frame/parts/motion.hpp"
 #include "language/counts.hpp"
 #include "physics/forces.hpp"
 #include "physics/joint.hpp"
