@@ -76,7 +76,7 @@ int run_experiment(Experiment& experiment, const ExperimentRun& as) {
     experiment.prepare();
     ReportFolder folder(as.output, as.file);
     const std::string kept = as.file + ".json";
-    go_on_from(folder, kept, experiment);
+    if (experiment.resumes()) go_on_from(folder, kept, experiment);
     for (const std::string& words : experiment.announcement()) say(words);
     try {
       Progress progress(as.command, experiment.stages(), experiment.unit());
@@ -96,10 +96,10 @@ int run_experiment(Experiment& experiment, const ExperimentRun& as) {
     if (as.text) folder.write(as.file + ".txt", texts.table);
     tell(texts, as.json);
     if (stop_asked()) {
-      complain(experiment.so_far().empty()
-                   ? fmt::format("interrupted; the {} that were done have been reported",
-                                 experiment.unit())
-                   : "interrupted; the same command goes on from here");
+      complain(experiment.resumes()
+                   ? "interrupted; the same command goes on from here"
+                   : fmt::format("interrupted; the {} that were done have been reported",
+                                 experiment.unit()));
       return kInterrupted;
     }
     if (folder.wanted() && as.draws) {

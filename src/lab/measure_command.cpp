@@ -194,6 +194,7 @@ class Measure : public Experiment {
             fmt::format("a time step of {} s is not allowed; it must be above 0", step));
   }
 
+  bool resumes() const override { return true; }
   // Rows are taken that were made under the same circumstances.
   std::string resume(const std::optional<std::string>& earlier) override {
     std::string why;

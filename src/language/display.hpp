@@ -58,8 +58,8 @@ inline EnumNames names(Look) {
   return {"ghost", "player", "ball", "bat", "disc", "box", "person", "demon", "item"};
 }
 
-// Panels: what a page is made of. Each is a file of draw/panels/, whose entry (draw/panel.hpp) has
-// all that is known of it; of that the language is given this.
+// Panels: what a page is made of. Each is an entry (draw/panel.hpp) in the file that draws it, which
+// has all that is known of it; of that the language is given this.
 struct Draft;
 
 // A panel by its place in the list.

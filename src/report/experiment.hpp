@@ -179,8 +179,9 @@ class Experiment {
   // Reads what the options name, so that mistakes are told before anything runs. Throws Refused and
   // what reading a file throws.
   virtual void prepare() {}
-  // One that goes on where an earlier run was cut gives what it has so far, and takes the JSON of
-  // its folder, if there is one; `resume` says why it does not use that.
+  // One that goes on where an earlier run was cut takes the JSON of its folder, if there is one,
+  // and gives what it has so far; `resume` says why it does not use what it was given.
+  virtual bool resumes() const { return false; }
   virtual std::string so_far() const { return ""; }
   virtual std::string resume(const std::optional<std::string>& /*earlier*/) { return ""; }
   virtual std::vector<std::string> announcement() const { return {}; }
