@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "draw/number_text.hpp"
+#include "geometry/elementary.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -67,8 +68,8 @@ Axis Axis::linear(double least, double most, int most_ticks) {
 Axis Axis::logarithmic(double least_above_zero, double most, int most_ticks) {
   Axis axis;
   axis.logarithmic_ = true;
-  axis.low_ = std::floor(std::log10(std::clamp(least_above_zero, 1e-150, 1e150)));
-  axis.high_ = std::ceil(std::log10(std::clamp(most, 1e-150, 1e150)));
+  axis.low_ = std::floor(geometry::log10(std::clamp(least_above_zero, 1e-150, 1e150)));
+  axis.high_ = std::ceil(geometry::log10(std::clamp(most, 1e-150, 1e150)));
   if (axis.high_ <= axis.low_) axis.high_ = axis.low_ + 1;
   const auto decades = static_cast<int>(axis.high_ - axis.low_);
   const int every = std::max(1, (decades + most_ticks - 2) / std::max(1, most_ticks - 1));
@@ -85,8 +86,8 @@ Axis Axis::logarithmic(double least_above_zero, double most, int most_ticks) {
 Axis Axis::fitted(double least_above_zero, double most, int most_ticks) {
   constexpr double kAir = 0.04;  // of the range, at both ends
   constexpr double kMostPower = 300;
-  const double a = std::clamp(std::log10(least_above_zero), -kMostPower, kMostPower);
-  const double b = std::clamp(std::log10(most), a, kMostPower);
+  const double a = std::clamp(geometry::log10(least_above_zero), -kMostPower, kMostPower);
+  const double b = std::clamp(geometry::log10(most), a, kMostPower);
   Axis axis;
   axis.logarithmic_ = true;
   axis.low_ = a - kAir * (b - a) - 0.05;
@@ -115,7 +116,7 @@ bool Axis::add_parts(double decades, int most_ticks) {
   if (decades < kLeastDecades) return false;
   for (int power = static_cast<int>(std::floor(low_)); power <= high_; ++power)
     for (const int part : {1, 2, 5}) {
-      const double at = power + std::log10(part), value = part * power_value(power);
+      const double at = power + geometry::log10(part), value = part * power_value(power);
       if (at < low_ || at > high_) continue;
       const bool is_plain = power >= -1 && power <= 1;  // 0.5, 2, 20
       const std::string text = part == 1  ? power_of_ten(power)
@@ -135,15 +136,15 @@ double Axis::share(double value) const {
 
 double Axis::place(double value) const {
   double at = value;
-  if (logarithmic_) at = value > 0 ? std::log10(value) : low_;
+  if (logarithmic_) at = value > 0 ? geometry::log10(value) : low_;
   const double place = (at - low_) / (high_ - low_);
   return std::isnan(place) ? 0 : place;
 }
 
 Axis Axis::cut_to(std::optional<double> low, std::optional<double> high) const {
   Axis axis = *this;
-  if (low) axis.low_ = logarithmic_ ? std::log10(*low) : *low;
-  if (high) axis.high_ = logarithmic_ ? std::log10(*high) : *high;
+  if (low) axis.low_ = logarithmic_ ? geometry::log10(*low) : *low;
+  if (high) axis.high_ = logarithmic_ ? geometry::log10(*high) : *high;
   std::erase_if(axis.ticks_, [&](const Tick& tick) {
     const double at = axis.place(tick.value);
     return at < -1e-9 || at > 1 + 1e-9;

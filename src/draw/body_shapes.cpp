@@ -1,8 +1,8 @@
 #include "draw/body_shapes.hpp"
 
-#include <cmath>
 #include <numbers>
 
+#include "geometry/elementary.hpp"
 #include "geometry/flat.hpp"
 #include "geometry/plane.hpp"
 namespace lantern::draw {
@@ -15,7 +15,7 @@ std::vector<Vec<2>> capsule_outline(const Capsule& capsule) {
   for (const int end : {1, -1})
     for (int i = 0; i <= kPerEnd; ++i) {
       const double angle = (i / double(kPerEnd) + (end < 0)) * std::numbers::pi;
-      points.push_back(Vec<2>(std::cos(angle), std::sin(angle)) * capsule.radius +
+      points.push_back(Vec<2>(geometry::cos(angle), geometry::sin(angle)) * capsule.radius +
                        Vec<2>(0, end * capsule.half_length));
     }
   return points;
@@ -54,7 +54,7 @@ Vec<3> link_end(const FrameBody& body, const FrameBody& other) {
 std::vector<Vec<2>> turned_outline(const FrameBody& body, const Box<2>& place) {
   std::vector<Vec<2>> points = turning_outline(body.shape);
   if (points.empty()) return points;
-  const double c = std::cos(body.angle), s = std::sin(body.angle);
+  const double c = geometry::cos(body.angle), s = geometry::sin(body.angle);
   Vec<2> reach{0.0};  // from the middle
   for (Vec<2>& p : points) {
     p = Vec<2>(c * p.x - s * p.y, -(s * p.x + c * p.y));
@@ -75,8 +75,8 @@ std::vector<Vec<2>> turned_outline(const FrameBody& body, const Box<2>& place) {
 Plane<2> page_surface(const FrameBody& body, const Vec<2>& through) {
   const Vec<3>& normal = std::get<HalfSpace<3>>(body.shape).normal;
   Vec<2> on_page{normal.x, -normal.y};
-  if (!(std::hypot(on_page.x, on_page.y) > 1e-9)) on_page = {0, -1};  // seen from above
-  return Plane<2>::through(through, on_page / std::hypot(on_page.x, on_page.y));
+  if (!(geometry::hypot(on_page.x, on_page.y) > 1e-9)) on_page = {0, -1};  // seen from above
+  return Plane<2>::through(through, on_page / geometry::hypot(on_page.x, on_page.y));
 }
 
 void draw_icon(const FrameBody* body, const Box<2>& place, DrawList& list) {

@@ -5,6 +5,7 @@
 
 #include "draw/body_shapes.hpp"
 #include "draw/pen.hpp"
+#include "geometry/elementary.hpp"
 #include "geometry/plane.hpp"
 
 namespace lantern::draw {
@@ -26,7 +27,7 @@ struct Figure {
 
 // Along the velocity on the page; at rest `calm`.
 Vec<2> direction(const FrameBody& body, const Vec<2>& calm) {
-  const double speed = std::hypot(body.velocity.x, body.velocity.y);
+  const double speed = geometry::hypot(body.velocity.x, body.velocity.y);
   if (!(speed > 1e-9)) return calm;
   return {body.velocity.x / speed, -body.velocity.y / speed};
 }
@@ -63,11 +64,11 @@ void draw_ghost(const FrameBody& body, const Figure& f, DrawList& list) {
   PolygonShape shape{{}, fill_of(body), rim_of(body, f)};
   for (int i = 0; i < kDome; ++i) {
     const double angle = kPi * (1.0 - i / double(kDome - 1));
-    shape.points.push_back(f.at(0.94 * std::cos(angle), -0.06 - 0.92 * std::sin(angle)));
+    shape.points.push_back(f.at(0.94 * geometry::cos(angle), -0.06 - 0.92 * geometry::sin(angle)));
   }
   for (int i = 0; i <= kScallops * kPerScallop; ++i) {
     const double along = i / double(kScallops * kPerScallop);
-    const double lift = std::abs(std::sin(kPi * kScallops * along));
+    const double lift = std::abs(geometry::sin(kPi * kScallops * along));
     shape.points.push_back(f.at(0.94 * (1 - 2 * along), 0.98 - 0.3 * lift));
   }
   list.shapes.emplace_back(std::move(shape));
@@ -105,11 +106,11 @@ void draw_item(const FrameBody& body, const Figure& f, DrawList& list) {
 void draw_player(const FrameBody& body, const Figure& f, DrawList& list) {
   constexpr int kRim = 32;
   constexpr double kMouth = 0.185 * kPi;  // half of its opening
-  const double ahead = std::atan2(f.gaze.y, f.gaze.x);
+  const double ahead = geometry::atan2(f.gaze.y, f.gaze.x);
   PolygonShape shape{{}, fill_of(body), rim_of(body, f)};
   for (int i = 0; i <= kRim; ++i) {
     const double angle = ahead + kMouth + (2 * kPi - 2 * kMouth) * i / kRim;
-    shape.points.push_back(f.at(0.96 * std::cos(angle), 0.96 * std::sin(angle)));
+    shape.points.push_back(f.at(0.96 * geometry::cos(angle), 0.96 * geometry::sin(angle)));
   }
   shape.points.push_back(f.center - Vec<2>(f.gaze.x * f.half.x, f.gaze.y * f.half.y) * 0.14);
   list.shapes.emplace_back(std::move(shape));
@@ -125,8 +126,8 @@ void draw_person(const FrameBody& body, const Figure& f, DrawList& list) {
   PolygonShape shape{{}, fill_of(body), rim_of(body, f)};
   for (int i = 0; i < kShoulders; ++i) {
     const double angle = kPi * (1.0 - i / double(kShoulders - 1));
-    shape.points.push_back(
-        {f.center.x + shoulders.x * std::cos(angle), top + shoulders.y * (1 - std::sin(angle))});
+    shape.points.push_back({f.center.x + shoulders.x * geometry::cos(angle),
+                            top + shoulders.y * (1 - geometry::sin(angle))});
   }
   shape.points.push_back({f.center.x + shoulders.x, bottom});
   shape.points.push_back({f.center.x - shoulders.x, bottom});
@@ -183,7 +184,7 @@ void draw_round(const FrameBody& body, const Figure& f, DrawList& list) {
   list.rect(Box<2>::around(f.center, f.half - Vec<2>(0.04 * f.unit)), fill_of(body),
             rim_of(body, f), 0.96 * f.unit);
   if (body.angle == 0 && body.angular_momentum.z == 0) return;
-  const Vec<2> way{std::cos(body.angle), -std::sin(body.angle)};  // how far it has turned
+  const Vec<2> way{geometry::cos(body.angle), -geometry::sin(body.angle)};  // how far it has turned
   const double r = 0.96 * f.unit - f.line;
   list.line(f.center + way * (0.36 * r), f.center + way * r, rim_of(body, f));
 }

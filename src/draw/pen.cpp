@@ -6,6 +6,7 @@
 #include <numbers>
 #include <tuple>
 
+#include "geometry/elementary.hpp"
 #include "geometry/not_finite.hpp"
 #include "geometry/plane.hpp"
 #include "geometry/ray.hpp"
@@ -26,7 +27,7 @@ std::vector<Vec<2>> outline_of(const RectShape& shape) {
                         corner < 2 ? centers.hi.y : centers.lo.y};
     for (int i = 0; i <= kPerCorner; ++i) {
       const double angle = (corner + i / double(kPerCorner)) * std::numbers::pi / 2;
-      points.push_back(center + Vec<2>(std::cos(angle), std::sin(angle)) * radius);
+      points.push_back(center + Vec<2>(geometry::cos(angle), geometry::sin(angle)) * radius);
     }
   }
   return points;
@@ -121,7 +122,7 @@ void Pen::path(const std::vector<Vec<2>>& points, bool closed, const Stroke& str
 void Pen::arrow(const Vec<2>& from, const Vec<2>& to, const Stroke& stroke, double head,
                 double casing) {
   const Vec<2> way = to - from;
-  const double length = std::hypot(way.x, way.y);
+  const double length = geometry::hypot(way.x, way.y);
   if (!std::isfinite(length) || !(length > 1e-6)) return;
   head = std::min(head, 0.8 * length);
   line(from, to - way * (0.7 * head / length), stroke, casing);
@@ -178,7 +179,7 @@ std::vector<Vec<2>> ring_of(const Vec<2>& center, double radius, int corners, do
   std::vector<Vec<2>> points;
   for (int i = 0; i < corners; ++i) {
     const double angle = turn + 2 * std::numbers::pi * i / corners;
-    points.push_back(center + Vec<2>(std::cos(angle), std::sin(angle)) * radius);
+    points.push_back(center + Vec<2>(geometry::cos(angle), geometry::sin(angle)) * radius);
   }
   return points;
 }

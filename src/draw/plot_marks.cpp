@@ -1,7 +1,6 @@
 #include "draw/plot_marks.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -9,6 +8,7 @@
 #include "draw/font.hpp"
 #include "draw/pen.hpp"
 #include "draw/plot_parts.hpp"
+#include "geometry/elementary.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -28,7 +28,7 @@ std::vector<Vec<2>> star(const Vec<2>& at, double radius, int tips, double inner
 std::vector<Vec<2>> plus(const Vec<2>& at, double radius, double half, double turn) {
   std::vector<Vec<2>> points;
   for (int arm = 0; arm < 4; ++arm) {
-    const double a = turn + 2 * kQuarter * arm, c = std::cos(a), s = std::sin(a);
+    const double a = turn + 2 * kQuarter * arm, c = geometry::cos(a), s = geometry::sin(a);
     for (const Vec<2>& p : {Vec<2>{half, -half}, Vec<2>{1, -half}, Vec<2>{1, half}})
       points.push_back(at + radius * Vec<2>{c * p.x - s * p.y, s * p.x + c * p.y});
   }

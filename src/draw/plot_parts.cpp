@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "draw/pen.hpp"
+#include "geometry/elementary.hpp"
 #include "geometry/not_finite.hpp"
 
 namespace lantern::draw {
@@ -38,7 +39,7 @@ std::vector<Vec<2>> fan(const std::vector<PlotSlope>& slopes, const Vec<2>& deca
   std::vector<Vec<2>> ends;
   for (const PlotSlope& slope : slopes) {
     const Vec<2> direction{decade.x, -slope.exponent * decade.y};
-    ends.push_back(direction * (reach / std::hypot(direction.x, direction.y)));
+    ends.push_back(direction * (reach / geometry::hypot(direction.x, direction.y)));
   }
   return ends;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "geometry/elementary.hpp"
 #include "geometry/not_finite.hpp"
 
 namespace lantern::draw {
@@ -42,7 +43,8 @@ std::vector<Vec<3>> circle(const Vec<3>& axis, double cosine) {
   std::vector<Vec<3>> normals;
   for (int i = 0; i < kPoints; ++i) {
     const double angle = 2 * std::numbers::pi * i / kPoints;
-    normals.push_back(axis * cosine + (side * std::cos(angle) + other * std::sin(angle)) * sine);
+    normals.push_back(axis * cosine +
+                      (side * geometry::cos(angle) + other * geometry::sin(angle)) * sine);
   }
   return normals;
 }
@@ -53,13 +55,13 @@ std::vector<Vec<3>> all_round(const Box<3>& box, const Vec<3>& middle) {
   constexpr int kWays = 48;
   double radius = 0;
   for (const Vec<3>& c : corners_of(box))
-    radius = std::max(radius, std::hypot(c.x - middle.x, c.z - middle.z));
+    radius = std::max(radius, geometry::hypot(c.x - middle.x, c.z - middle.z));
   std::vector<Vec<3>> points;
   for (int i = 0; i < kWays; ++i) {
     const double angle = 2 * std::numbers::pi * i / kWays;
     for (const double y : {box.lo.y, box.hi.y})
       points.push_back(
-          {middle.x + radius * std::cos(angle), y, middle.z + radius * std::sin(angle)});
+          {middle.x + radius * geometry::cos(angle), y, middle.z + radius * geometry::sin(angle)});
   }
   return points;
 }
@@ -161,7 +163,7 @@ void View3D::fit(const Camera& camera, bool chosen) {
   }
   const double field = camera.field_of_view;
   const double angle = field > 0.01 && field < 3 ? field : 0.7;
-  scale_ = std::max(room.size().y, 1.0) / 2 / std::tan(angle / 2);
+  scale_ = std::max(room.size().y, 1.0) / 2 / geometry::tan(angle / 2);
   if (contains(bounds_, eye_)) return;
   Outline corners;
   for (const Vec<3>& corner :

@@ -1,11 +1,11 @@
 #include "draw/texture_picture.hpp"
 
-#include <cmath>
 #include <numbers>
 #include <utility>
 #include <vector>
 
 #include "draw/pen.hpp"
+#include "geometry/elementary.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -55,8 +55,9 @@ void paint_heart(Easel& easel) {
   std::vector<Vec<2>> outline;
   for (int i = 0; i < kCorners; ++i) {
     const double t = 2 * std::numbers::pi * i / kCorners;
-    const double x = 16 * std::pow(std::sin(t), 3);
-    const double y = 13 * std::cos(t) - 5 * std::cos(2 * t) - 2 * std::cos(3 * t) - std::cos(4 * t);
+    const double x = 16 * geometry::pow(geometry::sin(t), 3);
+    const double y = 13 * geometry::cos(t) - 5 * geometry::cos(2 * t) - 2 * geometry::cos(3 * t) -
+                     geometry::cos(4 * t);
     outline.emplace_back(0.5 + 0.024 * x, 0.46 - 0.024 * y);
   }
   easel.polygon(outline);

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "base/error.hpp"
+#include "geometry/elementary.hpp"
 #include "geometry/not_finite.hpp"
 
 namespace lantern::geometry {
@@ -234,7 +235,7 @@ Frustum<3> view_frustum(const Vec<3>& eye, const Vec<3>& target, const Vec<3>& u
   const Vec<3> forward = direction<3>(target - eye, "the way from eye to target");
   const Vec<3> right =
       direction<3>(glm::cross(forward, direction<3>(up, "up")), "up, seen from the eye,");
-  const double tangent = std::tan(fov / 2);
+  const double tangent = tan(fov / 2);
   return frustum_of<3>(eye, {forward, right, glm::cross(right, forward)},
                        {tangent * aspect, tangent}, near, far);
 }
@@ -244,7 +245,7 @@ Frustum<2> view_wedge(const Vec<2>& eye, const Vec<2>& toward, double opening, d
   require_view(opening, near, far);
   require_finite(eye, "view", "eye");
   const Vec<2> forward = direction<2>(toward, "direction");
-  return frustum_of<2>(eye, {forward, Vec<2>(forward.y, -forward.x)}, {std::tan(opening / 2)}, near,
+  return frustum_of<2>(eye, {forward, Vec<2>(forward.y, -forward.x)}, {tan(opening / 2)}, near,
                        far);
 }
 

@@ -1,13 +1,13 @@
 // How a body is turned: an angle in 2D, a unit quaternion in 3D.
 #pragma once
 
-#include <cmath>
 #include <type_traits>
 
 #include <glm/gtc/quaternion.hpp>
 #include <glm/mat2x2.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "geometry/elementary.hpp"
 #include "geometry/vec.hpp"
 
 namespace lantern::geometry {
@@ -35,7 +35,7 @@ struct Rotation<3> {
 
 // Columns are the body's axes in the world: matrix(r) * local = world.
 inline Mat<2> matrix(const Rotation<2>& r) {
-  const double c = std::cos(r.angle), s = std::sin(r.angle);
+  const auto [s, c] = sin_cos(r.angle);
   return {Vec<2>(c, s), Vec<2>(-s, c)};
 }
 inline Mat<3> matrix(const Rotation<3>& r) { return glm::mat3_cast(r.q); }
@@ -45,8 +45,9 @@ inline Rotation<2> turned(const Rotation<2>& r, double by) { return {r.angle + b
 inline Rotation<3> turned(const Rotation<3>& r, const Vec<3>& by) {
   const double angle = glm::length(by);
   // sin(x/2)/x near 0 is 1/2, which needs no division.
-  const double k = angle > 1e-9 ? std::sin(angle / 2) / angle : 0.5;
-  return {glm::normalize(glm::dquat(std::cos(angle / 2), by * k) * r.q)};
+  const auto [s, c] = sin_cos(angle / 2);
+  const double k = angle > 1e-9 ? s / angle : 0.5;
+  return {glm::normalize(glm::dquat(c, by * k) * r.q)};
 }
 
 // Of axis `axis`; in 2D there is one.

@@ -1,5 +1,6 @@
 #include "report/problem_rows.hpp"
 
+#include "geometry/elementary.hpp"
 #include "report/document.hpp"
 
 namespace lantern::report {
@@ -51,20 +52,20 @@ struct Sample {
 };
 
 double slope(const Sample& a, const Sample& b) {
-  return std::log(a.error / b.error) / std::log(a.step / b.step);
+  return geometry::log(a.error / b.error) / geometry::log(a.step / b.step);
 }
 
 double fitted(std::span<const Sample> samples) {
   const auto n = static_cast<double>(samples.size());
   double x = 0, y = 0, xx = 0, xy = 0;
   for (const Sample& s : samples) {
-    x += std::log(s.step) / n;
-    y += std::log(s.error) / n;
+    x += geometry::log(s.step) / n;
+    y += geometry::log(s.error) / n;
   }
   for (const Sample& s : samples) {
-    const double dx = std::log(s.step) - x;
+    const double dx = geometry::log(s.step) - x;
     xx += dx * dx;
-    xy += dx * (std::log(s.error) - y);
+    xy += dx * (geometry::log(s.error) - y);
   }
   return xy / xx;
 }

@@ -2,6 +2,7 @@
 #include "draw/axis.hpp"
 #include "draw/font.hpp"
 #include "draw/pen.hpp"
+#include "geometry/elementary.hpp"
 #include "report/pages.hpp"
 
 namespace lantern::report {
@@ -126,13 +127,13 @@ class Picture {
 
   // Where a cell's edge or a value lies.
   double x_of(double omega_h, const Box<2>& plot) const {
-    return plot.lo.x + std::log(omega_h / map_.omega_low) /
-                           std::log(map_.omega_high / map_.omega_low) * plot.size().x;
+    return plot.lo.x + geometry::log(omega_h / map_.omega_low) /
+                           geometry::log(map_.omega_high / map_.omega_low) * plot.size().x;
   }
   double y_of(double zeta, const Box<2>& plot) const {
     const double bottom = plot.hi.y - kNoDamping - kRowGap;
-    return bottom - std::log(zeta / map_.zeta_low) / std::log(map_.zeta_high / map_.zeta_low) *
-                        (bottom - plot.lo.y);
+    return bottom - geometry::log(zeta / map_.zeta_low) /
+                        geometry::log(map_.zeta_high / map_.zeta_low) * (bottom - plot.lo.y);
   }
 
   // The row of cells `row`; row 0 is zeta = 0.
@@ -194,7 +195,7 @@ class Picture {
     constexpr int kPoints = 240;
     for (int i = 0; i <= kPoints; ++i) {
       const double share = static_cast<double>(i) / kPoints;
-      const double zeta = map_.zeta_low * std::pow(map_.zeta_high / map_.zeta_low, share);
+      const double zeta = map_.zeta_low * geometry::pow(map_.zeta_high / map_.zeta_low, share);
       points.push_back({x_of(stability_limit(method, zeta), plot), y_of(zeta, plot)});
     }
     draw_limit(points, rest);

@@ -1,5 +1,6 @@
 #include "report/stress_tables.hpp"
 
+#include "geometry/elementary.hpp"
 #include "measure/records.hpp"
 
 namespace lantern::report {
@@ -140,7 +141,7 @@ std::optional<double> Bar::distance() const {
   if (!std::isfinite(*value)) return 1e9;
   if (*value == bound) return 0;
   if (bound <= 0 || *value <= 0) return (*value < bound) == at_least ? 1e9 : -1e9;
-  const double decades = std::log10(*value / bound);
+  const double decades = geometry::log10(*value / bound);
   return at_least ? -decades : decades;
 }
 

@@ -1,10 +1,10 @@
 #include "run/shown.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/hash.hpp"
 #include "frame/parts/level.hpp"
+#include "geometry/elementary.hpp"
 #include "geometry/flat.hpp"
 #include "language/counts.hpp"
 #include "run/engine.hpp"
@@ -109,7 +109,7 @@ Box<2> part_of(const Box<2>& bounds, const ViewSpec& view) {
 // Counter-clockwise as seen from above.
 Vec<3> turned_about(const Vec<3>& middle, const Vec<3>& p, double angle) {
   const Vec<3> way = p - middle;
-  const double c = std::cos(angle), s = std::sin(angle);
+  const double c = geometry::cos(angle), s = geometry::sin(angle);
   return middle + Vec<3>(c * way.x + s * way.z, way.y, c * way.z - s * way.x);
 }
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <iterator>
 
 #include "base/random.hpp"
 #include "base/stop.hpp"
+#include "geometry/elementary.hpp"
 #include "geometry/random_vec.hpp"
 #include "spatial/pairs.hpp"
 
@@ -129,7 +129,7 @@ constexpr TrialSort kTrialSorts[] = {
      }},
     {"large and small",
      [](const Box<2>& bounds, Random& random) {
-       const double size = bounds.size().x * std::pow(10.0, random.between(-6, 1));
+       const double size = bounds.size().x * geometry::pow(10.0, random.between(-6, 1));
        return TrialBody{somewhere(bounds, random), random_point<2>(random, 0, size)};
      }},
     {"points",

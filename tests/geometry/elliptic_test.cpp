@@ -38,12 +38,13 @@ TEST(Elliptic, IntegralsOfTheFirstKindHaveKnownValues) {
                          {0.125L, 1, 30, 0.5119692823755310597556663L},
                          {7, 0.25L, 1e6L, 0.007148008361845641596062704L},
                          {0, 1, 0x1p-20L, 8.31776791141166998944495L}}) {
-    expect_equal(carlson_rf(k.x, k.y, k.z), k.value);
-    expect_equal(carlson_rf(k.z, k.x, k.y), k.value);
-    expect_equal(carlson_rf(k.y, k.x, k.z), k.value);
-    EXPECT_EQ(carlson_rf(4 * k.x, 4 * k.y, 4 * k.z), carlson_rf(k.x, k.y, k.z) / 2);
+    expect_equal(carlson_rf<long double>(k.x, k.y, k.z), k.value);
+    expect_equal(carlson_rf<long double>(k.z, k.x, k.y), k.value);
+    expect_equal(carlson_rf<long double>(k.y, k.x, k.z), k.value);
+    EXPECT_EQ(carlson_rf<long double>(4 * k.x, 4 * k.y, 4 * k.z),
+              carlson_rf<long double>(k.x, k.y, k.z) / 2);
   }
-  expect_equal(carlson_rf(7, 7, 7), 1 / std::sqrt(7.0L));
+  expect_equal(carlson_rf<long double>(7, 7, 7), 1 / std::sqrt(7.0L));
 }
 
 // As far apart as the series takes them without a step before it: each of its terms counts.
@@ -56,7 +57,7 @@ TEST(Elliptic, IntegralsOfTheFirstKindOfNearlyEqualNumbers) {
                          {1, -0.5L, -0.5L, 1.000000000737764681774765L},
                          {-0.5L, 1, -0.5L, 1.000000000737764681774765L},
                          {0.25L, 0.75L, -1, 1.000000000799277013508403L}})
-    expect_equal(carlson_rf(1 + s * k.x, 1 + s * k.y, 1 + s * k.z), k.value, 0.75L);
+    expect_equal(carlson_rf<long double>(1 + s * k.x, 1 + s * k.y, 1 + s * k.z), k.value, 0.75L);
 }
 
 TEST(Elliptic, IntegralsOfTheThirdKindHaveKnownValues) {
@@ -73,12 +74,13 @@ TEST(Elliptic, IntegralsOfTheThirdKindHaveKnownValues) {
                          {1, 1.25L, 1.5L, 1.125L, 0.7685847584774804841609826L},
                          {1, 2, 4, 2.25L, 0.3160063382763406356650284L},
                          {5, 0.5L, 0.75L, 0.625L, 0.9550662519801976380917382L}}) {
-    expect_equal(carlson_rj(k.x, k.y, k.z, k.p), k.value);
-    expect_equal(carlson_rj(k.z, k.x, k.y, k.p), k.value);
-    expect_equal(carlson_rj(k.y, k.x, k.z, k.p), k.value);
-    EXPECT_EQ(carlson_rj(4 * k.x, 4 * k.y, 4 * k.z, 4 * k.p), carlson_rj(k.x, k.y, k.z, k.p) / 8);
+    expect_equal(carlson_rj<long double>(k.x, k.y, k.z, k.p), k.value);
+    expect_equal(carlson_rj<long double>(k.z, k.x, k.y, k.p), k.value);
+    expect_equal(carlson_rj<long double>(k.y, k.x, k.z, k.p), k.value);
+    EXPECT_EQ(carlson_rj<long double>(4 * k.x, 4 * k.y, 4 * k.z, 4 * k.p),
+              carlson_rj<long double>(k.x, k.y, k.z, k.p) / 8);
   }
-  expect_equal(carlson_rj(7, 7, 7, 7), 1 / (7 * std::sqrt(7.0L)));
+  expect_equal(carlson_rj<long double>(7, 7, 7, 7), 1 / (7 * std::sqrt(7.0L)));
 }
 
 TEST(Elliptic, IntegralsOfTheThirdKindOfNearlyEqualNumbers) {
@@ -94,12 +96,13 @@ TEST(Elliptic, IntegralsOfTheThirdKindOfNearlyEqualNumbers) {
                          {1, 1, -1, -0.5L, 1.00000000368886987813622L},
                          {-1, -0.5L, -0.25L, 0.875L, 1.000000002997229005383175L},
                          {-1, 0.5L, 1, -0.25L, 1.000000002503184204806648L}})
-    expect_equal(carlson_rj(1 + s * k.x, 1 + s * k.y, 1 + s * k.z, 1 + s * k.p), k.value, 1);
+    expect_equal(carlson_rj<long double>(1 + s * k.x, 1 + s * k.y, 1 + s * k.z, 1 + s * k.p),
+                 k.value, 1);
 }
 
 // R_C(x, y) = R_F(x, y, y) is an arctan, or an artanh, or what lies between them.
 TEST(Elliptic, WithTwoEqualNumbersTheyAreElementary) {
-  const auto rc = [](long double x, long double y) { return carlson_rf(x, y, y); };
+  const auto rc = [](long double x, long double y) { return carlson_rf<long double>(x, y, y); };
   expect_equal(rc(0, 0.25L), kPi);
   expect_equal(rc(2.25L, 2), std::numbers::ln2_v<long double>);
   Random random(1);
@@ -110,7 +113,7 @@ TEST(Elliptic, WithTwoEqualNumbersTheyAreElementary) {
                  x < y ? 4 : 4 + 4 / r);
     const long double p = random.between(0.1, 5);
     const long double difference = rc(x, y) - rc(x, p);
-    expect_equal(carlson_rj(x, y, y, p), 3 * difference / (p - y),
+    expect_equal(carlson_rj<long double>(x, y, y, p), 3 * difference / (p - y),
                  8 + 8 * rc(x, y) / std::abs(difference));
   }
 }
@@ -124,13 +127,13 @@ TEST(Elliptic, TheQuarterPeriodIsItsIntegral) {
       const long double s = std::sin(kPi / 2 * i / kSteps), c = std::cos(kPi / 2 * i / kSteps);
       sum += (1 / std::sqrt(m1 * s * s + c * c) + 1 / std::sqrt(s * s + m1 * c * c)) / 2;
     }
-    expect_equal(quarter_period(m1), kPi / 2 * sum / kSteps, 16);
+    expect_equal(quarter_period<long double>(m1), kPi / 2 * sum / kSteps, 16);
   }
-  expect_equal(quarter_period(1), kPi / 2, 1);
-  expect_equal(quarter_period(0.5L), 1.85407467730137191843385L);
-  expect_equal(quarter_period(0x1p-40L), 15.24923797232203670878914L);
-  expect_equal(quarter_period(0x1p-200L), 70.70101241711442156055768L);
-  expect_equal(quarter_period(0x1p-40L), carlson_rf(0, 0x1p-40L, 1));
+  expect_equal(quarter_period<long double>(1), kPi / 2, 1);
+  expect_equal(quarter_period<long double>(0.5L), 1.85407467730137191843385L);
+  expect_equal(quarter_period<long double>(0x1p-40L), 15.24923797232203670878914L);
+  expect_equal(quarter_period<long double>(0x1p-200L), 70.70101241711442156055768L);
+  expect_equal(quarter_period<long double>(0x1p-40L), carlson_rf<long double>(0, 0x1p-40L, 1));
 }
 
 TEST(Elliptic, FunctionsHaveKnownValues) {
@@ -151,7 +154,7 @@ TEST(Elliptic, FunctionsHaveKnownValues) {
                           0.5011319821131058255165079L},
                          {0.75L, 1 - 0x1p-40L, 0.6816387600232923666608772L,
                           0.7316888688738598271112791L, 0.9999999999997887101020905L}}) {
-    const Jacobi f = jacobi(k.u, k.m1);
+    const Jacobi<long double> f = jacobi<long double>(k.u, k.m1);
     expect_equal(f.sn, k.sn, 16);
     expect_equal(f.cn, k.cn, 16);
     expect_equal(f.dn, k.dn, 16);
@@ -163,17 +166,19 @@ TEST(Elliptic, FunctionsKeepTheirIdentities) {
   for (int i = 0; i < 500; ++i) {
     const long double m1 =
         i % 2 == 0 ? std::pow(2.0L, -random.between(0, 60)) : random.between(0, 1);
-    const long double quarter = quarter_period(m1), u = quarter * random.between(-2, 2);
+    const long double quarter = quarter_period<long double>(m1),
+                      u = quarter * random.between(-2, 2);
     SCOPED_TRACE(testing::Message()
                  << "u " << static_cast<double>(u) << ", m1 " << static_cast<double>(m1));
-    const Jacobi f = jacobi(u, m1);
+    const Jacobi<long double> f = jacobi<long double>(u, m1);
     expect_equal(f.sn * f.sn + f.cn * f.cn, 1, 8);
     expect_equal(f.dn * f.dn, f.cn * f.cn + m1 * f.sn * f.sn, 64);
     EXPECT_EQ(f.sn > 0, u > 0);
     EXPECT_EQ(f.cn > 0, std::abs(u) < quarter);
     // Near K, where sn stands still, the argument is as good as cn or dn tells it.
-    EXPECT_LE(std::abs(argument_of(f, m1) - u), 64 * kUlp * quarter);
-    const Jacobi back = jacobi(-u, m1), half = jacobi(u + 2 * quarter, m1);
+    EXPECT_LE(std::abs(argument_of<long double>(f, m1) - u), 64 * kUlp * quarter);
+    const Jacobi<long double> back = jacobi<long double>(-u, m1),
+                              half = jacobi<long double>(u + 2 * quarter, m1);
     EXPECT_EQ(back.sn, -f.sn);
     EXPECT_EQ(back.cn, f.cn);
     EXPECT_EQ(back.dn, f.dn);
@@ -184,12 +189,13 @@ TEST(Elliptic, FunctionsKeepTheirIdentities) {
 
 TEST(Elliptic, FunctionsAreElementaryAtTheEnds) {
   for (const long double u : {-2.0L, -0.25L, 0.0L, 1e-6L, 1.0L, 3.0L, 6.5L}) {
-    const Jacobi round = jacobi(u, 1);
+    const Jacobi<long double> round = jacobi<long double>(u, 1);
     expect_equal(round.sn, std::sin(u));
     expect_equal(round.cn, std::cos(u), 8);
     expect_equal(round.dn, 1, 1);
     if (u > 5) continue;
-    const Jacobi straight = jacobi(u, 0x1p-100L);  // e^2u of it is less than the last digit
+    const Jacobi<long double> straight =
+        jacobi<long double>(u, 0x1p-100L);  // e^2u of it is less than the last digit
     expect_equal(straight.sn, std::tanh(u), 16);
     expect_equal(straight.cn, 1 / std::cosh(u), 16);
     expect_equal(straight.dn, 1 / std::cosh(u), 16);
@@ -197,11 +203,11 @@ TEST(Elliptic, FunctionsAreElementaryAtTheEnds) {
 }
 
 TEST(Elliptic, TheArgumentLiesWithinAPeriod) {
-  const long double quarter = quarter_period(0.25L);
-  EXPECT_EQ(argument_of({0, 1, 1}, 0.25L), 0);
-  EXPECT_EQ(argument_of({0, -1, 1}, 0.25L), 2 * quarter) << "2 K, not -2 K";
-  expect_equal(argument_of({1, 0, 0.5L}, 0.25L), quarter);
-  expect_equal(argument_of({-1, 0, 0.5L}, 0.25L), -quarter);
+  const long double quarter = quarter_period<long double>(0.25L);
+  EXPECT_EQ(argument_of<long double>({0, 1, 1}, 0.25L), 0);
+  EXPECT_EQ(argument_of<long double>({0, -1, 1}, 0.25L), 2 * quarter) << "2 K, not -2 K";
+  expect_equal(argument_of<long double>({1, 0, 0.5L}, 0.25L), quarter);
+  expect_equal(argument_of<long double>({-1, 0, 0.5L}, 0.25L), -quarter);
 }
 
 }  // namespace

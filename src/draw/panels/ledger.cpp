@@ -20,6 +20,7 @@
 #include "draw/marks.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
+#include "geometry/elementary.hpp"
 #include "language/panel_rules.hpp"
 
 namespace lantern::draw {
@@ -121,7 +122,7 @@ class Density {
 void draw_share(const Vec<2>& center, double share, double cell, DrawList& list) {
   constexpr double kDecades = 3.5;
   if (!(share > 0)) return;
-  const double size = 1 + std::log10(std::min(1.0, share)) / kDecades;
+  const double size = 1 + geometry::log10(std::min(1.0, share)) / kDecades;
   const double half = 0.46 * cell * std::max(0.12, size);
   list.rect(Box<2>::around(center, Vec<2>(half)), Role::pair);
 }

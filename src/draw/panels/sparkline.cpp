@@ -12,6 +12,7 @@
 #include "draw/panel.hpp"
 #include "draw/pen.hpp"
 #include "frame/parts/panels.hpp"
+#include "geometry/elementary.hpp"
 #include "language/panel_rules.hpp"
 
 namespace lantern::draw {
@@ -23,7 +24,7 @@ constexpr std::size_t kMostSparkPoints = 600;
 
 // At least `value`: an end of an axis that seldom moves.
 double power_of_two_over(double value) {
-  return std::exp2(std::ceil(std::log2(std::clamp(value, 1.0, 1e15))));
+  return std::ldexp(1.0, static_cast<int>(std::ceil(geometry::log2(std::clamp(value, 1.0, 1e15)))));
 }
 
 // Of many points those that are highest and lowest on their stretch of the way, so that no peak is

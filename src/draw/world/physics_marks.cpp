@@ -10,6 +10,7 @@
 #include "draw/marks.hpp"
 #include "draw/number_text.hpp"
 #include "frame/parts/motion.hpp"
+#include "geometry/elementary.hpp"
 #include "geometry/not_finite.hpp"
 
 namespace lantern::draw {
@@ -83,7 +84,7 @@ void write_size(const std::string& text, const Vec<2>& from, const Vec<2>& to, R
                 const Box<2>& room, Labels& labels) {
   const TextStyle style{std::max(kLabel, 22.0), Weight::semibold, role, Role::panel};
   const Vec<2> way = to - from, middle = (from + to) / 2.0;
-  const double length = std::hypot(way.x, way.y);
+  const double length = geometry::hypot(way.x, way.y);
   if (!(length > 0)) return;
   const Vec<2> along = way / length, side{-along.y, along.x};
   const auto beside = [&](const Vec<2>& at, const Vec<2>& away, double gap) {
@@ -126,7 +127,7 @@ std::vector<ForceArrow> force_arrows(const Frame& frame, const Projection& view)
 std::vector<Vec<2>> spring_bends(const Vec<2>& from, const Vec<2>& to) {
   constexpr int kTurns = 7;
   const Vec<2> way = to - from;
-  const double length = std::hypot(way.x, way.y);
+  const double length = geometry::hypot(way.x, way.y);
   if (!(length > 1)) return {};
   const Vec<2> along = way / length, side{-along.y, along.x};
   const double end = std::min(0.17 * length, 26.0), reach = std::clamp(0.09 * length, 3.0, 10.0);
@@ -163,7 +164,7 @@ void mark_links(const Frame& frame, Marks& marks) {
 }
 
 void draw_contact(const Vec<2>& at, const Vec<2>& normal, double k, Pen& pen) {
-  const double length = std::hypot(normal.x, normal.y);
+  const double length = geometry::hypot(normal.x, normal.y);
   const Vec<2> half = (length > 0 ? normal / length : Vec<2>(0, -1)) * (kContact * k);
   pen.line(at - half, at + half, {Role::contact, 5.2 * k}, 1.8 * k);
 }
@@ -327,7 +328,7 @@ void write_forces(const Frame& frame, const Projection& view, Labels& labels) {
 
 void draw_ruler(const Vec<2>& from, const Vec<2>& to, const Stroke& stroke, Pen& pen) {
   const Vec<2> way = to - from;
-  const double length = std::hypot(way.x, way.y);
+  const double length = geometry::hypot(way.x, way.y);
   if (!(length > 0)) return;
   const Vec<2> across = Vec<2>(-way.y, way.x) / length * 9.0;
   pen.line(from, to, stroke, 1.6);
@@ -341,7 +342,7 @@ void mark_rulers(const Frame& frame, Marks& marks, Labels& labels) {
     const auto a = view.seen(ruler.from), b = view.seen(ruler.to);
     if (!a || !b || !is_finite(*a) || !is_finite(*b)) continue;
     const Vec<2> way = *b - *a;
-    const double length = std::hypot(way.x, way.y);
+    const double length = geometry::hypot(way.x, way.y);
     if (!(length > 1)) continue;
     const Vec<2> side = Vec<2>(-way.y, way.x) / length;
     const Vec<2> off = side * (side.x < 0 ? -kBeside : kBeside);

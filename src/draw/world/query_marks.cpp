@@ -1,10 +1,10 @@
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 
 #include "draw/marks.hpp"
 #include "frame/parts/asked.hpp"
+#include "geometry/elementary.hpp"
 #include "geometry/not_finite.hpp"
 
 namespace lantern::draw {
@@ -45,7 +45,7 @@ void draw_eye(const Vec<2>& at, const Vec<2>& gaze, Role role, const Box<2>& pla
               DrawList& list) {
   constexpr int kPerLid = 9;
   constexpr double kWide = 17, kHigh = 10.5;
-  const double length = std::hypot(gaze.x, gaze.y);
+  const double length = geometry::hypot(gaze.x, gaze.y);
   const Vec<2> look = length > 0 ? gaze / length : Vec<2>(0, 0);
   std::vector<Vec<2>> lids;
   for (const int lid : {1, -1})

@@ -6,6 +6,7 @@
 
 #include "base/stop.hpp"
 #include "draw/world/world2d_parts.hpp"
+#include "geometry/elementary.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -56,7 +57,7 @@ double size_of(const Stand& stand, const View2D& map) {
 void draw_outside(const World2D& w, const Stand& stand) {
   const FrameBody& body = *stand.bodies.front();
   Vec<2> way = w.map.to_page(body.box.center()) - stand.center;
-  const double length = std::hypot(way.x, way.y);
+  const double length = geometry::hypot(way.x, way.y);
   way = length > 0 ? way / length : Vec<2>(1, 0);
   const Vec<2> side{-way.y, way.x};
   const Vec<2> tip = stand.center + way * 15.0, back = stand.center - way * 10.0;
@@ -98,7 +99,7 @@ bool is_one_place(const Stand& stand) {
   const double slip = 1e-6 * std::max({size.x, size.y, size.z});
   return std::ranges::all_of(stand.bodies, [&](const FrameBody* body) {
     const Vec<3> apart = body->box.center() - first.center();
-    return std::hypot(apart.x, apart.y, apart.z) <= slip;
+    return geometry::hypot(apart.x, apart.y, apart.z) <= slip;
   });
 }
 
@@ -152,7 +153,7 @@ std::vector<Stand> stands_of(const Frame& frame, const View2D& map) {
     Stand mine = stand_of(body, frame, map);
     const auto same = std::ranges::find_if(stands, [&](const Stand& other) {
       const Vec<2> apart = other.center - mine.center;
-      return other.outside == mine.outside && std::hypot(apart.x, apart.y) < kOnePlace;
+      return other.outside == mine.outside && geometry::hypot(apart.x, apart.y) < kOnePlace;
     });
     if (same == stands.end())
       stands.push_back(std::move(mine));

@@ -7,6 +7,7 @@
 #include "draw/number_text.hpp"
 #include "draw/world/borders.hpp"
 #include "draw/world/world2d_parts.hpp"
+#include "geometry/elementary.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -32,7 +33,7 @@ struct HalfEdges {
 std::optional<HalfEdges> half_edges_of(const FrameBody& body, double scale) {
   const auto* box = std::get_if<OrientedBox<3>>(&body.shape);
   if (!box || !body.lit) return std::nullopt;
-  const double c = std::cos(body.angle), s = std::sin(body.angle);
+  const double c = geometry::cos(body.angle), s = geometry::sin(body.angle);
   if (std::abs(s) < 1e-9 || std::abs(c) < 1e-9) return std::nullopt;
   return HalfEdges{Vec<2>(c, -s) * (box->half_size.x * scale),
                    Vec<2>(-s, -c) * (box->half_size.y * scale), box->half_size};
@@ -49,7 +50,8 @@ void draw_projections(const World2D& w, const FrameBody& body, const HalfEdges& 
   const Vec<2> c = box.center();
   pen.arrow(c, c + edges.along, {kAlong, 3.4}, 12, 1.4);
   pen.arrow(c, c + edges.across, {kAcross, 3.4}, 12, 1.4);
-  const double cosine = std::abs(std::cos(body.angle)), sine = std::abs(std::sin(body.angle));
+  const double cosine = std::abs(geometry::cos(body.angle)),
+               sine = std::abs(geometry::sin(body.angle));
   const auto sum = [](double a, double b) {
     return fmt::format("{} + {} = {}", short_number(a), short_number(b), short_number(a + b));
   };
@@ -71,7 +73,7 @@ void draw_projections(const World2D& w, const FrameBody& body, const HalfEdges& 
 
 void draw_dimension(Pen& pen, const Vec<2>& from, const Vec<2>& to) {
   const Vec<2> way = to - from;
-  const Vec<2> across = Vec<2>(-way.y, way.x) / std::max(1e-9, std::hypot(way.x, way.y)) * 5.0;
+  const Vec<2> across = Vec<2>(-way.y, way.x) / std::max(1e-9, geometry::hypot(way.x, way.y)) * 5.0;
   const Stroke stroke{Role::quiet_ink, 1.6};
   pen.line(from, to, stroke);
   for (const Vec<2>& end : {from, to}) pen.line(end - across, end + across, stroke);

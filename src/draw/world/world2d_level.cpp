@@ -7,6 +7,7 @@
 
 #include "draw/world/world2d_parts.hpp"
 #include "frame/parts/level.hpp"
+#include "geometry/elementary.hpp"
 #include "geometry/plane.hpp"
 
 namespace lantern::draw {
@@ -19,7 +20,7 @@ constexpr std::size_t kMostWalls = 900;
 bool are_neighbours(const Polygon& a, const Polygon& b, double close) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     const Vec<2> p = a[i], along = a[(i + 1) % a.size()] - p;
-    const double length = std::hypot(along.x, along.y);
+    const double length = geometry::hypot(along.x, along.y);
     if (!(length > close)) continue;
     const Vec<2> unit = along / length;
     for (std::size_t j = 0; j < b.size(); ++j) {
@@ -180,7 +181,7 @@ void draw_cuts(const World2D& w, Pen& pen) {
       const FrameWall &a = walls[i], &b = walls[j];
       if (a.wall != b.wall) break;
       const Vec<2> way = w.map.to_page(a.to) - w.map.to_page(a.from);
-      const double length = std::hypot(way.x, way.y);
+      const double length = geometry::hypot(way.x, way.y);
       if (!(length > 1e-6)) continue;
       const Vec<2> across = Vec<2>(-way.y, way.x) / length * 9.0;
       for (const Vec<2>& p : {w.map.to_page(a.from), w.map.to_page(a.to)})

@@ -1,10 +1,10 @@
 // Links of pairs in a 2D world: over its cells, under its bodies, and ended at their outlines.
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <unordered_map>
 
 #include "draw/world/world2d_parts.hpp"
+#include "geometry/elementary.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -50,7 +50,7 @@ double share_inside(const Stand& stand, const Vec<2>& from, const Vec<2>& to) {
 // Between two points of bodies; `gap` tells where the way is free of both.
 PageLink link_between(const Vec<2>& from, const Vec<2>& to, double first, double last) {
   const Vec<2> way = to - from;
-  const double length = std::hypot(way.x, way.y);
+  const double length = geometry::hypot(way.x, way.y);
   if ((last - first) * length >= kShort)
     return {from + way * first, from + way * last, {}, {}, {}, false, {}};
   const Vec<2> middle = from + way * ((first + last) / 2);
@@ -76,7 +76,7 @@ Hidden hidden_by(const std::vector<Stand>& stands, const Stand& a, const Stand& 
                  const PageLink& link) {
   constexpr int kSamples = 12;
   const Vec<2> way = link.to - link.from;
-  const double length = std::hypot(way.x, way.y);
+  const double length = geometry::hypot(way.x, way.y);
   Hidden hidden;
   if (!(length > 0)) return hidden;
   const Vec<2> side{-way.y / length, way.x / length};
@@ -104,7 +104,7 @@ void bow_out(const std::vector<Stand>& stands, const Stand& a, const Stand& b, P
   const double out = std::min(hidden.left, hidden.right) + kClear;
   if (hidden.share < kMostHidden || out > kMostOut) return;
   const Vec<2> from = aim_at(a, b.center), to = aim_at(b, from), way = to - from;
-  const Vec<2> side = Vec<2>(-way.y, way.x) / std::hypot(way.x, way.y);
+  const Vec<2> side = Vec<2>(-way.y, way.x) / geometry::hypot(way.x, way.y);
   const Vec<2> middle =
       (from + to) / 2.0 + side * ((hidden.left < hidden.right ? -2 : 2) * out);  // of the control
   for (int i = 0; i <= kParts; ++i) {

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <functional>
 #include <map>
 #include <span>
 
 #include "draw/font.hpp"
+#include "geometry/elementary.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -181,7 +181,7 @@ Polygon inset(const Polygon& region, double by) {
   Polygon kept = region;
   for (std::size_t i = 0; i < region.size(); ++i) {
     const Vec<2> a = region[i], along = region[(i + 1) % region.size()] - a;
-    const double length = std::hypot(along.x, along.y);
+    const double length = geometry::hypot(along.x, along.y);
     if (!(length > 0)) continue;
     const Vec<2> inwards = Vec<2>(along.y, -along.x) / length;  // of a page region
     kept = clipped(kept, Plane<2>::through(a + inwards * by, inwards), true);

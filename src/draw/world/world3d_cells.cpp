@@ -7,6 +7,7 @@
 
 #include "draw/keys.hpp"
 #include "draw/world/world3d_parts.hpp"
+#include "geometry/elementary.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -91,7 +92,7 @@ class Edges {
   Edges(const View3D& view, bool may_sleep)
       : view_(view),
         may_sleep_(may_sleep),
-        grain_(std::exp2(std::ceil(std::log2(view.size())) - 32)) {}
+        grain_(std::ldexp(1.0, static_cast<int>(std::ceil(geometry::log2(view.size()))) - 32)) {}
 
   // The twelve edges of a cell. In a column's cell those at the top are left out,
   // unless it is lit.

@@ -7,6 +7,7 @@
 #include "draw/number_text.hpp"
 #include "draw/world/world3d_parts.hpp"
 #include "frame/parts/asked.hpp"
+#include "geometry/elementary.hpp"
 #include "geometry/plane.hpp"
 
 namespace lantern::draw {
@@ -115,7 +116,7 @@ Outline seen_from_above(const Body3D& b) {
     constexpr int kCorners = 32;
     for (int i = 0; i < kCorners; ++i) {
       const double angle = 2 * std::numbers::pi * (i + 0.5) / kCorners;
-      points.push_back({c.x + std::cos(angle) * half.x, c.z + std::sin(angle) * half.z});
+      points.push_back({c.x + geometry::cos(angle) * half.x, c.z + geometry::sin(angle) * half.z});
     }
     return points;
   }

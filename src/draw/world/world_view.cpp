@@ -11,6 +11,7 @@
 #include "draw/world/world2d_parts.hpp"
 #include "draw/world/world3d_parts.hpp"
 #include "frame/parts/level.hpp"
+#include "geometry/elementary.hpp"
 #include "geometry/flat.hpp"
 #include "language/panel_rules.hpp"
 
@@ -361,7 +362,7 @@ PanelEntry world_panel() {
              const double width = std::min(box.size().x, box.size().y * world_aspect(frame));
              const double size = std::sqrt(width * width / world_aspect(frame));
              // A level is read on its map, whose sectors have numbers and bodies in them.
-             return std::pow(size, frame.get<FrameLevel>().walls.empty() ? 1 : 1.5);
+             return geometry::pow(size, frame.get<FrameLevel>().walls.empty() ? 1 : 1.5);
            }}};
 }
 

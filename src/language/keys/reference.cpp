@@ -7,6 +7,7 @@
 
 #include "base/check.hpp"
 #include "embedded/examples.hpp"
+#include "geometry/elementary.hpp"
 #include "language/counts.hpp"
 #include "language/language.hpp"
 #include "language/tables/draft.hpp"
@@ -18,8 +19,8 @@ namespace {
 std::string short_number(double x) {
   if (x == 0x1p53) return "2^53";
   if (std::abs(x) < 1e6) return fmt::format("{}", x);
-  const int exponent = static_cast<int>(std::floor(std::log10(std::abs(x))));
-  return fmt::format("{}e{}", x / std::pow(10.0, exponent), exponent);
+  const int exponent = static_cast<int>(std::floor(geometry::log10(std::abs(x))));
+  return fmt::format("{}e{}", x / geometry::pow(10.0, exponent), exponent);
 }
 
 std::string short_range(const KeyDoc& doc) {

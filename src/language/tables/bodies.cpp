@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "geometry/elementary.hpp"
 #include "geometry/vec.hpp"
 #include "language/keys/key.hpp"
 #include "language/tables/draft.hpp"
@@ -94,13 +95,13 @@ void read_heading(const TableReader& table, BodySpec& body, int dimension) {
   if (table.is_good("turned"))
     table.bad_key("heading", "a 'heading' and a 'turned'", "one of them is enough");
   if (dimension == 2) {
-    body.angle = std::atan2(-heading->x, heading->y);
+    body.angle = geometry::atan2(-heading->x, heading->y);
     return;
   }
   const Vec<3> up(0, 1, 0), across = glm::cross(up, *heading);
   const double sine = glm::length(across);
   body.axis = sine > 0 ? across / sine : Vec<3>(1, 0, 0);
-  body.angle = std::atan2(sine, glm::dot(up, *heading));
+  body.angle = geometry::atan2(sine, glm::dot(up, *heading));
 }
 
 // How it is turned, and how it turns: each about an axis of its own, or about `axis`.

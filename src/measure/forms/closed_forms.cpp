@@ -160,12 +160,12 @@ PendulumState exact_pendulum(long double omega, PendulumState start, long double
   const long double m1 = (c - w) * (c + w);  // 1 - k^2, where 1 - s^2 would have lost its digits
   if (!(m1 > 0)) throw Refused("the pendulum goes over the top");
   if (!(k > 0)) return start;
-  const Jacobi at_start{s / k, w / k, c};
+  const Jacobi<long double> at_start{s / k, w / k, c};
   const long double period = 4 * quarter_period(m1);
   const Precise way = product(omega, time);
   const long double turns = std::round(way.high / period);
   const long double reduced = std::fma(-turns, period, way.high) + way.low;
-  const Jacobi f = jacobi(reduced + argument_of(at_start, m1), m1);
+  const auto f = jacobi(reduced + argument_of(at_start, m1), m1);
   return {2 * std::atan2(k * f.sn, f.dn), 2 * k * omega * f.cn};
 }
 
@@ -234,7 +234,7 @@ FreeTop::FreeTop(const LongVec& inverse_inertia, const LongQuat& orientation,
   wobble_ = d31 * d21 / d32;
   half_period_ = 2 * quarter_period(m1_);
   half_integral_ = 2 * integral(half_period_ / 2);
-  u0_ = argument_of({l[1] / size_[1], l[0] / size_[0], l[2] / size_[2]}, m1_);
+  u0_ = argument_of<long double>({l[1] / size_[1], l[0] / size_[0], l[2] / size_[2]}, m1_);
   const Phase start = phase(0);
   integral0_ = start.half_turns * half_integral_ + integral(start.rest);
   base_ = orientation * glm::conjugate(names_) * glm::conjugate(to_momentum_frame(l, 0));
@@ -248,7 +248,7 @@ FreeTop::Phase FreeTop::phase(long double time) const {
 
 LongVec FreeTop::named(long double time) const {
   const auto [half_turns, rest] = phase(time);
-  const Jacobi f = jacobi(rest, m1_);
+  const auto f = jacobi(rest, m1_);
   const long double sign = std::fmod(half_turns, 2.0L) == 0 ? 1 : -1;
   return {sign * size_[0] * f.cn, sign * size_[1] * f.sn, size_[2] * f.dn};
 }
@@ -256,7 +256,7 @@ LongVec FreeTop::named(long double time) const {
 // The integral of sn^2 / (1 - n sn^2) up to there.
 long double FreeTop::integral(long double rest) const {
   const auto [s, c, d] = jacobi(rest, m1_);
-  return s * s * s / 3 * carlson_rj(c * c, d * d, 1, 1 - n_ * s * s);
+  return s * s * s / 3 * carlson_rj<long double>(c * c, d * d, 1, 1 - n_ * s * s);
 }
 
 // precession' = |L| (a1 L1^2 + a2 L2^2) / (L1^2 + L2^2)

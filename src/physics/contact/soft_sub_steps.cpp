@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "base/stop.hpp"
+#include "geometry/elementary.hpp"
 #include "physics/contact/contact_solver.hpp"
 #include "physics/contact/sub_step.hpp"
 
@@ -31,10 +32,10 @@ struct QuickSettings {
   double usual_error = 0.01;  // at which a step has two parts of at most six sweeps
   // How a step of a pile is best spent at an error: measured on piles of 300 to 2,000 boxes.
   int parts(double error) const {
-    return std::max(1, static_cast<int>(std::lround(2 * std::pow(usual_error / error, 0.3))));
+    return std::max(1, static_cast<int>(std::lround(2 * geometry::pow(usual_error / error, 0.3))));
   }
   int most_sweeps(double error) const {
-    const double most = 6 * std::pow(usual_error / error, 0.4);
+    const double most = 6 * geometry::pow(usual_error / error, 0.4);
     return static_cast<int>(std::lround(std::clamp(most, 4.0, 200.0)));
   }
 };

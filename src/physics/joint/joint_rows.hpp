@@ -7,6 +7,7 @@
 
 #include <glm/matrix.hpp>
 
+#include "geometry/elementary.hpp"
 #include "physics/contact/contact_rows.hpp"
 #include "physics/joint.hpp"
 
@@ -263,7 +264,7 @@ class JointBlock {
       return std::abs(a.angle - b.angle);
     } else {
       const glm::dquat q = a.q * glm::conjugate(b.q);
-      return 2 * std::asin(std::min(1.0, std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z)));
+      return 2 * geometry::asin(std::min(1.0, std::sqrt(q.x * q.x + q.y * q.y + q.z * q.z)));
     }
   }
 

@@ -1,8 +1,8 @@
 #include "physics/gjk.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "geometry/elementary.hpp"
 #include "physics/narrow/cores.hpp"
 
 namespace lantern::physics {
@@ -139,7 +139,7 @@ std::optional<MinkowskiDifference> minkowski_difference(const Placed<2>& a, cons
   std::vector<Vec<2>> normals;
   for (const GjkCore* core : {&*core_a, &*core_b})
     for (int i = 0; i < 2; ++i) normals.insert(normals.end(), {core->axes[i], -core->axes[i]});
-  std::ranges::sort(normals, {}, [](const Vec<2>& n) { return std::atan2(n.y, n.x); });
+  std::ranges::sort(normals, {}, [](const Vec<2>& n) { return geometry::atan2(n.y, n.x); });
   MinkowskiDifference difference{{}, core_a->radius + core_b->radius};
   for (std::size_t i = 0; i < normals.size(); ++i) {
     // Box axes stand at right angles: two neighbours are never opposite.

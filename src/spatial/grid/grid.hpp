@@ -18,11 +18,11 @@
 
 #include <array>
 #include <bit>
-#include <cmath>
 #include <type_traits>
 
 #include <fmt/format.h>
 
+#include "geometry/elementary.hpp"
 #include "spatial/grid/grid_cells.hpp"
 #include "spatial/grid/grid_table.hpp"
 
@@ -66,9 +66,10 @@ double side_for(std::span<const Item<D>> items, std::vector<double>& room) {
       };
       const double low = at(room.size() / 4),
                    high = at(room.size() - room.size() / 4 - !room.empty());
-      volume *= std::pow(std::max(2 * (high - low), 0.0), 1.0 / D);
+      volume *= geometry::pow(std::max(2 * (high - low), 0.0), 1.0 / D);
     }
-    side = std::max(side, volume / std::pow(static_cast<double>(items.size() + 1), 1.0 / D) / 2);
+    side =
+        std::max(side, volume / geometry::pow(static_cast<double>(items.size() + 1), 1.0 / D) / 2);
   }
   return side > 0 ? std::clamp(side, 1e-100, 1e100) : 1;
 }

@@ -15,6 +15,9 @@ namespace lantern::spatial {
 class LectureQuadtree final : public StructureOf<LectureQuadtree, 2> {
   using Tree = lecture::QuadTree<BodyId>;
   using Node = lecture::QuadTreeNode<BodyId>;
+  // Told wherever it is built, also where a pointer has fewer than 8 bytes.
+  static constexpr std::uint64_t kNodeBytes = 88;
+  static_assert(sizeof(void*) != 8 || sizeof(Node) == kNodeBytes);
   using Entries = std::list<lecture::QuadTreeEntry<BodyId>>;
 
  public:
@@ -59,7 +62,7 @@ class LectureQuadtree final : public StructureOf<LectureQuadtree, 2> {
   Counters counters() const override {
     Counters c = counters_;
     c.leaves = c.nodes - c.splits;
-    c.node_bytes = c.nodes * sizeof(Node);
+    c.node_bytes = c.nodes * kNodeBytes;
     return c;
   }
 
