@@ -85,7 +85,7 @@ struct WorldSpec {
   double gravitation = 0;  // Newton's constant between the bodies
   ContactMethod contacts = ContactMethod::none;
   Integrator integrator = Integrator::semi_implicit_euler;
-  RotationMethod rotation = RotationMethod::splitting_2;
+  RotationMethod rotation = RotationMethod::exact;
   int sub_steps = 8;           // of the soft contacts
   double wanted_error = 0;     // of the soft contacts, in units; 0: as little as they can
   int iterations = 10;         // of the impulse contacts

@@ -195,7 +195,7 @@ std::vector<Method> methods_for(const Scenario& scenario) {
     return named({"explicit_euler", "semi_implicit_euler", "velocity_verlet", "runge_kutta_4",
                   "implicit_midpoint", "implicit_euler"});
   if (scenario.world.dimension == 3 && std::ranges::any_of(scenario.bodies, turns_in_space))
-    return named({"explicit_gyroscopic", "splitting_2", "splitting_4"});
+    return named({"explicit_gyroscopic", "splitting_2", "splitting_4", "exact"});
   Method as_written;
   as_written.name = "as written";
   return {as_written};

@@ -165,14 +165,13 @@ MassProperties<D> scaled_to(MassProperties<D> properties, double mass);
 // the components L1, L2, L3, the energy is L1^2/2I1 + L2^2/2I2 + L3^2/2I3.
 //
 // This is the orientation `h` seconds later (h may be negative: back in time), of a body whose
-// angular momentum in the world is L. Both dimensions: exact if the inertia about two axes is
-// equal, as in 2D and for spheres and square boxes. Any other body is turned by the splitting
-// `method`, or exactly, to rounding, where that would change the energy by more than a thousandth:
-// at any spin and step the energy is kept within that. A static or sleeping body does not turn, a
-// kinematic one turns by its spin. `method` must be one of the splittings.
+// angular momentum in the world is L; to rounding, at any spin and step, unless `method` is one of
+// the splittings, whose error is of their order: these turn exactly only where two inertias are
+// equal, or where they would change the energy by more than a thousandth. A static or sleeping body
+// does not turn, a kinematic one turns by its spin. `method` must not be `explicit_gyroscopic`.
 template <int D>
 Rotation<D> freely_turned(const Body<D>& body, const Spin<D>& angular_momentum, double h,
-                          RotationMethod method = RotationMethod::splitting_2);
+                          RotationMethod method = RotationMethod::exact);
 
 // The same with the body's own angular momentum.
 template <int D>

@@ -22,6 +22,7 @@ enum class Integrator {
 };
 
 enum class RotationMethod {
+  exact,                // the solution of the free top, to rounding
   splitting_2,          // exact turns about fixed axes, one after the other; second order
   splitting_4,          // five such steps composed so that their errors cancel; fourth order
   explicit_gyroscopic,  // a warning: the textbook update of angular velocity; L and energy drift

@@ -15,7 +15,7 @@ struct WorldConfig {
   Vec<D> gravity{0.0};
   double gravitation = 0;  // see Forces
   Integrator integrator = Integrator::semi_implicit_euler;
-  RotationMethod rotation = RotationMethod::splitting_2;  // where nothing holds a body
+  RotationMethod rotation = RotationMethod::exact;  // where nothing holds a body
   ContactMethod contacts = ContactMethod::soft;
   BroadPhaseConfig<D> broad_phase = {};
   int sub_steps = 8;  // of soft contacts, 1 ... 1000

@@ -15,7 +15,7 @@ struct KnownMethod {
 };
 
 // The first ones are those that meet most often in one plot.
-constexpr std::array<KnownMethod, 16> kKnown{{
+constexpr std::array<KnownMethod, 17> kKnown{{
     {"velocity_verlet", "velocity Verlet", 0},
     {"explicit_euler", "explicit Euler", 1},
     {"runge_kutta_4", "Runge–Kutta 4", 2},
@@ -26,6 +26,7 @@ constexpr std::array<KnownMethod, 16> kKnown{{
     {"splitting_2", "splitting, order 2", 14},
     {"splitting_4", "splitting, order 4", 16},
     {"explicit_gyroscopic", "explicit gyroscopic", 15},
+    {"exact", "exact turning", 7},
     {"impulse", "impulses", 17},
     {"impulse:100", "impulses (100 sweeps)", 28},
     {"soft", "soft contacts", 18},

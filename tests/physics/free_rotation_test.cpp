@@ -8,6 +8,7 @@
 #include "base/random.hpp"
 #include "physics/body.hpp"
 #include "physics/forces.hpp"
+#include "physics/world.hpp"
 
 namespace lantern::physics {
 namespace {
@@ -212,13 +213,54 @@ TEST(FreeRotation, AnyTopKeepsItsEnergyAtAnySpinAndStep) {
   for (int round = 0; round < 300; ++round) {
     const Body<3> top = any_top(random);
     for (const double radians : {0.01, 0.1, 0.5, 0.7, 1.5, 17.0, -167.0, 1e4, 1e7})
-      for (const auto method : {RotationMethod::splitting_2, RotationMethod::splitting_4}) {
+      for (const auto method :
+           {RotationMethod::exact, RotationMethod::splitting_2, RotationMethod::splitting_4}) {
         const glm::dquat q = turned_by(top, radians * radian_of(top), method);
-        ASSERT_LT(energy_change(top, q), std::abs(radians) < 2 ? 1e-3 : 1e-12)
+        const bool splits = method != RotationMethod::exact && std::abs(radians) < 2;
+        ASSERT_LT(energy_change(top, q), splits ? 1e-3 : 1e-12)
             << "top " << round << ", " << radians << " radians";
         ASSERT_NEAR(glm::length(q), 1, 1e-15);
       }
   }
+}
+
+// By default: short steps as well as far ones, at any size of the spin, of boxes of any shape and
+// of such that are nearly spheres or nearly square.
+TEST(FreeRotation, AnyTopTurnsExactlyAtAnySpinAndStep) {
+  Random random(14);
+  for (int round = 0; round < 60; ++round) {
+    Body<3> top = any_top(random);
+    const double askew = std::exp(-random.between(0, 36));
+    if (round % 3 == 1) top.inverse_inertia = Vec<3>{1, 1 + askew, 1 - random.between(0, askew)};
+    if (round % 3 == 2) top.inverse_inertia = Vec<3>{1, 1 + askew, std::exp(random.between(-3, 3))};
+    top.orientation = {};
+    top.angular_momentum *= std::exp(random.between(-20, 20));
+    // Of the whole turn, not only of what is left when the body turns about its momentum.
+    const Vec<3> spin = top.inverse_inertia * top.angular_momentum;
+    const double h = std::exp(random.between(-7, 1)) / glm::length(spin);
+    const glm::dquat exact = reference(1.0 / top.inverse_inertia, spin, h, 4000);
+    ASSERT_LT(angle_between(exact, freely_turned(top, h).q), 3e-15) << round;
+    Body<3> fine = top;
+    for (int i = 0; i < 50; ++i) turn_freely(fine, h / 50, WorldConfig<3>{}.rotation);
+    ASSERT_LT(angle_between(exact, fine.orientation.q), 2e-14) << round;
+  }
+}
+
+// A box of 1 x 0.4 x 0.2 at 20 radians a second, as a world moves it: at no step is anything lost.
+TEST(FreeRotation, AWorldsStepMakesNoDifferenceToAFreeBody) {
+  const auto spun = [](int steps) {
+    World<3> world;
+    Body<3> box;
+    box.shape = OrientedBox<3>{{0.5, 0.2, 0.1}};
+    const BodyId id = world.add(box, {20, 1, 2});
+    const double energy = rotational(*world.find(id));
+    for (int i = 0; i < steps; ++i) world.step(1.0 / steps);
+    EXPECT_NEAR(rotational(*world.find(id)) / energy, 1, 1e-12) << steps;
+    return world.find(id)->orientation.q;
+  };
+  const glm::dquat whole = spun(1);
+  for (const int steps : {60, 120, 240, 1000, 3000})
+    EXPECT_LT(angle_between(whole, spun(steps)), 1e-11) << steps;
 }
 
 TEST(FreeRotation, FarTurnsAreThoseOfManySmallOnes) {

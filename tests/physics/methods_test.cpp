@@ -12,7 +12,8 @@ namespace {
 constexpr std::array kIntegrators = {Integrator::explicit_euler,    Integrator::semi_implicit_euler,
                                      Integrator::velocity_verlet,   Integrator::runge_kutta_4,
                                      Integrator::implicit_midpoint, Integrator::implicit_euler};
-constexpr std::array kRotations = {RotationMethod::splitting_2, RotationMethod::splitting_4,
+constexpr std::array kRotations = {RotationMethod::exact, RotationMethod::splitting_2,
+                                   RotationMethod::splitting_4,
                                    RotationMethod::explicit_gyroscopic};
 
 template <int D>
@@ -70,7 +71,7 @@ TEST(Methods, ToNameTheWorldsOwnMethodChangesNoBitAndNoWork) {
     for (int i = 0; i < 4; ++i) {
       Body<2> box = box_at<2>({0.1 * i, 0.5 + 1.01 * i});
       if (named) box.integrator = Integrator::semi_implicit_euler;
-      if (named) box.rotation = RotationMethod::splitting_2;
+      if (named) box.rotation = RotationMethod::exact;
       world.add(box);
     }
     for (int i = 0; i < 90; ++i) world.step(kStep);

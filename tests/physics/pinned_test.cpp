@@ -72,7 +72,7 @@ class AnyWorld {
     if (chance(5)) config.gravity = Vec<D>(0.0);
     if (chance(3)) config.gravitation = random_.between(0, 3);
     config.integrator = static_cast<Integrator>(seed_ % 6);
-    config.rotation = static_cast<RotationMethod>(random_.whole(0, 2));
+    config.rotation = static_cast<RotationMethod>(random_.whole(0, 3));
     config.contacts = chance(6)   ? ContactMethod::none
                       : chance(3) ? ContactMethod::impulse
                                   : ContactMethod::soft;
@@ -125,7 +125,7 @@ class AnyWorld {
     if (chance(3)) body.linear_drag = random_.between(0, 1);
     if (chance(3)) body.angular_drag = random_.between(0, 0.2);
     body.may_turn = !chance(6);
-    if (chance(4)) body.rotation = static_cast<RotationMethod>(random_.whole(0, 2));
+    if (chance(4)) body.rotation = static_cast<RotationMethod>(random_.whole(0, 3));
     const bool turns = body.moves();
     const BodyId id = world_.add(body);
     if (turns) world_.set_angular_velocity(id, any_spin(random_, Spin<D>(4.0)));

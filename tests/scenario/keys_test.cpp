@@ -695,7 +695,7 @@ std::vector<KeyCase> key_cases() {
        bad_choice("runge_kuta_4", "runge_kutta_4")},
       {"world",
        "rotation",
-       {"\"splitting_2\"", "\"splitting_4\"", "\"explicit_gyroscopic\""},
+       {"\"exact\"", "\"splitting_2\"", "\"splitting_4\"", "\"explicit_gyroscopic\""},
        bad_choice("splitting_3", "splitting_2")},
       {"world", "sub_steps", {"1", "64"}, bad_whole("0", "65", "1 to 64")},
       {"world", "wanted_error", {"0", "0.01"}, bad_number("-0.1", "1.5")},

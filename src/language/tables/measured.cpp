@@ -110,7 +110,8 @@ TableDoc problem_table() {
           above(0, 1e9), in("s")),
       key(&P::halvings, "halvings", "Of the step: one more run each.", range(0, 24)),
       key(&P::methods, "methods",
-          "Ways to move it: an integrator, `splitting_2`, `splitting_4`, `explicit_gyroscopic`, "
+          "Ways to move it: an integrator, `exact`, `splitting_2`, `splitting_4`, "
+          "`explicit_gyroscopic`, "
           "`soft:16` (sub-steps), `soft:0.001` (wanted error) or `impulse:100` (sweeps).",
           or_else("all that make a difference")),
   };

@@ -96,9 +96,10 @@ TableDoc world_table() {
           "`lecture` does it; or not at all. Without a [structure], every pair is tested for it."),
       key(&W::integrator, "integrator", "How forces become motion."),
       key(&W::rotation, "rotation",
-          "How free bodies rotate. Where a splitting would change the energy by more than a "
-          "thousandth, because a body turns far in a step, it is turned exactly. "
-          "`explicit_gyroscopic` is there to be seen failing."),
+          "How free bodies rotate: exactly, to rounding, at any spin and step; or by a splitting "
+          "of "
+          "order 2 or 4, and exactly only where it would change the energy by more than a "
+          "thousandth. `explicit_gyroscopic` is there to be seen failing."),
       key(&W::sub_steps, "sub_steps", "How many parts soft contacts divide a world step into.",
           range(1, 64)),
       key(&W::wanted_error, "wanted_error",

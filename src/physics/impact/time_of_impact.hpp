@@ -37,7 +37,7 @@ struct Trajectory {
   const Body<D>* body = nullptr;
   Vec<D> velocity{0.0};
   Vec<D> bend{0.0};
-  RotationMethod rotation = RotationMethod::splitting_2;
+  RotationMethod rotation = RotationMethod::exact;
   double held = 0;  // acceleration that forces would give it, if it did not rest on something
 };
 
