@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <glm/gtc/quaternion.hpp>
 
 #include "base/check.hpp"
+#include "geometry/elementary.hpp"
 #include "geometry/elliptic.hpp"
 #include "physics/body.hpp"
 
@@ -32,22 +32,22 @@ namespace {
 // Its integral is an arc tangent and an elliptic integral of the third kind, of Carlson's kind R_J,
 // with the parameter -a / c, which is not in the way of any pole. Whole half periods are counted.
 //
-// In long double, as the integrals are: a body that has turned by millions of radians is then still
+// In twice the digits of a double: a body that has turned by millions of radians is then still
 // right to the last digits of its inertia.
 
-using Long = long double;
+using Long = Twofold;
 using LongVec = glm::vec<3, Long>;
 using LongQuat = glm::qua<Long>;
 
 // On the boundary itself L takes for ever to turn over. So near it no rounding tells the
 // difference.
-constexpr Long kLeastComplement = 1e-30L;
+constexpr Long kLeastComplement = 1e-30;
 
 // Which of the body's axes are x, y and z, and which of them are turned round: a right-handed
 // frame, in which L is above the plane of x and y.
 struct Naming {
   std::array<int, 3> axis{};
-  LongVec sign{1.0L};
+  LongVec sign{1.0};
 
   LongVec named(const LongVec& v) const {
     return sign * LongVec(v[axis[0]], v[axis[1]], v[axis[2]]);
@@ -76,56 +76,57 @@ Naming naming(const LongVec& n, const LongVec& excess) {
   return names;
 }
 
-LongQuat turn_to_z(const LongVec& n) { return glm::normalize(LongQuat(1 + n.z, n.y, -n.x, 0)); }
+LongQuat turn_to_z(const LongVec& n) {
+  const Long w = 1 + n.z, size = sqrt(w * w + n.x * n.x + n.y * n.y);
+  return {w / size, n.y / size, -n.x / size, 0};
+}
 
 // The curve that L runs along, in the named axes.
 class Curve {
  public:
-  Curve(const LongVec& n, Long a, Long c) : ratio_(std::sqrt(1 + a / c)), n_(a / c) {
+  Curve(const LongVec& n, Long a, Long c) : ratio_(sqrt(1 + a / c)), n_(a / c) {
     const Long wobble = (a + c) * n.x * n.x + c * n.y * n.y;
     const Long spin = (a + c) * n.z * n.z + a * n.y * n.y;
-    size_ = {std::sqrt(wobble / (a + c)), std::sqrt(wobble / c), std::sqrt(spin / (a + c))};
-    rate = std::sqrt(c * spin);
-    const Long side = std::max(c * n.z * n.z - a * n.x * n.x, 0.0L);
-    m1_ = std::clamp(side * (a + c) / (c * spin), kLeastComplement, 1.0L);
+    size_ = {sqrt(wobble / (a + c)), sqrt(wobble / c), sqrt(spin / (a + c))};
+    rate = sqrt(c * spin);
+    const Long side = std::max<Long>(c * n.z * n.z - a * n.x * n.x, 0);
+    m1_ = std::clamp<Long>(side * (a + c) / (c * spin), kLeastComplement, Long(1));
   }
 
   // Where n is: an argument within a quarter period of 0, or half a period further (`over`).
-  Jacobi at(const LongVec& n, bool& over) const {
-    Jacobi f{size_.y > 0 ? -n.y / size_.y : 0, size_.x > 0 ? n.x / size_.x : 1, 1};
+  Jacobi<Long> at(const LongVec& n, bool& over) const {
+    Jacobi<Long> f{size_.y > 0 ? -n.y / size_.y : 0, size_.x > 0 ? n.x / size_.x : 1, 1};
     over = f.cn < 0;
-    const Long length = std::hypot(f.sn, f.cn) * (over ? -1 : 1);
+    const Long length = sqrt(f.sn * f.sn + f.cn * f.cn) * (over ? -1 : 1);
     f.sn /= length;
     f.cn /= length;
-    f.dn = std::sqrt(f.cn * f.cn + m1_ * f.sn * f.sn);
+    f.dn = sqrt(f.cn * f.cn + m1_ * f.sn * f.sn);
     return f;
   }
-  LongVec point(const Jacobi& f, bool over) const {
+  LongVec point(const Jacobi<Long>& f, bool over) const {
     const Long sign = over ? -1 : 1;
     return size_ * LongVec(sign * f.cn, -sign * f.sn, f.dn);
   }
-  Long argument(const Jacobi& f) const { return argument_of(f, m1_); }
-  Jacobi functions(Long u) const { return jacobi(u, m1_); }
+  Long argument(const Jacobi<Long>& f) const { return argument_of(f, m1_); }
+  Jacobi<Long> functions(Long u) const { return jacobi(u, m1_); }
   Long half_period() const { return 2 * quarter_period(m1_); }
   // By how much X + a |L| t has grown since the argument was 0, and over half a period.
-  Long turned(const Jacobi& f) const {
+  Long turned(const Jacobi<Long>& f) const {
     const Long s = f.sn;
-    return std::atan2(ratio_ * s, f.cn) +
-           s * s * s * third() * carlson_rj(f.cn * f.cn, f.dn * f.dn, 1, 1 + n_ * s * s);
+    return atan2(ratio_ * s, f.cn) +
+           s * s * s * third() * carlson_rj<Long>(f.cn * f.cn, f.dn * f.dn, 1, 1 + n_ * s * s);
   }
-  Long half_turn() const {
-    return std::numbers::pi_v<Long> + 2 * third() * carlson_rj(0, m1_, 1, 1 + n_);
-  }
+  Long half_turn() const { return kTwofoldPi + 2 * third() * carlson_rj<Long>(0, m1_, 1, 1 + n_); }
 
   Long rate = 0;  // of the argument, for each radian |L| t
 
  private:
   Long third() const { return n_ * ratio_ / (3 * size_.z); }
 
-  LongVec size_{0.0L};  // A1, A2, A3
-  Long m1_ = 1;         // 1 - m
-  Long ratio_ = 1;      // sqrt(1 + a / c)
-  Long n_ = 0;          // a / c
+  LongVec size_{0.0};  // A1, A2, A3
+  Long m1_ = 1;        // 1 - m
+  Long ratio_ = 1;     // sqrt(1 + a / c)
+  Long n_ = 0;         // a / c
 };
 
 // The turn in the body's own axes, q(h) = q(0) * turn, of a body whose angular momentum has the
@@ -134,21 +135,22 @@ class Curve {
 // its angular momentum besides. `h` may be negative: back in time.
 glm::dquat tumbled_freely(const Vec<3>& momentum, const Vec<3>& excess, double h) {
   const LongVec l(momentum), own(excess);
-  const Long length = glm::length(l);
+  const Long length = sqrt(l.x * l.x + l.y * l.y + l.z * l.z);
   const Naming names = naming(l / length, own);
   const LongVec n = names.named(l / length);
-  const Long a = std::abs(own[names.axis[0]]), c = std::abs(own[names.axis[2]]);
+  const Long a = abs(own[names.axis[0]]), c = abs(own[names.axis[2]]);
   // If z is the axis of the least inverse inertia, all signs are the other way round.
   const Long time = length * h * (own[names.axis[2]] < 0 ? -1 : 1);
   const Curve curve(n, a, c);
   bool over = false;
-  const Jacobi from = curve.at(n, over);
+  const Jacobi<Long> from = curve.at(n, over);
   const Long argument = curve.argument(from) + curve.rate * time, half = curve.half_period();
-  const Long halves = std::round(argument / half);
-  const Jacobi to = curve.functions(argument - halves * half);
-  if (std::fmod(halves, 2.0L) != 0) over = !over;
+  const double halves = std::round(double(argument / half));
+  const Jacobi<Long> to = curve.functions(argument - halves * half);
+  if (std::fmod(halves, 2) != 0) over = !over;
   const Long x = halves * curve.half_turn() + (curve.turned(to) - curve.turned(from)) - a * time;
-  const LongQuat about_z(std::cos(x / 2), 0, 0, std::sin(x / 2));
+  const auto [sine, cosine] = sin_cos(x / 2);
+  const LongQuat about_z(cosine, 0, 0, sine);
   return names.unnamed(glm::conjugate(turn_to_z(n)) * about_z * turn_to_z(curve.point(to, over)));
 }
 
@@ -203,8 +205,9 @@ glm::dquat tumbled_briefly(const Vec<3>& momentum, const Vec<3>& excess, double 
 // Turned about its own axis `axis`.
 glm::dquat turned_about_own_axis(const glm::dquat& q, int axis, double angle) {
   Vec<3> v{0.0};
-  v[axis] = std::sin(angle / 2);
-  return q * glm::dquat(std::cos(angle / 2), v);
+  const auto [sine, cosine] = sin_cos(angle / 2);
+  v[axis] = sine;
+  return q * glm::dquat(cosine, v);
 }
 
 // The two terms that are left: axis and 1/Ii - m.
