@@ -157,6 +157,30 @@ std::string json_of(const Scenario& scenario, const std::vector<StageTally>& sta
   return json.text();
 }
 
+// What ran, a row each. Of what did not, whose counters all stand at 0, a row for each reason.
+std::string list_of(const std::vector<StageTally>& stages) {
+  constexpr std::size_t kLongest = 64;  // of names in a line
+  std::vector<std::vector<std::string>> used, left_out;
+  std::map<std::string, std::vector<std::string>> lines;  // of names, by reason
+  for (const StageTally& stage : stages) {
+    if (stage.used()) {
+      used.push_back({"uses", stage.stage, told(stage)});
+      continue;
+    }
+    auto& names = lines[stage.note.empty() ? "nothing asks for it" : stage.note];
+    if (names.empty() || names.back().size() + stage.stage.size() > kLongest)
+      names.push_back(stage.stage);
+    else
+      names.back() += ", " + stage.stage;
+  }
+  for (const auto& [reason, names] : lines)
+    for (const std::string& line : names)
+      left_out.push_back(line == names.front()
+                             ? std::vector<std::string>{"leaves out", reason, line}
+                             : std::vector<std::string>{"", "", line});
+  return table(used) + "\n" + table(left_out);
+}
+
 int explain_scenario(const ExplainOptions& options) {
   const Scenario scenario = load_scenario(scenario_file(options.file));
   Work work;
@@ -177,11 +201,8 @@ int explain_scenario(const ExplainOptions& options) {
     answer(json_of(scenario, stages, report.frames, seconds));
     return kGood;
   }
-  std::vector<std::vector<std::string>> rows;
-  for (const StageTally& stage : stages)
-    rows.push_back({stage.used() ? "uses" : "leaves out", stage.stage, told(stage)});
   print(fmt::format("{}: {}\n\n{}\nCounted in a run without pixels: {} in {:.2g} s.\n",
-                    scenario.name, scenario.title, table(rows), counted(report.frames, "frame"),
+                    scenario.name, scenario.title, list_of(stages), counted(report.frames, "frame"),
                     seconds));
   return kGood;
 }
