@@ -142,6 +142,13 @@ TEST(CommandLine, ListExplainDoctorAnswerOnStandardOutput) {
     if (stage["stage"] == "world") world_left_out = !stage["used"];
   }
   EXPECT_TRUE(world_left_out) << "an atlas has no world";
+  for (const char* name : {"falling_boxes", "pong_bsp", "kdtree_atlas", "tumbling_box"}) {
+    const std::string told = shell("lantern explain " + scenario(name)).out;
+    EXPECT_LE(std::ranges::count(told, '\n'), 30) << "more than a screen:\n" << told;
+    for (const json& stage :
+         json::parse(shell("lantern explain --json " + scenario(name)).out)["stages"])
+      EXPECT_NE(told.find(stage["stage"].get<std::string>()), std::string::npos) << stage["stage"];
+  }
   const Outcome doctor = shell("lantern doctor --json");
   EXPECT_EQ(doctor.code, 0);
   EXPECT_EQ(json::parse(doctor.out)["backends"].size(), 2u);

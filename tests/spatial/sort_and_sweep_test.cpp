@@ -1,5 +1,8 @@
 #include "spatial/trees/sort_and_sweep.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 #include <gtest/gtest.h>
 
 #include "spatial/worlds.hpp"
@@ -143,6 +146,29 @@ TEST(SortAndSweep, CountsAnewWhenItIsCleared) {
   EXPECT_GT(sweep.counters().box_tests, 0u);
   sweep.clear();
   EXPECT_EQ(sweep.counters().box_tests, 0u);
+}
+
+// Comparisons are told to students: they may not hang on whose std::sort there is.
+TEST(SortAndSweep, SortsStablyByTheSameComparisonsEverywhere) {
+  Random random(3);
+  std::uint64_t all = 0;
+  for (std::size_t count = 0; count < 100; ++count) {
+    std::vector<std::pair<int, std::size_t>> list;
+    for (std::size_t i = 0; i < count; ++i)
+      list.emplace_back(static_cast<int>(random.whole(0, 30)), i);
+    auto sorted = list;
+    std::uint64_t comparisons = 0;
+    merge_sort(list, [&](const auto& a, const auto& b) {
+      ++comparisons;
+      return a.first < b.first;
+    });
+    std::ranges::sort(sorted);  // by the number, then by where it stood
+    EXPECT_EQ(list, sorted);
+    const double levels = std::ceil(std::log2(std::max<double>(1, static_cast<double>(count))));
+    EXPECT_LE(static_cast<double>(comparisons), static_cast<double>(count) * levels);
+    all += comparisons;
+  }
+  EXPECT_EQ(all, 24307u);
 }
 
 }  // namespace
