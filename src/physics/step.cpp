@@ -93,10 +93,11 @@ struct World<D>::Step : World<D>::StepIslands {
       world.ahead_ = std::move(found);
     }
     world.work_.force_evaluations += std::exchange(world.ahead_->force_evaluations, 0);
-    find_reach();
+    if (collides()) find_reach();
   }
 
   void refresh_boxes() {
+    if (!collides()) return;
     require_boxes();
     if (looks_for_contacts()) boxes = enlarged_boxes();
   }
@@ -116,6 +117,7 @@ struct World<D>::Step : World<D>::StepIslands {
     narrow_pairs = 0;
     manifolds.clear();
     axes.clear();
+    if (outcome.pairs.empty()) return;
     for (const Body<D>& body : moved) axes.push_back(axes_of(body));
     const std::vector<Pair> joined = joined_pairs();
     auto touch = world.touching_.begin();  // in order of ids, as the pairs are

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <numeric>
 #include <utility>
 
 #include "base/stop.hpp"
@@ -51,6 +52,12 @@ struct World<D>::StepIslands {
 
   // Static and kinematic bodies do not join what touches them.
   void make_islands() {
+    if (near.empty() && world.touching_.empty() && world.joints_.empty() &&
+        forces.springs.empty() && !(forces.gravitation > 0)) {
+      root.resize(moved.size());
+      std::iota(root.begin(), root.end(), 0u);
+      return count_islands();
+    }
     DisjointSets sets(moved.size());
     const auto unite = [&](std::uint32_t a, std::uint32_t b) {
       if (moved[a].is_dynamic() && moved[b].is_dynamic()) sets.unite(a, b);
@@ -74,6 +81,10 @@ struct World<D>::StepIslands {
     root.clear();
     for (std::size_t i = 0; i < moved.size(); ++i)
       root.push_back(sets.root(static_cast<std::uint32_t>(i)));
+    count_islands();
+  }
+
+  void count_islands() const {
     world.work_.islands = 0;
     for (std::size_t i = 0; i < moved.size(); ++i)
       world.work_.islands += root[i] == i && moved[i].is_pushed();
@@ -82,6 +93,7 @@ struct World<D>::StepIslands {
   // Which bodies, pairs and joints the solver is given together: those of each island, or of the
   // whole world. What neither touches nor is joined is in none of them, but flies.
   std::vector<Group> groups_to_solve(bool whole_world) const {
+    if (near.empty() && world.joints_.empty()) return {};
     const auto dynamic = [&](std::uint32_t i) { return moved[i].is_dynamic(); };
     const auto own = [&](std::uint32_t i) { return whole_world ? 0 : root[i]; };
     const auto owner = [&](std::uint32_t a, std::uint32_t b) { return own(dynamic(a) ? a : b); };
