@@ -248,7 +248,12 @@ std::vector<KeyDoc> body_keys(std::vector<KeyDoc> first) {
           "How much of its speed a bounce keeps; of two bodies, the larger counts.", range(0, 1)),
       key(&Material::friction, "friction",
           "Of two bodies, the square root of their product counts.", range(0, 1000)),
-      key(&B::linear_drag, "drag", "Force against its motion, for each unit a second.",
+      key(&B::linear_drag, "drag",
+          "Force against its motion, for each unit a second. `velocity_verlet`, "
+          "`implicit_midpoint` "
+          "and `implicit_euler` bear any: they turn no velocity round. The others need steps below "
+          "the mass over it, as `semi_implicit_euler`, which beyond that turns round, and beyond "
+          "twice that blows up.",
           range(0, kHeavy), in("N s")),
       key(&B::angular_drag, "angular_drag", "Torque against its turning, for each radian a second.",
           range(0, kHeavy), in("N s")),

@@ -140,7 +140,8 @@ class Newton {
           double share) const {
     for (std::size_t n = 0; n < step.size(); ++n) {
       const std::size_t i = system_.movers()[n];
-      for (int c = 0; c < D; ++c) state.kick[i][c] = before.kick[i][c] + share * step[n][c];
+      for (int c = 0; c < D; ++c)
+        state.kick[i][c] = before.kick[i][c] + share / system_.gained(i) * step[n][c];
       if constexpr (B > D) {
         if (!system_.turns(i)) continue;
         Spin<D> spin(0.0);
@@ -206,9 +207,11 @@ class Newton {
       const Body<D>& body = bodies[i];
       linear[i] = (size_of(state.kick[i]) + time_ * size_of(forces.gravity)) / body.inverse_mass +
                   time_ * body.linear_drag * speed(i);
-      if (system_.turns(i))
-        angular[i] = size_of(state.twist[i]) + time_ * size_of(pull_.torque[i]) +
-                     time_ * body.angular_drag * size_of(system_.angular_velocity(state, i));
+      if (!system_.turns(i)) continue;
+      angular[i] = size_of(state.twist[i]) + time_ * size_of(pull_.torque[i]) +
+                   time_ * body.angular_drag * size_of(system_.angular_velocity(state, i));
+      for (int axis = 0; rounded && axis < (D == 2 ? 1 : 3); ++axis)
+        angular[i] += system_.drag_part(i, axis, time_) * size_of(state.twist[i]);
     }
     const auto add = [&](std::size_t i, double arm, double momentum) {
       linear[i] += momentum;

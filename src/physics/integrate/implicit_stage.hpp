@@ -138,8 +138,9 @@ class MotionMatrix {
   void add_body(Blocks& blocks, std::size_t n, double heavier) {
     const std::size_t i = system_.movers()[n];
     const Body<D>& body = system_.bodies()[i];
-    const double mass = 1 / body.inverse_mass;
-    for (int r = 0; r < D; ++r) blocks.add(n, r, r, heavier * mass + time_ * body.linear_drag);
+    const double mass = 1 / (body.inverse_mass * system_.gained(i));
+    for (int r = 0; r < D; ++r)
+      blocks.add(n, r, r, heavier * mass + time_ * system_.linear_drag(i));
     if constexpr (B > D) {
       if (!system_.turns(i)) {
         for (int r = D; r < B; ++r) blocks.add(n, r, r, mass);  // unknowns that will be zero
@@ -147,7 +148,7 @@ class MotionMatrix {
         for (int c = D; c < B; ++c) {
           const Spin<D> column = system_.inertia_times(*state_, i, unit_spin<D>(c - D));
           for (int r = D; r < B; ++r) blocks.add(n, r, c, heavier * spin_component(column, r - D));
-          blocks.add(n, c, c, time_ * body.angular_drag);
+          blocks.add(n, c, c, time_ * system_.angular_drag(i));
         }
       }
     }

@@ -48,32 +48,65 @@ void semi_implicit_euler(SmoothSystem<D>& system, double h, std::vector<Incremen
 constexpr Integration kSemiImplicitEuler = {
     .name = "semi_implicit_euler", .increments = {semi_implicit_euler<2>, semi_implicit_euler<3>}};
 
+// Drag over a whole step of `h` seconds, after the first half-kick of the other forces. It meets
+// the mean velocity (see drag_share) that these lead to; `way` becomes the state of that velocity,
+// and `state` that of the half-kick and all of the drag. In space the mean spin is that about the
+// axes as they lie half way.
+template <int D>
+void brake(const SmoothSystem<D>& system, double h, SmoothState<D>& state, SmoothState<D>& way) {
+  for (const std::size_t i : system.movers()) {
+    const Body<D>& body = system.bodies()[i];
+    if (body.linear_drag > 0) {
+      const double z = system.drag_part(i, h);
+      const Vec<D> mean = drag_keeps(z) * body.velocity + 2 * drag_lets(z) * state.kick[i];
+      way.kick[i] = mean - body.velocity;
+      state.kick[i] -= z * mean;
+    }
+    if (!(body.angular_drag > 0) || !system.turns(i)) continue;
+    const Spin<D> start = body.angular_momentum, half = state.twist[i];
+    Rotation<D> at = body.orientation;
+    const auto scaled = [&](const Spin<D>& spin, auto&& factor) {
+      return by_own_axes(at, spin, [&](int axis, double own) {
+        return own * factor(system.drag_part(i, axis, h));
+      });
+    };
+    for (int look = 0; look < 2; ++look) {
+      const Spin<D> mean = scaled(start, drag_keeps) + scaled(2.0 * half, drag_lets);
+      way.twist[i] = mean - start;
+      state.twist[i] = half - scaled(mean, [](double z) { return z; });
+      at = freely_turned(body, mean, h / 2);
+    }
+  }
+}
+
 // Velocity Verlet: half a kick, fly, half a kick (Swope and others, J. Chem. Phys. 76, 1982).
+// Forces are looked at twice a step, since what moves bodies or changes forces between two steps
+// would make the second look useless for the next.
 //
-// Drag and damping need the velocity that the second half-kick is about to make. Taken from before
-// it they would cost an order and stability; so that half is implicit in the velocity alone. Forces
-// are linear in it, so one system of linear equations does. A half explicit and a half implicit
-// make damping c shrink a velocity by (1 - ch/2m)/(1 + ch/2m), never by more than 1: the only limit
-// left is that of the springs, omega h < 2.
+// The damping of springs needs the velocity that the second half-kick is about to make. Taken from
+// before it it would cost an order and stability; so that half is implicit in the velocity alone.
+// Forces are linear in it, so one system of linear equations does. Drag is the body's own, and is
+// taken by `brake`. The only limit left is that of the springs, omega h < 2.
 template <int D>
 void velocity_verlet(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out) {
   SmoothState<D> state = system.start();
+  system.leave_drag();
   system.kick(state, system.evaluate(state), h / 2);
-  system.fly(state, state, h);
-  SmoothState<D> end = state;
+  SmoothState<D> way = state;
+  brake(system, h, state, way);
+  system.fly(state, way, h);
   if (system.any_damping()) {
-    damped_kick(system, end, h / 2);
+    damped_kick(system, state, h / 2);
   } else {
     const Pull<D> pull = system.evaluate(state);
     for (const std::size_t i : system.movers()) {
-      end.kick[i] += h / 2 * pull.acceleration[i];
-      end.twist[i] += h / 2 * pull.torque[i];
+      state.kick[i] += h / 2 * pull.acceleration[i];
+      state.twist[i] += h / 2 * pull.torque[i];
     }
   }
-  for (const std::size_t i : system.movers()) {
-    const Vec<D> second = end.kick[i] - state.kick[i];
-    out[i] = {end.kick[i], -h * second, end.twist[i], state.twist[i] - end.twist[i]};
-  }
+  for (const std::size_t i : system.movers())
+    out[i] = {state.kick[i], h * (way.kick[i] - state.kick[i]), state.twist[i],
+              way.twist[i] - state.twist[i]};
 }
 constexpr Integration kVelocityVerlet = {
     .name = "velocity_verlet",
@@ -124,13 +157,16 @@ constexpr Integration kRungeKutta4 = {
 // Implicit midpoint: the forces are those halfway between the start and the end of the step. The
 // first half is a step of implicit Euler, the second repeats its kick. Symplectic and stable at any
 // step; the energy of linear springs is kept to rounding (Hairer, Lubich, Wanner, IV.2 and VI.4).
+// Velocities, and the way to the middle, are the mean ones where drag is strong (see drag_share).
 template <int D>
 void implicit_midpoint(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out) {
+  system.take_means(h);
   const SmoothState<D> middle = implicit_stage(system, h / 2, "implicit_midpoint", h);
   for (const std::size_t i : system.movers()) {
     const Vec<D> half = middle.kick[i];
     const Spin<D> half_twist = middle.twist[i];
-    out[i] = {2.0 * half, -h * half, 2.0 * half_twist, -half_twist};
+    out[i] = {2.0 * half, h * (system.gained(i) - 2) * half, 2.0 * half_twist,
+              system.gained_twist(middle, i) - 2.0 * half_twist};
   }
 }
 constexpr Integration kImplicitMidpoint = {

@@ -2,6 +2,7 @@
 // evaluated, and how a state is made from the one at the start.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -43,6 +44,32 @@ double size_of(const glm::vec<D, double>& v) {
   return glm::length(v);
 }
 
+// Drag c on a mass m, over a step of h seconds, takes z = h c / m times the mean velocity
+//
+//   u = v + share (v' - v)        so that v' = ((1 - (1 - share) z) v + h F / m) / (1 + share z)
+//
+// by which the body also moves: so all the way that drag leaves it is m v / c. Half the change
+// makes it of second order. But beyond z = 2 a velocity would then be turned round, at each step
+// anew; so from there on the share is so large that v' is just the velocity at which drag bears the
+// force (the least share by which nothing turns round; Liniger and Willoughby, SIAM J. Numer. Anal.
+// 7, 1970, choose it so that v' is exact).
+inline double drag_share(double z) { return z > 2 ? 1 - 1 / z : 0.5; }
+
+// What u gains of v, and of what forces change v by.
+inline double drag_keeps(double z) { return 1 / (1 + drag_share(z) * z); }
+inline double drag_lets(double z) { return drag_share(z) * drag_keeps(z); }
+
+// f(axis, component) of each component of a spin in a body's own axes.
+template <class F>
+double by_own_axes(const Rotation<2>&, double spin, F&& f) {
+  return f(0, spin);
+}
+template <class F>
+Vec<3> by_own_axes(const Rotation<3>& r, const Vec<3>& spin, F&& f) {
+  const Vec<3> own = glm::conjugate(r.q) * spin;
+  return r.q * Vec<3>(f(0, own.x), f(1, own.y), f(2, own.z));
+}
+
 template <int D>
 class SmoothSystem {
  public:
@@ -61,7 +88,6 @@ class SmoothSystem {
       moves_[i] = 1;
       number_[i] = movers_.size();
       movers_.push_back(i);
-      if (body.linear_drag > 0) any_damping_ = true;
     }
     if (!forces.springs.empty() || !forces.pushes.empty()) {
       const BodyLookup<D> lookup(bodies);
@@ -92,7 +118,49 @@ class SmoothSystem {
   }
 
   // Whether some force depends on velocity.
-  bool any_damping() const { return any_damping_; }
+  bool any_damping() const { return any_damping_ || (drag_acts_ && fastest_drag() > 0); }
+
+  // The part z of a velocity that drag takes in `h` seconds, by the start's, and of the angular
+  // momentum about an axis of the body.
+  double drag_part(std::size_t i, double h) const {
+    return h * bodies_[i].linear_drag * bodies_[i].inverse_mass;
+  }
+  double drag_part(std::size_t i, int axis, double h) const {
+    return turns(i) ? h * bodies_[i].angular_drag * spin_component(bodies_[i].inverse_inertia, axis)
+                    : 0;
+  }
+  // Of all bodies, the largest in a second.
+  double fastest_drag() const {
+    double most = 0;
+    for (const std::size_t i : movers_)
+      for (int axis = 0; axis < (D == 2 ? 1 : 3); ++axis)
+        most = std::max({most, drag_part(i, 1), drag_part(i, axis, 1)});
+    return most;
+  }
+  // Drag is no force of this system any more.
+  void leave_drag() { drag_acts_ = false; }
+  double linear_drag(std::size_t i) const { return drag_acts_ ? bodies_[i].linear_drag : 0; }
+  double angular_drag(std::size_t i) const { return drag_acts_ ? bodies_[i].angular_drag : 0; }
+  // From now on the kicks (twists) of a state are half of those over `h` seconds, and its
+  // velocities are the mean ones, u; 0: they are the state's own again.
+  void take_means(double h) {
+    means_.clear();
+    if (!(h * fastest_drag() > 2)) return;  // all are half way
+    means_.resize(bodies_.size());
+    for (const std::size_t i : movers_) {
+      means_[i].kick = 2 * drag_share(drag_part(i, h));
+      for (int axis = 0; axis < (D == 2 ? 1 : 3); ++axis)
+        spin_component(means_[i].twist, axis) = 2 * drag_share(drag_part(i, axis, h));
+    }
+  }
+  // How much of a kick the velocity gains.
+  double gained(std::size_t i) const { return means_.empty() ? 1 : means_[i].kick; }
+  Spin<D> gained_twist(const SmoothState<D>& state, std::size_t i) const {
+    if (means_.empty()) return state.twist[i];
+    return by_own_axes(state.orientation[i], state.twist[i], [&](int axis, double twist) {
+      return twist * spin_component(means_[i].twist, axis);
+    });
+  }
 
   std::span<const Body<D>> bodies() const { return bodies_; }
   const Forces<D>& forces() const { return forces_; }
@@ -147,7 +215,8 @@ class SmoothSystem {
       // A body that only turns freely still moves the ends of its springs, if any are off its
       // centre; then it is among those that turn, unless it is not to be turned by forces.
       if (turns(i) || !body.may_turn || body.kind == BodyKind::kinematic_body)
-        state.orientation[i] = freely_turned(body, body.angular_momentum + with.twist[i], time);
+        state.orientation[i] =
+            freely_turned(body, body.angular_momentum + gained_twist(with, i), time);
     }
   }
 
@@ -160,10 +229,10 @@ class SmoothSystem {
     for (const std::size_t i : movers_) {
       const Body<D>& body = bodies_[i];
       pull.acceleration[i] = forces_.gravity;
-      if (body.linear_drag > 0)
-        pull.acceleration[i] -= body.linear_drag * body.inverse_mass * velocity(state, i);
-      if (body.angular_drag > 0 && turns(i))
-        pull.torque[i] = -body.angular_drag * angular_velocity(state, i);
+      if (linear_drag(i) > 0)
+        pull.acceleration[i] -= linear_drag(i) * body.inverse_mass * velocity(state, i);
+      if (angular_drag(i) > 0 && turns(i))
+        pull.torque[i] = -angular_drag(i) * angular_velocity(state, i);
     }
     const auto apply = [&](std::size_t i, const Vec<D>& arm, const Vec<D>& force) {
       if (moves(i)) pull.acceleration[i] += bodies_[i].inverse_mass * force;
@@ -182,34 +251,30 @@ class SmoothSystem {
   Vec<D> velocity(const SmoothState<D>& state, std::size_t i) const {
     const Body<D>& body = bodies_[i];
     if (body.kind == BodyKind::static_body || body.asleep) return Vec<D>(0.0);
-    return body.velocity + state.kick[i];
+    return body.velocity + gained(i) * state.kick[i];
   }
 
   Spin<D> angular_velocity(const SmoothState<D>& state, std::size_t i) const {
     const Body<D>& body = bodies_[i];
     if (body.kind == BodyKind::static_body || body.asleep) return Spin<D>(0.0);
     if (body.kind == BodyKind::kinematic_body) return body.kinematic_spin;
-    return spin_of(body, state.orientation[i], body.angular_momentum + state.twist[i]);
+    return spin_of(body, state.orientation[i], body.angular_momentum + gained_twist(state, i));
   }
 
-  // Inertia of a body that turns, in the world's axes: angular velocity to angular momentum.
+  // Inertia of a body that turns, in the world's axes: from the angular velocity to the twist that
+  // gains it.
   Spin<D> inertia_times(const SmoothState<D>& state, std::size_t i, const Spin<D>& spin) const {
-    if constexpr (D == 2) {
-      return spin / bodies_[i].inverse_inertia;
-    } else {
-      const glm::dquat q = state.orientation[i].q;
-      return q * ((glm::conjugate(q) * spin) / bodies_[i].inverse_inertia);
-    }
+    return by_own_axes(state.orientation[i], spin, [&](int axis, double component) {
+      const double gain = means_.empty() ? 1 : spin_component(means_[i].twist, axis);
+      return component / (spin_component(bodies_[i].inverse_inertia, axis) * gain);
+    });
   }
 
  private:
   void find_what_turns() {
     const Vec<D> centre(0.0);
-    for (const std::size_t i : movers_) {
-      if (!(bodies_[i].angular_drag > 0)) continue;
-      turns_[i] = 1;
-      any_damping_ = true;
-    }
+    for (const std::size_t i : movers_)
+      if (bodies_[i].angular_drag > 0) turns_[i] = 1;
     for (std::size_t k = 0; k < forces_.springs.size(); ++k) {
       if (forces_.springs[k].at_a != centre) turns_[ends_[k].a] = 1;
       if (forces_.springs[k].at_b != centre) turns_[ends_[k].b] = 1;
@@ -275,8 +340,14 @@ class SmoothSystem {
   std::vector<Ends> ends_;
   std::vector<double> masses_;       // by which bodies attract; none if they do not
   std::vector<std::size_t> pushed_;  // one a push
+  struct Mean {
+    double kick = 1;
+    Spin<D> twist{1.0};  // about each of the body's own axes
+  };
+  std::vector<Mean> means_;  // of each body; none if velocities are those of the state
   bool any_turns_ = false;
-  bool any_damping_ = false;
+  bool any_damping_ = false;  // of springs
+  bool drag_acts_ = true;
 };
 
 }  // namespace lantern::physics

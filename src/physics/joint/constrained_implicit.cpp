@@ -214,7 +214,7 @@ class ImplicitStage {
       const std::size_t i = system_.movers()[n];
       Vec<D> by(0.0);
       for (int c = 0; c < D; ++c) by[c] = change[n][c];
-      state_.kick[i] += by;
+      state_.kick[i] += by / system_.gained(i);
       double moved = glm::length(by);
       double speed = glm::length(system_.velocity(state_, i)) + glm::length(state_.kick[i]);
       if constexpr (B > D) {
@@ -256,10 +256,12 @@ bool by_stage(ConstrainedPart<D>& part, double share) {
   JointSystem<D>& joints = part.joints;
   SmoothState<D>& state = part.state;
   if (joints.rows().size() > kJointSettings.most_dense) return false;
+  if (share < 1) system.take_means(part.h);
   const bool found = system.any_turns() ? ImplicitStage<D, kTurning<D>>(part, share * part.h).run()
                                         : ImplicitStage<D, D>(part, share * part.h).run();
   if (!found) return false;
   system.fly(state, state, part.h);
+  system.take_means(0);
   for (const std::size_t i : system.movers()) {
     state.kick[i] /= share;
     state.twist[i] /= share;

@@ -346,7 +346,10 @@ bool constrained_verlet(ConstrainedPart<D>& part) {
   system.kick(state, pull, h / 2);
   // If it fails, an estimate of the tension is there all the same.
   const bool held = joints.hold_at_end(state, h);
-  if (!part.follows(joints.swing_squared(joints.impulses(), h / 2)) || !held) return false;
+  // Half of the drag is explicit, half implicit: more than twice the velocity would turn it round.
+  const double drag = system.fastest_drag() / 2;
+  const double swing_squared = joints.swing_squared(joints.impulses(), h / 2);
+  if (!part.follows(std::max(swing_squared, drag * drag)) || !held) return false;
   joints.look(state);
   if (!joints.factor()) return false;
   if (system.any_damping()) return constrained_damped_kick(part, h / 2);
