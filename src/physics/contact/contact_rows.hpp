@@ -32,8 +32,7 @@ struct RowSettings {
   // "Small Steps in Physics Simulation", 2019).
   double pushed_out = 0.25;
   double fastest_push = 4;
-  double corner = 1e-3;         // of a body's size: so near to a corner of it is at the corner
-  double hardly_slowed = 1e-3;  // of what friction alone would slow: balances forces
+  double corner = 1e-3;  // of a body's size: so near to a corner of it is at the corner
   // Of full friction: what stops a body within so little of it does not slip in the end.
   double slip_by_rounding = 1e-6;
   // Of the firmest point's impulse: one that presses less presses by rounding only.
@@ -195,8 +194,9 @@ struct ContactRows {
 
   // What follows from the velocities found: the way that slipping points lag behind (see
   // sub_step.hpp), and how far sticking ones may still slide. `lag_a` and `lag_b` are the lags that
-  // the integrator has already.
-  void begin_correction(SolverBody<D>& body_a, SolverBody<D>& body_b, double lag_a, double lag_b) {
+  // the integrator has already, `kicked_a` and `kicked_b` the motions after forces alone.
+  void begin_correction(SolverBody<D>& body_a, SolverBody<D>& body_b, double lag_a, double lag_b,
+                        const Motion<D>& kicked_a, const Motion<D>& kicked_b) {
     const ContactPoint<D>* firmest = nullptr;
     for (const ContactPoint<D>& p : points())
       if (firmest == nullptr || p.pn > firmest->pn) firmest = &p;
@@ -204,14 +204,11 @@ struct ContactRows {
       p.correction = 0;
       if (friction == 0 || p.pn == 0) continue;
       if (!p.sticks) {
-        // Slips through the whole sub-step, slowed evenly: the mean is half way. Where friction
-        // only balances forces, nothing is slowed.
         const Vec<D> now = across(relative_velocity(body_a, p.arm_a, body_b, p.arm_b));
-        if (glm::length(now - p.slip) <=
-            kRowSettings.hardly_slowed * glm::length(p.pt) * p.inverse_tangent_mass)
-          continue;
-        body_a.correct(p.pt * (0.5 - lag_a), p.arm_a);
-        body_b.correct(p.pt * (lag_b - 0.5), p.arm_b);
+        const Vec<D> kicked = across(relative_velocity(kicked_a, p.arm_a, kicked_b, p.arm_b));
+        const Vec<D> slowed = p.pt * slowing_share(p, now - p.slip, now - kicked);
+        body_a.correct(slowed * (0.5 - lag_a), p.arm_a);
+        body_b.correct(slowed * (lag_b - 0.5), p.arm_b);
         continue;
       }
       // A point that presses by rounding only stops when the firmest does.
@@ -313,6 +310,16 @@ struct ContactRows {
       const double mean = (ss + tt) / 2, half = (ss - tt) / 2;
       return body_a.inverse_mass + body_b.inverse_mass + mean + std::sqrt(half * half + st * st);
     }
+  }
+
+  // Slips through the whole sub-step. The part of friction that slows it does so evenly: the mean
+  // is half way. The part that holds against forces lags as these do: else a body that they move by
+  // little would move by half of the friction more. `change` is that of the slip, of which contacts
+  // made `made`.
+  static double slowing_share(const ContactPoint<D>& p, const Vec<D>& change, const Vec<D>& made) {
+    const double slowed = glm::dot(change, made), most = glm::dot(made, made);
+    if (!(slowed > 0) || !(glm::dot(change, p.pt) > 0)) return 0;
+    return std::min(slowed / most, 1.0);
   }
 
   // Part of the sub-step for which a point that sticks in the end slides on: until full friction

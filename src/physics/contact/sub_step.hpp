@@ -139,7 +139,8 @@ class SubStep {
     do_no_work();
     find_mean_velocities();
     each_pair([&](auto& rows, auto& a, auto& b) {
-      rows.begin_correction(a, b, lag_of(rows.a), lag_of(rows.b));
+      rows.begin_correction(a, b, lag_of(rows.a), lag_of(rows.b), island.kicked[rows.a],
+                            island.kicked[rows.b]);
     });
   }
 
