@@ -1,16 +1,17 @@
 // Bodies that joints hold and nothing touches: the joints are part of the equations of motion,
 // which each method of integration solves in its own way, so that it keeps its order.
 //
-//   velocity_verlet         RATTLE (Andersen, J. Comput. Phys. 52, 1983): impulses along the joints
-//                           at the start, after which they hold at the end; and at the end, after
+//   velocity_verlet,        RATTLE (Andersen, J. Comput. Phys. 52, 1983): impulses along the joints
+//   semi_implicit_euler     at the start, after which they hold at the end; and at the end, after
 //                           which their velocities do. Bodies turn as they do freely in between.
 //   explicit_euler,         Runge-Kutta on the accelerations that the joints leave, orientations by
 //   runge_kutta_4           Munthe-Kaas (Appl. Numer. Math. 29, 1999); the end is projected
 //   implicit_midpoint,      the stage is solved for velocities and joints' impulses together, by
 //   implicit_euler          Newton's method; places hold at the end, velocities are projected
 //
-// Semi-implicit Euler is not among them: its joints are solved by rows, as contacts are, which only
-// take energy, where with impulses along the joints it would rise and fall by some percent.
+// Semi-implicit Euler is moved as velocity Verlet is. Where something touches what joints hold,
+// rows hold the joints, as they hold contacts, whatever the integrator: these only take energy, of
+// what turns by an angle in a part of the step about half that angle's square of its own.
 //
 // See Hairer, Lubich, Wanner, "Geometric Numerical Integration", VII.1 and IV.4.
 #pragma once
