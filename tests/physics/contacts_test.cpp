@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <numbers>
+#include <string_view>
 
 #include <gtest/gtest.h>
 
+#include "base/random.hpp"
 #include "physics/forces.hpp"
 #include "world_scene.hpp"
 
@@ -86,6 +88,92 @@ TEST(Contacts, SticksOnASlopeUpToTheFrictionAngle) {
           EXPECT_NEAR(world.bodies()[1].position.x, 0, 1e-9) << "creeps";
         }
       }
+}
+
+constexpr ContactMethod kPressing[] = {ContactMethod::impulse, ContactMethod::soft,
+                                       ContactMethod::direct};
+constexpr Integrator kEveryIntegrator[] = {
+    Integrator::explicit_euler, Integrator::semi_implicit_euler, Integrator::velocity_verlet,
+    Integrator::runge_kutta_4,  Integrator::implicit_midpoint,   Integrator::implicit_euler};
+
+// A box on a slope of so many radians, down which x points.
+template <int D>
+World<D> sloping(ContactMethod contacts, Integrator integrator, double angle, double mu,
+                 double speed = 0) {
+  WorldConfig<D> config;
+  config.gravity = along<D>(10 * std::sin(angle), -10 * std::cos(angle));
+  config.contacts = contacts;
+  config.integrator = integrator;
+  World<D> world(config);
+  world.add(floor_at<D>(0, mu));
+  Body<D> box = box_at<D>(up<D>(0.1));
+  Vec<D> half(0.1);
+  half.x = 0.5;
+  box.shape = OrientedBox<D>{half};
+  box.material.friction = mu;
+  box.velocity = along<D>(speed);
+  world.add(box);
+  return world;
+}
+
+// Down a slope beyond its limit: the place is where the velocities lead, which each method sums in
+// its own way, by those of the start of a step, of its end, or by both.
+template <int D>
+void expect_places_follow(ContactMethod contacts, Integrator integrator, Random& random) {
+  const double angle = random.between(0.2, 0.8), h = random.between(0.005, 0.02);
+  const double mu = std::tan(angle) / random.between(1.003, 2);
+  World<D> world = sloping<D>(contacts, integrator, angle, mu);
+  double mean_way = 0, last = 0;
+  for (int i = 0; i < 150; ++i) {
+    world.step(h);
+    const double speed = world.bodies()[1].velocity.x;
+    mean_way += h * (last + speed) / 2;
+    last = speed;
+  }
+  const double off = world.bodies()[1].position.x - mean_way;
+  const std::string_view name = to_string(integrator);
+  const bool second = integration(integrator).order > 1;
+  EXPECT_LT(std::abs(off), (second ? 0 : 1.001 * last * h / 2) + 2e-5)
+      << D << "D " << to_string(contacts) << ' ' << name << " tan " << std::tan(angle) << " mu "
+      << mu << " h " << h;
+  const double g = 10 * (std::sin(angle) - mu * std::cos(angle));
+  EXPECT_NEAR(last, g * 150 * h, contacts == ContactMethod::impulse ? 1e-2 : 1e-8) << name;
+}
+
+TEST(Contacts, PlacesFollowVelocitiesUnderFriction) {
+  Random random(21);
+  for (const ContactMethod contacts : kPressing)
+    for (const Integrator integrator : kEveryIntegrator) {
+      expect_places_follow<2>(contacts, integrator, random);
+      expect_places_follow<3>(contacts, integrator, random);
+    }
+}
+
+// Below its limit it stays, and what slides down comes to rest where the closed form says.
+template <int D>
+void expect_rests(ContactMethod contacts, Integrator integrator, Random& random) {
+  const double angle = random.between(0.2, 0.8), h = random.between(0.005, 0.02);
+  const double part = random.between(0.5, 0.99), mu = std::tan(angle) / part;
+  World<D> stays = sloping<D>(contacts, integrator, angle, mu);
+  World<D> slides = sloping<D>(contacts, integrator, angle, std::tan(angle) / 0.6, 2);
+  for (int i = 0; i < 200; ++i) stays.step(h);
+  EXPECT_NEAR(stays.bodies()[1].position.x, 0, 1e-4)
+      << D << "D " << to_string(contacts) << ' ' << to_string(integrator) << ' ' << part;
+  for (int i = 0; i < 200; ++i) slides.step(h);
+  const double way = 2 * 2 / (2 * 10 * std::sin(angle) * (1 / 0.6 - 1));
+  EXPECT_NEAR(slides.bodies()[1].position.x, way, 2e-3 * way)
+      << D << "D " << to_string(contacts) << ' ' << to_string(integrator) << ' ' << h;
+}
+
+TEST(Contacts, FrictionStopsABoxOnASlope) {
+  Random random(22);
+  for (const ContactMethod contacts : kPressing)
+    for (const Integrator integrator :
+         {Integrator::semi_implicit_euler, Integrator::velocity_verlet,
+          Integrator::implicit_midpoint, Integrator::implicit_euler}) {
+      expect_rests<2>(contacts, integrator, random);
+      expect_rests<3>(contacts, integrator, random);
+    }
 }
 
 TEST(Contacts, PressesWithItsWeight) {

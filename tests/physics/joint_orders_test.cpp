@@ -40,6 +40,7 @@ void expect_order(const Make<D>& make, Integrator integrator, double order, doub
 template <int D>
 void expect_orders(const Make<D>& make, double seconds) {
   expect_order<D>(make, Integrator::velocity_verlet, 2, seconds, 40);
+  expect_order<D>(make, Integrator::semi_implicit_euler, 2, seconds, 40);
   expect_order<D>(make, Integrator::implicit_midpoint, 2, seconds, 20);
   expect_order<D>(make, Integrator::runge_kutta_4, 4, seconds, 20);
 }
@@ -70,8 +71,7 @@ TEST(JointOrders, DampedSpringsBesideJoints) {
 }
 
 TEST(JointOrders, EulersHaveOne) {
-  for (const Integrator integrator :
-       {Integrator::explicit_euler, Integrator::semi_implicit_euler, Integrator::implicit_euler})
+  for (const Integrator integrator : {Integrator::explicit_euler, Integrator::implicit_euler})
     expect_order<2>([](auto i) { return planks(i, 2); }, integrator, 1, 0.4, 40);
 }
 

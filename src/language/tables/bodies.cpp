@@ -250,10 +250,9 @@ std::vector<KeyDoc> body_keys(std::vector<KeyDoc> first) {
           "Of two bodies, the square root of their product counts.", range(0, 1000)),
       key(&B::linear_drag, "drag",
           "Force against its motion, for each unit a second. `velocity_verlet`, "
-          "`implicit_midpoint` "
-          "and `implicit_euler` bear any: they turn no velocity round. The others need steps below "
-          "the mass over it, as `semi_implicit_euler`, which beyond that turns round, and beyond "
-          "twice that blows up.",
+          "`implicit_midpoint` and `implicit_euler` bear any and never turn a velocity round. The "
+          "other Eulers do so where a step's drag is more than the mass, and blow up beyond twice "
+          "that, `runge_kutta_4` beyond 2.785 times.",
           range(0, kHeavy), in("N s")),
       key(&B::angular_drag, "angular_drag", "Torque against its turning, for each radian a second.",
           range(0, kHeavy), in("N s")),
