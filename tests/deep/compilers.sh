@@ -32,9 +32,10 @@ built() {
 render gcc "$lantern"
 files=$(find "$folder/gcc" -type f | wc -l)
 [ "$files" -gt 1000 ] || { echo "only $files files were written"; exit 1; }
-built clang clang++
+clang=$(ls /usr/bin/clang++-* | sort -V | tail -n 1)  # the newest
+built clang "$clang"
 built gcc_native g++ -march=native
-built clang_native clang++ -march=native
+built clang_native "$clang" -march=native
 for name in clang gcc_native clang_native; do
   diff -qr "$folder/gcc" "$folder/$name" >"$folder/differences" || {
     head -n 20 "$folder/differences"
