@@ -154,32 +154,28 @@ glm::dquat tumbled_freely(const Vec<3>& momentum, const Vec<3>& excess, double h
   return names.unnamed(glm::conjugate(turn_to_z(n)) * about_z * turn_to_z(curve.point(to, over)));
 }
 
-// The same in closed form costs some microseconds, and most steps are short. For these the series
-// in the time of Euler's equation n' = n x w and of q' = q w / 2, where w are the excesses times n:
-// the coefficients follow one from the other (Moore, "Interval Analysis", 1966, 11). All that is in
-// the way of it are the poles of Jacobi's functions, a quarter period of at least pi / 2 off the
-// real axis.
-//
-// As `tumbled_freely`, for a step in which their argument grows by no more than `kBrief`.
+// The same for steps in which the argument of Jacobi's functions grows by `kBrief` at most, and ten
+// times as fast: the series in the time of Euler's equation n' = n x w and of q' = q w / 2, where w
+// are the excesses times n (Moore, "Interval Analysis", 1966, 11). Its ratio is at most that to the
+// nearest pole, a quarter period of at least pi / 2 off the real axis.
 constexpr double kBrief = 0.1;
 glm::dquat tumbled_briefly(const Vec<3>& momentum, const Vec<3>& excess, double h) {
   constexpr int kMost = 20;
   std::array<Vec<3>, kMost> n{momentum}, w{h * (excess * momentum)};
   std::array<glm::dquat, kMost> q{glm::dquat(1, 0, 0, 0)};
   glm::dquat sum = q[0];
-  for (std::size_t k = 0; k + 1 < kMost; ++k) {
-    Vec<3> turn(0.0);
-    glm::dquat next(0, 0, 0, 0);
-    for (std::size_t i = 0; i <= k; ++i) {
-      turn += glm::cross(n[i], w[k - i]);
-      next += q[i] * glm::dquat(0, w[k - i]);
+  for (std::size_t k = 1; k < kMost; ++k) {
+    n[k] = Vec<3>(0.0);
+    q[k] = glm::dquat(0, 0, 0, 0);
+    for (std::size_t i = 0; i < k; ++i) {
+      n[k] += glm::cross(n[i], w[k - 1 - i]);
+      q[k] += q[i] * glm::dquat(0, w[k - 1 - i]);
     }
-    const double share = 1 / static_cast<double>(k + 1);
-    n[k + 1] = turn * share;
-    w[k + 1] = h * (excess * n[k + 1]);
-    q[k + 1] = next * (share / 2);
-    sum += q[k + 1];
-    if (glm::length(q[k + 1]) + glm::length(q[k]) < 0x1p-60) break;
+    n[k] /= static_cast<double>(k);
+    q[k] /= static_cast<double>(2 * k);
+    w[k] = h * (excess * n[k]);
+    sum += q[k];
+    if (glm::length(q[k]) + glm::length(q[k - 1]) < 0x1p-60) break;
   }
   return sum;
 }
@@ -199,8 +195,7 @@ glm::dquat tumbled_briefly(const Vec<3>& momentum, const Vec<3>& excess, double 
 // are, none: then the step is exact.
 //
 // Its energy swings by a part of the step's square. Where that would be more than a thousandth, or
-// where a turn is no longer small, the top is turned exactly, as by the method `exact` it always
-// is.
+// where a turn is no longer small, the top is turned exactly.
 
 // Turned about its own axis `axis`.
 glm::dquat turned_about_own_axis(const glm::dquat& q, int axis, double angle) {
@@ -218,16 +213,6 @@ struct Split {
   std::array<double, 2> excess;
 };
 
-// How far a splitting is good: the largest angle |excess| |L| h in radians, and the largest swing
-// of energy, as `swing` below tells it, of which the true one is a third (splitting_2). Chosen so
-// that over random tops of any shape the energy stayed within a thousandth.
-struct Limits {
-  double angle, swing;
-};
-constexpr Limits limits_of(RotationMethod method) {
-  return method == RotationMethod::splitting_2 ? Limits{0.6, 0.004} : Limits{1.6, 0.04};
-}
-
 Split split(const Vec<3>& inverse_inertia) {
   std::array<int, 3> order{0, 1, 2};
   std::ranges::stable_sort(order, {}, [&](int i) { return inverse_inertia[i]; });
@@ -238,35 +223,33 @@ Split split(const Vec<3>& inverse_inertia) {
           {inverse_inertia[order[0]] - middle, inverse_inertia[order[2]] - middle}};
 }
 
+// Of the two terms, twice the largest that they become: when the middle component of L is 0.
+std::array<double, 2> largest_terms(const Vec<3>& l, const Split& terms) {
+  const double low = -terms.excess[0], high = terms.excess[1];
+  const Vec<3> square = l * l;
+  const double middle = low * high / (low + high) * square[terms.middle_axis];
+  return {low * square[terms.axis[0]] + middle, high * square[terms.axis[1]] + middle};
+}
+
 // Whether the argument of Jacobi's functions (see `Curve`) grows by so little that the series does.
 bool is_brief(const Vec<3>& l, const Split& terms, double h) {
-  const double low = -terms.excess[0], high = terms.excess[1];
-  const Vec<3> square = l * l;
-  const double rate_squared =
-      low * high * square[terms.middle_axis] +
-      (low + high) * std::max(low * square[terms.axis[0]], high * square[terms.axis[1]]);
-  return rate_squared * h * h <= kBrief * kBrief;
+  const auto [low, high] = largest_terms(l, terms);
+  return (terms.excess[1] - terms.excess[0]) * std::max(low, high) * h * h <= kBrief * kBrief;
 }
 
-// The leading term of Strang's error against the energy, by the largest that the outer components
-// of L become: when the middle one is 0.
-double swing(const Vec<3>& l, const Vec<3>& inverse_inertia, const Split& terms, double h) {
-  const double low = -terms.excess[0], high = terms.excess[1];
-  const Vec<3> square = l * l;
-  const double middle = square[terms.middle_axis] / (low + high);
-  const double most_low = square[terms.axis[0]] + high * middle;
-  const double most_high = square[terms.axis[1]] + low * middle;
-  return h * h * low * high * (low * most_low + high * most_high) * glm::dot(l, l) /
-         glm::dot(inverse_inertia, square);
-}
-
+// Whether a splitting is good: the largest angle |excess| |L| h in radians, and the leading term of
+// Strang's error against the energy, of which the true one is a third (splitting_2). Chosen so that
+// over random tops of any shape the energy stayed within a thousandth.
 bool is_small(const Vec<3>& l, const Vec<3>& inverse_inertia, const Split& terms, double h,
               RotationMethod method) {
   if (method == RotationMethod::exact) return false;
-  const Limits limits = limits_of(method);
+  const bool second = method == RotationMethod::splitting_2;
+  const auto [low, high] = largest_terms(l, terms);
+  const double swing = h * h * -terms.excess[0] * terms.excess[1] * (low + high) * glm::dot(l, l) /
+                       glm::dot(inverse_inertia, l * l);
   return std::max(-terms.excess[0], terms.excess[1]) * glm::length(l) * std::abs(h) <=
-             limits.angle &&
-         swing(l, inverse_inertia, terms, h) <= limits.swing;
+             (second ? 0.6 : 1.6) &&
+         swing <= (second ? 0.004 : 0.04);
 }
 
 // Strang: half a turn about one axis, a whole one about the other, half of the first.

@@ -95,11 +95,11 @@ TableDoc world_table() {
           "small steps; by the same in whole steps, `direct`ly; by one impulse a pair, as the "
           "`lecture` does it; or not at all. Without a [structure], every pair is tested for it."),
       key(&W::integrator, "integrator",
-          "How forces become motion. By `semi_implicit_euler` places follow the new velocities: "
-          "what a steady force speeds up is ahead by half a step's way, also while it rolls, or "
-          "slides faster. What joints hold and nothing touches it moves as `velocity_verlet`. "
-          "Beside contacts joints take some energy, of what turns by an angle in a step about "
-          "half the angle's square."),
+          "How forces become motion. By `semi_implicit_euler` places follow the new velocities, "
+          "half a step ahead of what a steady force speeds up; what joints hold and nothing "
+          "touches "
+          "it moves as `velocity_verlet`. Beside contacts, joints take about half the square of "
+          "the angle that bodies turn by in a step, of their energy."),
       key(&W::rotation, "rotation",
           "How free bodies rotate: exactly, to rounding, at any spin and step; or by a splitting "
           "of "

@@ -39,9 +39,8 @@ constexpr Integration kExplicitEuler = {
 
 // Semi-implicit (symplectic) Euler: forces of the start change the velocity, and the new velocity
 // moves the body. As cheap as explicit Euler, yet the energy of a spring stays bounded. With joints
-// its energy would rise and fall by some percent. Half a step of it and half a step of its adjoint,
-// in which the body is moved first, are a step of velocity Verlet, whose energy hardly does; so
-// what joints hold and nothing touches is moved by that (Hairer, Lubich, Wanner, II.4 and VII.1).
+// it would rise and fall by some percent: what they hold is moved by half a step of this and half a
+// step of its adjoint, which is velocity Verlet (Hairer, Lubich, Wanner, II.4 and VII.1).
 template <int D>
 void semi_implicit_euler(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out) {
   const Pull<D> pull = system.evaluate(system.start());
@@ -53,45 +52,40 @@ constexpr Integration kSemiImplicitEuler = {
     .increments = {semi_implicit_euler<2>, semi_implicit_euler<3>},
     .with_joints = {constrained_verlet<2>, constrained_verlet<3>}};
 
-// Drag over a whole step of `h` seconds, after the first half-kick of the other forces. It meets
-// the mean velocity (see drag_share) that these lead to; `way` becomes the state of that velocity,
-// and `state` that of the half-kick and all of the drag. In space the mean spin is that about the
-// axes as they lie half way.
+// Drag over a step of `h` seconds, by the mean velocity (see drag_share) that it and the first
+// half-kick of the other forces lead to: that of `way`. All of the drag is added to `state`. In
+// space the mean spin is about the axes as they lie half way.
 template <int D>
 void brake(const SmoothSystem<D>& system, double h, SmoothState<D>& state, SmoothState<D>& way) {
+  const auto kept = [](double z) { return 1 / (1 + drag_share(z) * z); };
+  const auto let = [&](double z) { return mean_gain(z) * kept(z); };
   for (const std::size_t i : system.movers()) {
     const Body<D>& body = system.bodies()[i];
-    if (body.linear_drag > 0) {
-      const double z = system.drag_part(i, h);
-      const Vec<D> mean = drag_keeps(z) * body.velocity + 2 * drag_lets(z) * state.kick[i];
+    if (const double z = system.drag_part(i, h); z > 0) {
+      const Vec<D> mean = kept(z) * body.velocity + let(z) * state.kick[i];
       way.kick[i] = mean - body.velocity;
       state.kick[i] -= z * mean;
     }
     if (!(body.angular_drag > 0) || !system.turns(i)) continue;
     const Spin<D> start = body.angular_momentum, half = state.twist[i];
     Rotation<D> at = body.orientation;
-    const auto scaled = [&](const Spin<D>& spin, auto&& factor) {
-      return by_own_axes(at, spin, [&](int axis, double own) {
-        return own * factor(system.drag_part(i, axis, h));
-      });
-    };
     for (int look = 0; look < 2; ++look) {
-      const Spin<D> mean = scaled(start, drag_keeps) + scaled(2.0 * half, drag_lets);
+      const Spin<D> mean =
+          system.by_drag(i, at, start, h, kept) + system.by_drag(i, at, half, h, let);
       way.twist[i] = mean - start;
-      state.twist[i] = half - scaled(mean, [](double z) { return z; });
+      state.twist[i] = half - system.by_drag(i, at, mean, h, [](double z) { return z; });
       at = freely_turned(body, mean, h / 2);
     }
   }
 }
 
-// Velocity Verlet: half a kick, fly, half a kick (Swope and others, J. Chem. Phys. 76, 1982).
-// Forces are looked at twice a step, since what moves bodies or changes forces between two steps
-// would make the second look useless for the next.
+// Velocity Verlet: half a kick, fly, half a kick (Swope and others, J. Chem. Phys. 76, 1982). Two
+// looks at the forces a step: what happens between steps would make the last useless for the next.
 //
 // The damping of springs needs the velocity that the second half-kick is about to make. Taken from
 // before it it would cost an order and stability; so that half is implicit in the velocity alone.
-// Forces are linear in it, so one system of linear equations does. Drag is the body's own, and is
-// taken by `brake`. The only limit left is that of the springs, omega h < 2.
+// Forces are linear in it, so one system of linear equations does. Drag is taken by `brake`. The
+// only limit left is that of the springs, omega h < 2.
 template <int D>
 void velocity_verlet(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out) {
   SmoothState<D> state = system.start();

@@ -44,20 +44,12 @@ double size_of(const glm::vec<D, double>& v) {
   return glm::length(v);
 }
 
-// Drag c on a mass m, over a step of h seconds, takes z = h c / m times the mean velocity
-//
-//   u = v + share (v' - v)        so that v' = ((1 - (1 - share) z) v + h F / m) / (1 + share z)
-//
-// by which the body also moves: so all the way that drag leaves it is m v / c. Half the change
-// makes it of second order. But beyond z = 2 a velocity would then be turned round, at each step
-// anew; so from there on the share is so large that v' is just the velocity at which drag bears the
-// force (the least share by which nothing turns round; Liniger and Willoughby, SIAM J. Numer. Anal.
-// 7, 1970, choose it so that v' is exact).
+// Drag c on a mass m takes z = h c / m times the mean velocity u = v + share (v' - v) over a step
+// of h seconds, by which the body also moves: it leaves it a way of m v / c. Half the change is of
+// second order, but would turn velocities round, at each step anew, where z > 2; there the share is
+// the least by which nothing does (Liniger and Willoughby, SIAM J. Numer. Anal. 7, 1970, fit it).
 inline double drag_share(double z) { return z > 2 ? 1 - 1 / z : 0.5; }
-
-// What u gains of v, and of what forces change v by.
-inline double drag_keeps(double z) { return 1 / (1 + drag_share(z) * z); }
-inline double drag_lets(double z) { return drag_share(z) * drag_keeps(z); }
+inline double mean_gain(double z) { return 2 * drag_share(z); }  // of half the change
 
 // f(axis, component) of each component of a spin in a body's own axes.
 template <class F>
@@ -120,46 +112,41 @@ class SmoothSystem {
   // Whether some force depends on velocity.
   bool any_damping() const { return any_damping_ || (drag_acts_ && fastest_drag() > 0); }
 
-  // The part z of a velocity that drag takes in `h` seconds, by the start's, and of the angular
-  // momentum about an axis of the body.
+  // The part z of a velocity that drag takes in `h` seconds, of the angular momentum about an axis
+  // of the body, and of any, at most, in a second.
   double drag_part(std::size_t i, double h) const {
     return h * bodies_[i].linear_drag * bodies_[i].inverse_mass;
   }
   double drag_part(std::size_t i, int axis, double h) const {
-    return turns(i) ? h * bodies_[i].angular_drag * spin_component(bodies_[i].inverse_inertia, axis)
-                    : 0;
+    return h * bodies_[i].angular_drag * spin_component(bodies_[i].inverse_inertia, axis);
   }
-  // Of all bodies, the largest in a second.
   double fastest_drag() const {
     double most = 0;
     for (const std::size_t i : movers_)
       for (int axis = 0; axis < (D == 2 ? 1 : 3); ++axis)
-        most = std::max({most, drag_part(i, 1), drag_part(i, axis, 1)});
+        most = std::max({most, drag_part(i, 1), turns(i) ? drag_part(i, axis, 1) : 0});
     return most;
+  }
+  // A spin times f(z) of each of the body's own axes, as these lie.
+  template <class F>
+  Spin<D> by_drag(std::size_t i, const Rotation<D>& axes, const Spin<D>& spin, double h,
+                  F&& f) const {
+    return by_own_axes(axes, spin, [&](int axis, double component) {
+      return component * f(drag_part(i, axis, h));
+    });
   }
   // Drag is no force of this system any more.
   void leave_drag() { drag_acts_ = false; }
   double linear_drag(std::size_t i) const { return drag_acts_ ? bodies_[i].linear_drag : 0; }
   double angular_drag(std::size_t i) const { return drag_acts_ ? bodies_[i].angular_drag : 0; }
   // From now on the kicks (twists) of a state are half of those over `h` seconds, and its
-  // velocities are the mean ones, u; 0: they are the state's own again.
-  void take_means(double h) {
-    means_.clear();
-    if (!(h * fastest_drag() > 2)) return;  // all are half way
-    means_.resize(bodies_.size());
-    for (const std::size_t i : movers_) {
-      means_[i].kick = 2 * drag_share(drag_part(i, h));
-      for (int axis = 0; axis < (D == 2 ? 1 : 3); ++axis)
-        spin_component(means_[i].twist, axis) = 2 * drag_share(drag_part(i, axis, h));
-    }
-  }
-  // How much of a kick the velocity gains.
-  double gained(std::size_t i) const { return means_.empty() ? 1 : means_[i].kick; }
+  // velocities are the mean ones; 0: they are the state's own again.
+  void take_means(double h) { mean_over_ = h * fastest_drag() > 2 ? h : 0; }
+  // How much of a kick (twist) these gain.
+  double gained(std::size_t i) const { return mean_gain(drag_part(i, mean_over_)); }
   Spin<D> gained_twist(const SmoothState<D>& state, std::size_t i) const {
-    if (means_.empty()) return state.twist[i];
-    return by_own_axes(state.orientation[i], state.twist[i], [&](int axis, double twist) {
-      return twist * spin_component(means_[i].twist, axis);
-    });
+    if (mean_over_ == 0) return state.twist[i];
+    return by_drag(i, state.orientation[i], state.twist[i], mean_over_, mean_gain);
   }
 
   std::span<const Body<D>> bodies() const { return bodies_; }
@@ -265,8 +252,8 @@ class SmoothSystem {
   // gains it.
   Spin<D> inertia_times(const SmoothState<D>& state, std::size_t i, const Spin<D>& spin) const {
     return by_own_axes(state.orientation[i], spin, [&](int axis, double component) {
-      const double gain = means_.empty() ? 1 : spin_component(means_[i].twist, axis);
-      return component / (spin_component(bodies_[i].inverse_inertia, axis) * gain);
+      return component / (spin_component(bodies_[i].inverse_inertia, axis) *
+                          mean_gain(drag_part(i, axis, mean_over_)));
     });
   }
 
@@ -323,12 +310,9 @@ class SmoothSystem {
   // At an orientation that need not be the body's.
   static Spin<D> spin_of(const Body<D>& body, const Rotation<D>& orientation,
                          const Spin<D>& momentum) {
-    if constexpr (D == 2) {
-      return body.inverse_inertia * momentum;
-    } else {
-      const glm::dquat q = orientation.q;
-      return q * (body.inverse_inertia * (glm::conjugate(q) * momentum));
-    }
+    return by_own_axes(orientation, momentum, [&](int axis, double component) {
+      return component * spin_component(body.inverse_inertia, axis);
+    });
   }
 
   std::span<const Body<D>> bodies_;
@@ -340,11 +324,7 @@ class SmoothSystem {
   std::vector<Ends> ends_;
   std::vector<double> masses_;       // by which bodies attract; none if they do not
   std::vector<std::size_t> pushed_;  // one a push
-  struct Mean {
-    double kick = 1;
-    Spin<D> twist{1.0};  // about each of the body's own axes
-  };
-  std::vector<Mean> means_;  // of each body; none if velocities are those of the state
+  double mean_over_ = 0;             // seconds; 0: velocities are those of the state
   bool any_turns_ = false;
   bool any_damping_ = false;  // of springs
   bool drag_acts_ = true;

@@ -9,9 +9,8 @@
 //   implicit_midpoint,      the stage is solved for velocities and joints' impulses together, by
 //   implicit_euler          Newton's method; places hold at the end, velocities are projected
 //
-// Semi-implicit Euler is moved as velocity Verlet is. Where something touches what joints hold,
-// rows hold the joints, as they hold contacts, whatever the integrator: these only take energy, of
-// what turns by an angle in a part of the step about half that angle's square of its own.
+// Where something touches what joints hold, rows hold the joints as they hold contacts: these only
+// take energy, of what turns by an angle in a part of the step half that angle's square.
 //
 // See Hairer, Lubich, Wanner, "Geometric Numerical Integration", VII.1 and IV.4.
 #pragma once
