@@ -176,6 +176,38 @@ TEST(Contacts, FrictionStopsABoxOnASlope) {
     }
 }
 
+// A ball rolls down a slope: its place is as right as its speed.
+template <int D>
+void expect_rolls(ContactMethod contacts, Integrator integrator, Random& random) {
+  const double angle = random.between(0.1, 0.6), h = random.between(0.005, 0.02);
+  const double mu = std::tan(angle) * random.between(0.5, 2), radius = random.between(0.1, 2);
+  WorldConfig<D> config;
+  config.gravity = along<D>(10 * std::sin(angle), -10 * std::cos(angle));
+  config.contacts = contacts;
+  config.integrator = integrator;
+  World<D> world(config);
+  world.add(floor_at<D>(0, mu));
+  Body<D> ball = ball_at<D>(up<D>(radius), Vec<D>(0.0), radius);
+  ball.material.friction = mu;
+  world.add(ball);
+  for (int i = 0; i < 200; ++i) world.step(h);
+  const double g = 10 * std::sin(angle) / (1 + (D == 2 ? 0.5 : 0.4)), time = 200 * h;
+  const std::string_view name = to_string(integrator);
+  EXPECT_NEAR(world.bodies()[1].velocity.x / (g * time), 1, 1e-11) << name;
+  EXPECT_NEAR(world.bodies()[1].position.x / (g * time * time / 2), 1, 1e-11)
+      << D << "D " << to_string(contacts) << ' ' << name;
+}
+
+TEST(Contacts, ABallRollsAsFarAsItsSpeedSays) {
+  Random random(24);
+  for (const ContactMethod contacts : kPressing)
+    for (const Integrator integrator : kEveryIntegrator) {
+      if (integrator == Integrator::explicit_euler) continue;
+      expect_rolls<2>(contacts, integrator, random);
+      expect_rolls<3>(contacts, integrator, random);
+    }
+}
+
 TEST(Contacts, PressesWithItsWeight) {
   World<2> world(falling<2>());
   world.add(floor_at<2>());

@@ -54,9 +54,9 @@ void expect_kept_by_pins(ContactMethod contacts, int kind, Random& random) {
   double scale = 0;
   for (const Body<D>& body : world.bodies())
     if (body.is_dynamic()) scale += body.mass * 9.81 * body.position.x;
-  const auto early = swing_of_energy(world, 600, scale);
-  for (int i = 0; i < 2400; ++i) world.step(1.0 / 120);
-  const auto late = swing_of_energy(world, 600, scale);
+  const auto early = swing_of_energy(world, 400, scale);
+  for (int i = 0; i < 1200; ++i) world.step(1.0 / 120);
+  const auto late = swing_of_energy(world, 400, scale);
   const double most = kind == 2 ? 2e-2 : 2e-3;  // two rods are chaos, and may whirl fast
   for (const double swing : {early.first, early.second, late.first, late.second})
     EXPECT_LT(std::abs(swing), most) << D << "D " << to_string(contacts) << " kind " << kind;

@@ -96,10 +96,10 @@ TableDoc world_table() {
           "`lecture` does it; or not at all. Without a [structure], every pair is tested for it."),
       key(&W::integrator, "integrator",
           "How forces become motion. By `semi_implicit_euler` places follow the new velocities, "
-          "half a step ahead of what a steady force speeds up; what joints hold and nothing "
-          "touches "
-          "it moves as `velocity_verlet`. Beside contacts, joints take about half the square of "
-          "the angle that bodies turn by in a step, of their energy."),
+          "half a step ahead of what a steady force speeds up, but for balls on what stands still; "
+          "what joints hold and nothing touches it moves as `velocity_verlet`. Beside contacts, "
+          "joints take about half the square of the angle that bodies turn by in a step, of their "
+          "energy."),
       key(&W::rotation, "rotation",
           "How free bodies rotate: exactly, to rounding, at any spin and step; or by a splitting "
           "of "
