@@ -111,8 +111,8 @@ TableDoc problem_table() {
       key(&P::halvings, "halvings", "Of the step: one more run each.", range(0, 24)),
       key(&P::methods, "methods",
           "Ways to move it: an integrator, `exact`, `splitting_2`, `splitting_4`, "
-          "`explicit_gyroscopic`, "
-          "`soft:16` (sub-steps), `soft:0.001` (wanted error) or `impulse:100` (sweeps).",
+          "`explicit_gyroscopic`, `soft:16` (sub-steps), `soft:0.001` (wanted error) or "
+          "`impulse:100` (sweeps).",
           or_else("all that make a difference")),
   };
   return table;

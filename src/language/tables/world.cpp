@@ -102,8 +102,7 @@ TableDoc world_table() {
           "energy."),
       key(&W::rotation, "rotation",
           "How free bodies rotate: exactly, to rounding, at any spin and step; or by a splitting "
-          "of "
-          "order 2 or 4, and exactly only where it would change the energy by more than a "
+          "of order 2 or 4, and exactly only where it would change the energy by more than a "
           "thousandth. `explicit_gyroscopic` is there to be seen failing."),
       key(&W::sub_steps, "sub_steps", "How many parts soft contacts divide a world step into.",
           range(1, 64)),
