@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "physics/contact/solver_body.hpp"
@@ -32,6 +33,12 @@ struct RowSettings {
   // "Small Steps in Physics Simulation", 2019).
   double pushed_out = 0.25;
   double fastest_push = 4;
+  // The same where sweeps alone push. What they have learned of how a stack leans is in the
+  // impulses that they begin with; bodies that are pushed upright while these still hold them up
+  // are thrown over to the other side, farther each time. So what lies within the part `shallow` of
+  // a body's thickness is eased out, slower than a stack sways; only what is deeper is pushed.
+  double eased_out = 0.02;
+  double shallow = 0.01;
   double corner = 1e-3;  // of a body's size: so near to a corner of it is at the corner
   // Of full friction: what stops a body within so little of it does not slip in the end.
   double slip_by_rounding = 1e-6;
@@ -91,6 +98,7 @@ struct ContactRows {
   std::uint32_t a = 0, b = 0;  // places among the island's bodies
   double friction = 0;
   double restitution = 0;
+  double shallow = 0;  // so little penetration is eased out, where sweeps alone push
   Vec<D> normal{0.0};
   std::array<ContactPoint<D>, Manifold<D>::kMostPoints> room;
   int count = 0;
@@ -100,12 +108,14 @@ struct ContactRows {
     return {room.data(), static_cast<std::size_t>(count)};
   }
 
-  // Points from the narrow phase, with the impulses per second of points of the same feature.
+  // Points from the narrow phase, with the impulses per second that were remembered.
   void set_points(const Manifold<D>& manifold, const Body<D>& body_a, const Body<D>& body_b,
                   const Mat<D>& axes_a, const Mat<D>& axes_b, const Contact<D>* remembered,
                   double scale) {
     normal = manifold.normal;
     count = manifold.count;
+    shallow =
+        kRowSettings.shallow * std::min(thickness<D>(body_a.shape), thickness<D>(body_b.shape));
     for (int i = 0; i < manifold.count; ++i) {
       const auto at = static_cast<std::size_t>(i);
       const ManifoldPoint<D>& from = manifold.room[at];
@@ -121,15 +131,9 @@ struct ContactRows {
       p.share = where_impulses_act(body_a, p.core_a, body_b, p.core_b);
       p.offset =
           from.separation - glm::dot(normal, (body_b.position - body_a.position) + to_b - to_a);
-      if (remembered != nullptr)
-        for (int j = 0; j < remembered->manifold.count; ++j) {
-          const auto old = static_cast<std::size_t>(j);
-          if (remembered->manifold.room[old].feature != p.feature) continue;
-          p.pn = remembered->normal_impulses[old] * scale;
-          p.pt = across(remembered->friction_impulses[old] * scale);
-        }
       room[at] = p;
     }
+    if (remembered != nullptr) take_over(manifold, *remembered, scale);
   }
 
   // Arms, separations and effective masses where the bodies are now; velocities are those before
@@ -162,9 +166,16 @@ struct ContactRows {
     }
   }
 
-  // One sweep over velocities, for a sub-step of `h` seconds.
-  void solve_velocities(SolverBody<D>& body_a, SolverBody<D>& body_b, double h, Sweep& sweep) {
-    for (ContactPoint<D>& p : points()) {
+  // One sweep over velocities, for a sub-step of `h` seconds; from the last point to the first if
+  // `backwards`. If it always began at the same one, that side of a face would always be pressed
+  // first, and a stack would lean.
+  void solve_velocities(SolverBody<D>& body_a, SolverBody<D>& body_b, double h, Sweep& sweep,
+                        bool backwards = false) {
+    const auto point = [&](int i) -> ContactPoint<D>& {
+      return room[static_cast<std::size_t>(backwards ? count - 1 - i : i)];
+    };
+    for (int i = 0; i < count; ++i) {
+      ContactPoint<D>& p = point(i);
       if (p.inverse_normal_mass == 0) continue;
       const double parting =
           glm::dot(relative_velocity(body_a, p.arm_a, body_b, p.arm_b), normal) - p.bounce;
@@ -177,7 +188,8 @@ struct ContactRows {
       ++sweep.work->normal_rows;
     }
     if (friction == 0) return;
-    for (ContactPoint<D>& p : points()) {
+    for (int i = 0; i < count; ++i) {
+      ContactPoint<D>& p = point(i);
       if (p.inverse_tangent_mass == 0 || (p.pn == 0 && p.pt == Vec<D>(0.0))) continue;
       const Vec<D> slip = across(relative_velocity(body_a, p.arm_a, body_b, p.arm_b));
       const Vec<D> before = p.pt;
@@ -221,12 +233,13 @@ struct ContactRows {
 
   // One sweep over mean velocities: after `h` seconds, points that press touch without penetration,
   // or with a part of it.
-  void correct_positions(SolverBody<D>& body_a, SolverBody<D>& body_b, double h, Sweep& sweep) {
+  void correct_positions(SolverBody<D>& body_a, SolverBody<D>& body_b, double h, bool alone,
+                         Sweep& sweep) {
     for (ContactPoint<D>& p : points()) {
       if (p.inverse_normal_mass == 0) continue;
       const double parting =
           glm::dot(relative_velocity(body_a.mean, p.arm_a, body_b.mean, p.arm_b), normal);
-      const double wanted = p.wanted_mean_speed(h);
+      const double wanted = alone ? swept_push(p, h) : p.wanted_mean_speed(h);
       const double before = p.correction;
       // Together with the impulse that is there already, it may push but not pull.
       const double least = p.bounce > 0 ? 0 : -p.pn;
@@ -235,6 +248,7 @@ struct ContactRows {
       sweep.change = std::max(sweep.change, std::abs(p.correction - before));
       ++sweep.work->normal_rows;
     }
+    if (alone) return;
     for (ContactPoint<D>& p : points()) {
       if (!p.sticks || p.pn == 0 || p.inverse_tangent_mass == 0) continue;
       const Vec<D> slip = across(relative_velocity(body_a.mean, p.arm_a, body_b.mean, p.arm_b));
@@ -246,6 +260,46 @@ struct ContactRows {
   }
 
  private:
+  // Impulses stay with their features. A feature has another name as soon as another corner ends
+  // the face, which in a stack of equal boxes the slightest shift does; what is left without a
+  // point then goes to the nearest new one, lest half of what carries the stack is forgotten.
+  void take_over(const Manifold<D>& manifold, const Contact<D>& old, double scale) {
+    constexpr auto kMost = static_cast<std::size_t>(Manifold<D>::kMostPoints);
+    std::array<bool, kMost> has{}, given{};
+    const auto pass_on = [&](std::size_t from, std::size_t to) {
+      room[to].pn = old.normal_impulses[from] * scale;
+      room[to].pt = across(old.friction_impulses[from] * scale);
+      has[to] = given[from] = true;
+    };
+    const std::size_t now = points().size(), before = old.manifold.points().size();
+    for (std::size_t i = 0; i < now; ++i)
+      for (std::size_t j = 0; j < before; ++j)
+        if (old.manifold.room[j].feature == room[i].feature) pass_on(j, i);
+    for (;;) {
+      double nearest = std::numeric_limits<double>::infinity();
+      std::size_t from = kMost, to = kMost;
+      for (std::size_t i = 0; i < now; ++i)
+        for (std::size_t j = 0; j < before; ++j) {
+          if (has[i] || given[j]) continue;
+          const Vec<D> way = manifold.room[i].position - old.manifold.room[j].position;
+          if (!(glm::dot(way, way) < nearest)) continue;
+          nearest = glm::dot(way, way);
+          from = j;
+          to = i;
+        }
+      if (from == kMost) return;
+      pass_on(from, to);
+    }
+  }
+
+  // The mean speed of parting for a point that sweeps alone push, see RowSettings.
+  double swept_push(const ContactPoint<D>& p, double h) const {
+    if (p.gap > 0) return -p.gap / h;
+    const double eased = std::min(-p.separation, shallow), pushed = -p.separation - eased;
+    return std::min((eased * kRowSettings.eased_out + pushed * kRowSettings.pushed_out) / h,
+                    kRowSettings.fastest_push);
+  }
+
   // An impulse upon b at a point, and the opposite one upon a.
   static void apply(const ContactPoint<D>& p, const Vec<D>& impulse, SolverBody<D>& a,
                     SolverBody<D>& b) {

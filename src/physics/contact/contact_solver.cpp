@@ -16,19 +16,21 @@ namespace {
 // which move bodies but leave no velocity (split impulses).
 //
 // A sweep carries a load on by one contact, so a stack of n boxes needs about n^2 of them, and a
-// mass ratio of r about r.
+// mass ratio of r about r. Ten sweeps at 60 steps a second hold ten unit boxes that begin with no
+// impulses (they sink by 2e-2 at first and sway by 6e-2 in 3D), at 120 steps twenty; at 60 steps a
+// second twenty fall in 3D, and sway by 0.4 in 2D.
 template <int D>
 void sequential_impulses(const IslandMove<D>& move) {
   const int most = move.config.iterations;
   in_sub_steps<D>(move, 1, [&](SubStep<D>& step) {
     Sweep sweep{&step.work};
     for (int i = 0; i < most; ++i) {
-      sweep = step.sweep_velocities(i);
+      sweep = step.sweep_velocities(i, true);
       if (sweep.change <= kRowSettings.change * sweep.largest) break;
     }
     step.begin_position_correction();
     for (int i = 0; i < most; ++i)
-      if (step.is_corrected(step.sweep_positions(), sweep.largest)) break;
+      if (step.is_corrected(step.sweep_positions(true), sweep.largest)) break;
   });
 }
 
