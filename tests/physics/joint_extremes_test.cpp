@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/random.hpp"
 #include "jointed_scene.hpp"
 
 namespace lantern::physics {
@@ -164,6 +165,63 @@ TEST(JointExtremes, ABridgeHoldsAHeavyBall) {
   EXPECT_LE(few, 0.01 * kPlank);
   for (const int iterations : {100, 1000})
     EXPECT_LE(gap_of_bridge(ContactMethod::impulse, iterations), 2 * few) << iterations;
+}
+
+// A bridge of unit planks of 1 kg, an arc that hangs by `slack` radians at its ends, under a load.
+template <int D>
+double gap_under_load(ContactMethod contacts, Integrator integrator, double slack, double ratio) {
+  WorldConfig<D> config = jointed<D>(integrator);
+  config.contacts = contacts;
+  World<D> world(config);
+  constexpr int kPlanks = 12;
+  Vec<D> end(0.0);
+  world.add(fixed_at<D>(end));
+  for (int i = 0; i < kPlanks; ++i) {
+    const double angle = slack * (2 * (i + 0.5) / kPlanks - 1);
+    const Vec<D> way = along<D>(std::cos(angle), std::sin(angle));
+    Vec<D> half(0.3);
+    half.x = 0.45;
+    half.y = 0.05;
+    Body<D> plank = plank_at<D>(end + way / 2.0, half);
+    if constexpr (D == 2)
+      plank.orientation.angle = angle;
+    else
+      plank.orientation.q = glm::angleAxis(angle, Vec<3>(0, 0, 1));
+    const BodyId id = world.add(plank);
+    pin<D>(world, id - 1, id, i > 0 ? along<D>(0.5) : Vec<D>(0.0), along<D>(-0.5));
+    end += way;
+  }
+  const BodyId bank = world.add(fixed_at<D>(end));
+  pin<D>(world, bank - 1, bank, along<D>(0.5), Vec<D>(0.0));
+  Vec<D> half(0.5);
+  half.x = 0.9;
+  const double middle = -end.x / 2 * std::tan(slack / 2);  // of the arc
+  world.add(plank_at<D>(along<D>(end.x / 2, middle + 0.6 + slack * 0.2), half, ratio));
+  return follow(world, 60, 0.01).gap;
+}
+
+template <int D>
+void expect_pins_hold() {
+  Random random(D);
+  for (const ContactMethod contacts :
+       {ContactMethod::impulse, ContactMethod::soft, ContactMethod::direct})
+    for (const Integrator integrator :
+         {Integrator::semi_implicit_euler, Integrator::velocity_verlet}) {
+      const double ratio = std::pow(10, random.between(0.5, 1.5)), slack = random.between(0.3, 0.6);
+      EXPECT_LE(gap_under_load<D>(contacts, integrator, slack, ratio), 1e-5)
+          << D << "D, " << to_string(contacts) << ", " << ratio << " on " << slack;
+    }
+  const auto taut = [](ContactMethod contacts, double ratio) {
+    return gap_under_load<D>(contacts, Integrator::semi_implicit_euler, 0, ratio);
+  };
+  EXPECT_LE(taut(ContactMethod::impulse, random.between(50, 100)), 3e-5);
+  EXPECT_LE(taut(ContactMethod::soft, random.between(200, 500)), 1e-5);
+  EXPECT_LE(taut(ContactMethod::direct, random.between(20, 40)), 1e-3);
+}
+
+TEST(JointExtremes, PinsHoldUnderLoad) {
+  expect_pins_hold<2>();
+  expect_pins_hold<3>();
 }
 
 }  // namespace

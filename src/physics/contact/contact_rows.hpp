@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <span>
 
 #include "physics/contact/solver_body.hpp"
@@ -166,16 +165,13 @@ struct ContactRows {
     }
   }
 
-  // One sweep over velocities, for a sub-step of `h` seconds; from the last point to the first if
-  // `backwards`. If it always began at the same one, that side of a face would always be pressed
-  // first, and a stack would lean.
+  // One sweep over velocities, for a sub-step of `h` seconds; over normals from the last point to
+  // the first if `backwards`. If it always began at the same one, that side of a face would always
+  // be pressed first, and a stack would lean.
   void solve_velocities(SolverBody<D>& body_a, SolverBody<D>& body_b, double h, Sweep& sweep,
                         bool backwards = false) {
-    const auto point = [&](int i) -> ContactPoint<D>& {
-      return room[static_cast<std::size_t>(backwards ? count - 1 - i : i)];
-    };
     for (int i = 0; i < count; ++i) {
-      ContactPoint<D>& p = point(i);
+      ContactPoint<D>& p = room[static_cast<std::size_t>(backwards ? count - 1 - i : i)];
       if (p.inverse_normal_mass == 0) continue;
       const double parting =
           glm::dot(relative_velocity(body_a, p.arm_a, body_b, p.arm_b), normal) - p.bounce;
@@ -188,8 +184,7 @@ struct ContactRows {
       ++sweep.work->normal_rows;
     }
     if (friction == 0) return;
-    for (int i = 0; i < count; ++i) {
-      ContactPoint<D>& p = point(i);
+    for (ContactPoint<D>& p : points()) {
       if (p.inverse_tangent_mass == 0 || (p.pn == 0 && p.pt == Vec<D>(0.0))) continue;
       const Vec<D> slip = across(relative_velocity(body_a, p.arm_a, body_b, p.arm_b));
       const Vec<D> before = p.pt;
@@ -262,7 +257,8 @@ struct ContactRows {
  private:
   // Impulses stay with their features. A feature has another name as soon as another corner ends
   // the face, which in a stack of equal boxes the slightest shift does; what is left without a
-  // point then goes to the nearest new one, lest half of what carries the stack is forgotten.
+  // point then goes to the nearest new one, if that is as near as `shallow`, lest half of what
+  // carries the stack is forgotten.
   void take_over(const Manifold<D>& manifold, const Contact<D>& old, double scale) {
     constexpr auto kMost = static_cast<std::size_t>(Manifold<D>::kMostPoints);
     std::array<bool, kMost> has{}, given{};
@@ -276,7 +272,7 @@ struct ContactRows {
       for (std::size_t j = 0; j < before; ++j)
         if (old.manifold.room[j].feature == room[i].feature) pass_on(j, i);
     for (;;) {
-      double nearest = std::numeric_limits<double>::infinity();
+      double nearest = shallow * shallow;
       std::size_t from = kMost, to = kMost;
       for (std::size_t i = 0; i < now; ++i)
         for (std::size_t j = 0; j < before; ++j) {

@@ -142,6 +142,9 @@ class SubStep {
   // From the velocities found follow mean velocities, and what is wanted of them.
   void begin_position_correction() {
     do_no_work();
+    Sweep sweep{&work};  // a part of all impulses would let joints part
+    if (joints_at_once_)
+      island.joint_block.solve_velocities(island.joints, island.solver_bodies, sweep, work);
     find_mean_velocities();
     each_pair([&](auto& rows, auto& a, auto& b) {
       rows.begin_correction(a, b, lag_of(rows.a), lag_of(rows.b), island.kicked[rows.a],
@@ -188,13 +191,32 @@ class SubStep {
       if (pushed != Spin<D>(0.0)) turn_with_momentum(body, Spin<D>(pushed * h));
       ++work.rotations_integrated;
     }
-    if (joints_at_once_) island.joint_block.close_gaps(island.joints, island.bodies, h, work);
+    if (joints_at_once_) hold_joints();
     for (IslandPair<D>& pair : island.pairs) {
       stop_if_asked();
       pair.record_impulses();
       for (const ContactPoint<D>& p : pair.rows.points())
         if (p.pn > 0 || p.separation <= 0) pair.touched = true;
     }
+  }
+
+  // Where the bodies have come to the joints hold otherwise than where they were: links in a line
+  // give way across it, until they have done so. First velocities no longer part them, which takes
+  // energy, if any; then the gaps are closed.
+  void hold_joints() {
+    island.set_solver_bodies();
+    each_joint([&](JointRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b) {
+      rows.refresh(island.bodies[rows.a], island.bodies[rows.b], a, b);
+    });
+    if (!island.joint_block.refresh(island.joints, island.solver_bodies)) return;
+    Sweep sweep{&work};
+    island.joint_block.solve_velocities(island.joints, island.solver_bodies, sweep, work);
+    for (std::size_t i = 0; i < island.bodies.size(); ++i) {
+      if (!island.bodies[i].is_pushed()) continue;
+      island.bodies[i].velocity = island.solver_bodies[i].velocity;
+      island.bodies[i].angular_momentum += island.solver_bodies[i].twist;
+    }
+    island.joint_block.close_gaps(island.joints, island.bodies, h, work);
   }
 
   // f(rows, a, b) of those that may press

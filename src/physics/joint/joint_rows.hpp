@@ -33,7 +33,9 @@ struct JointSettings {
   // Of joints beside contacts: rounds in which gaps are closed, to so small a part of the way that
   // may be moved; and products for one factor.
   int closing_rounds = 8;
-  double damping = 1e-2;                // of rows, where gaps close by no straight way
+  double straight = 1.0 / 16;           // of a gap: no more is left by a way that is straight
+  double damping = 0.1;                 // of rows, where gaps close by no straight way, at most,
+  double sag = 3e-7;                    // and this over the gap as a part of the joints' size
   double swept_compliance = 1e-6;       // of rows that say the same twice
   double shortest_sub_step = 1.0 / 64;  // of a step; joints that swing fast cut it so far
   double closed = 1e-9;
@@ -180,19 +182,24 @@ class JointBlock {
   }
 
   // Moves bodies, after `h` seconds, so that gaps are closed: so often anew, until nothing is
-  // missing, no faster than penetration is pushed out, and never so that the widest gap grows.
-  // Where a straight way overshoots (links in a line that are pulled across it), it is damped
-  // (Levenberg, Quart. Appl. Math. 2, 1944).
+  // missing, no faster than penetration is pushed out, and never so that they grow. Links in a line
+  // give way across it only: what would close their gaps at once would throw them about. So where
+  // that goes wrong it is damped (Levenberg, Quart. Appl. Math. 2, 1944), by rows of where the
+  // bodies have come to; a gap that is small against their sag is left.
   void close_gaps(std::vector<JointRows<D>>& joints, std::vector<Body<D>>& bodies, double h,
                   WorldWork& work) {
     if (!solved_) return;
     double left = kRowSettings.fastest_push * h;
     const double enough = kJointSettings.closed * left;
-    double worst = find_errors(joints, bodies);
+    double worst = find_errors(joints, bodies), sum = sum_of_squares();
+    double size = 0;
+    for (const JointRows<D>& joint : joints)
+      size =
+          std::max(size, glm::length(joint.arm_a) + glm::length(joint.arm_b) + joint.joint.length);
     bool damped = false;
     for (int round = 0; round < kJointSettings.closing_rounds && worst > enough && left > 0;
          ++round) {
-      solve(damped ? damped_ : factor_, work);
+      solve(work);
       kept_ = bodies;
       move(bodies, 1);
       double way = way_of(bodies);
@@ -201,17 +208,22 @@ class JointBlock {
         move(bodies, left / way);
         way = left;
       }
-      const double now = find_errors(joints, bodies);
-      const bool better = now < worst;
-      if (better) {
+      const double now = find_errors(joints, bodies), sum_now = sum_of_squares();
+      if (damped ? sum_now < sum : now < kJointSettings.straight * worst) {
+        worst = now;
+        sum = sum_now;
         left -= way;
+        if (!damped) continue;
       } else {
         bodies = kept_;
         find_errors(joints, bodies);
         if (damped) return;
+        damped = true;
       }
-      if (!damped && !(now < worst / 2) && !(damped = damp())) return;
-      if (better) worst = now;
+      look(joints, bodies);
+      if (!factor_compliant(
+              rows_, std::min(kJointSettings.damping, kJointSettings.sag * size / worst), factor_))
+        return;
     }
   }
 
@@ -227,7 +239,7 @@ class JointBlock {
       values_[r] =
           -glm::dot(row.direction, relative_velocity(of_a, joint.arm_a, of_b, joint.arm_b));
     }
-    solve(factor_, work);
+    solve(work);
     apply_rows(rows_, values_, bodies, of_mean);
   }
 
@@ -249,14 +261,24 @@ class JointBlock {
     }
   }
 
-  void solve(const EnvelopeSystem& factor, WorldWork& work) {
-    count_direct_solve(rows_.size(), work);
-    factor.solve(values_);
+  // The rows of joints whose gaps were found where the bodies are.
+  void look(const std::vector<JointRows<D>>& joints, const std::vector<Body<D>>& bodies) {
+    const auto inertia = [&](std::uint32_t i) {
+      const Body<D>& body = bodies[i];
+      const bool turns = body.is_pushed() && body.inverse_inertia != Spin<D>(0.0);
+      return turns ? world_inverse_inertia(body) : Inertia<D>(0.0);
+    };
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+      const JointRows<D>& joint = joints[joint_of_[r]];
+      const bool pin = joint.joint.kind == JointKind::pin;
+      rows_[r].set(pin ? rows_[r].direction : joint.direction, joint.arm_a, inertia(joint.a),
+                   joint.arm_b, inertia(joint.b));
+    }
   }
 
-  bool damp() {
-    plan(rows_, kept_.size(), damped_);
-    return factor_compliant(rows_, kJointSettings.damping, damped_);
+  void solve(WorldWork& work) {
+    count_direct_solve(rows_.size(), work);
+    factor_.solve(values_);
   }
 
   static double angle_between(const Rotation<D>& a, const Rotation<D>& b) {
@@ -278,6 +300,12 @@ class JointBlock {
                                 turning_reach<D>(bodies[i].shape) * turn);
     }
     return most;
+  }
+
+  double sum_of_squares() const {
+    double sum = 0;
+    for (const double value : values_) sum += value * value;
+    return sum;
   }
 
   // The largest one.
@@ -306,7 +334,7 @@ class JointBlock {
 
   std::vector<ConstraintRow<D>> rows_;
   std::vector<std::uint32_t> joint_of_;  // of each row
-  EnvelopeSystem factor_, damped_;
+  EnvelopeSystem factor_;
   bool solved_ = false;
   std::vector<Body<D>> kept_;
   std::vector<double> values_;  // what is missing, then impulses
