@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <numbers>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -20,7 +19,7 @@ namespace {
 
 // The numbers of a step, whatever the method.
 struct StepSettings {
-  int most_tries = 4;     // the last one counts even if a body went farther than was looked for
+  int most_tries = 8;     // the last one counts even if a body went farther than was looked for
   double slack = 1e-3;    // of a body's thickness: nearer is looked at, too
   double fast = 0.5;      // of the thinner body's thickness in a step: may pass through
   double fast_quick = 2;  // the same where an error is wanted: rows hold what is slower
@@ -35,20 +34,6 @@ double slack(const Body<D>& body) {
   return t < kEndless ? t * kStepSettings.slack : 0;
 }
 
-// How far a surface moves because its body turns.
-template <int D>
-double turning_way(const Body<D>& body, double h) {
-  const double radius = turning_reach<D>(body.shape);
-  if (radius == 0 || !body.moves() || body.asleep) return 0;
-  const Spin<D> spin = angular_velocity(body);
-  return radius * std::min(std::sqrt(dot(spin, spin)) * h, std::numbers::pi);
-}
-
-template <int D>
-Vec<D> velocity_of(const Body<D>& body) {
-  return body.moves() && !body.asleep ? body.velocity : Vec<D>(0.0);
-}
-
 // How far a surface may come if no force acts.
 template <int D>
 double coasting_reach(const Body<D>& body, double h) {
@@ -59,7 +44,8 @@ double coasting_reach(const Body<D>& body, double h) {
 
 template <int D>
 struct World<D>::Step : World<D>::StepIslands {
-  using StepIslands::joint_memories, StepIslands::forces, StepIslands::near, StepIslands::manifolds;
+  using StepIslands::farthest, StepIslands::joint_memories, StepIslands::forces, StepIslands::near,
+      StepIslands::manifolds;
   using StepIslands::place_of;
   using StepIslands::root, StepIslands::touching, StepIslands::touch_of, StepIslands::kNone;
   using StepIslands::world, StepIslands::h, StepIslands::moved, StepIslands::rested;
@@ -203,7 +189,8 @@ struct World<D>::Step : World<D>::StepIslands {
     bool stayed = true;
     for (std::size_t i = 0; i < moved.size(); ++i) {
       if (!moved[i].is_pushed()) continue;
-      const double way = glm::length(moved[i].position - world.bodies_[i].position);
+      const double way = std::max(glm::length(moved[i].position - world.bodies_[i].position),
+                                  i < farthest.size() ? farthest[i] : 0);
       if (way <= reach[i] * (1 + kStepSettings.rounding)) continue;
       reach[i] = 2 * std::max(way, glm::length(moved[i].velocity) * h);
       stayed = false;
@@ -319,8 +306,7 @@ struct World<D>::Step : World<D>::StepIslands {
     const Body<D>& a = moved[found.a];
     const Body<D>& b = moved[found.b];
     if (!a.is_dynamic() && !b.is_dynamic()) return std::nullopt;
-    const double way =
-        glm::length(velocity_of(b) - velocity_of(a)) * h + turning_way(a, h) + turning_way(b, h);
+    const double way = way_of(a, b, h);
     // An impact with a third body may turn either of them towards the other.
     found.reach = reach[found.a] + reach[found.b];
     ++narrow_pairs;
@@ -334,7 +320,8 @@ struct World<D>::Step : World<D>::StepIslands {
     const double thin = std::min(thickness<D>(a.shape), thickness<D>(b.shape));
     const double fast =
         world.config_.wanted_error > 0 ? kStepSettings.fast_quick : kStepSettings.fast;
-    found.located = locates_impacts() && (found.restitution > 0 || way > fast * thin);
+    found.fast = !locates_impacts() ? HUGE_VAL : found.restitution > 0 ? -1 : fast * thin;
+    found.located = way > found.fast;
     if (manifolds.size() < kStepSettings.most_manifolds) {
       found.manifold = static_cast<std::uint32_t>(manifolds.size());
       manifolds.push_back(*manifold);

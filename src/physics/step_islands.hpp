@@ -25,6 +25,7 @@ struct World<D>::StepIslands {
     double reach = 0;
     const Touch<D>* touch = nullptr;  // of the step before, if they touched in it
     std::uint32_t manifold = kNone;   // as they were found to lie; none of too many
+    double fast = 0;                  // see IslandPair
     bool located = false;
   };
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
@@ -45,6 +46,7 @@ struct World<D>::StepIslands {
   std::vector<Manifold<D>> manifolds = {};
   std::vector<std::uint32_t> root = {};         // of each body's island; static ones have their own
   std::vector<std::uint32_t> local_place = {};  // of each body in the island that was gathered last
+  std::vector<double> farthest = {};            // of each body, in its island
   std::vector<Touch<D>> touching = {};
   std::vector<std::uint32_t> touch_of = {};  // of each near pair; kNone: it did not touch
 
@@ -187,6 +189,9 @@ struct World<D>::StepIslands {
   }
 
   void bring_back(Island<D>& island, const Group& group) {
+    farthest.resize(moved.size());
+    for (std::size_t i = 0; i < island.farthest.size(); ++i)
+      farthest[island.places[i]] = island.farthest[i];
     for (std::size_t i = 0; i < island.places.size(); ++i)
       if (island.bodies[i].is_dynamic()) moved[island.places[i]] = std::move(island.bodies[i]);
     for (const JointRows<D>& rows : island.joints)
@@ -269,6 +274,7 @@ struct World<D>::StepIslands {
     pair.rows.restitution = from.restitution;
     pair.rows.friction = from.friction;
     pair.reach = from.reach;
+    pair.fast = from.fast;
     pair.located = from.located;
     pair.pressed = !from.located;
     if (from.touch != nullptr) static_cast<Touch<D>&>(pair) = *from.touch;

@@ -1,6 +1,4 @@
 // Impacts that are located in time, against closed forms.
-#include "physics/impact/time_of_impact.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,6 +8,7 @@
 #include "base/random.hpp"
 #include "physics/body.hpp"
 #include "physics/forces.hpp"
+#include "physics/impact/time_of_impact.hpp"
 #include "world_scene.hpp"
 
 namespace lantern::physics {
@@ -248,15 +247,6 @@ TEST(Impacts, ElasticBoxesKeepTheirEnergy) {
 }
 
 template <int D>
-Flying<D> flying(const Body<D>& body) {
-  Flying<D> seen{body.shape, body.position, matrix(body.orientation), body.velocity,
-                 angular_velocity(body)};
-  seen.fastest = fastest_spin(body);
-  seen.swerve = seen.fastest * seen.fastest * (D == 2 ? 1 : 1.58);
-  return seen;
-}
-
-template <int D>
 double gap_of(const Manifold<D>& manifold) {
   double least = HUGE_VAL;
   for (const ManifoldPoint<D>& p : manifold.points()) least = std::min(least, p.separation);
@@ -285,7 +275,8 @@ void expect_sure_advances(std::uint64_t seed) {
     const Body<D>&a = world.bodies()[0], &b = world.bodies()[1];
     const auto seen = collide(placed(a), placed(b), 10.0);
     if (!seen || gap_of(*seen) <= 1e-9) continue;
-    const double sure = sure_advance(flying(a), flying(b), seen->normal, 1e-9, 0.5);
+    const double sure = sure_advance(flying<D>({&a, a.velocity}), flying<D>({&b, b.velocity}),
+                                     seen->normal, 1e-9, 0.5);
     ASSERT_GE(sure, 0);
     useful += sure > 1e-3;
     for (const double share : {0.25, 0.5, 0.75, 1.0}) {

@@ -3,6 +3,9 @@
 // difference.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -28,10 +31,31 @@ SolverBody<D> solver_body_of(const Body<D>& body) {
   return solved;
 }
 
+// How far a surface moves because its body turns.
+template <int D>
+double turning_way(const Body<D>& body, double h) {
+  const double radius = turning_reach<D>(body.shape);
+  if (radius == 0 || !body.moves() || body.asleep) return 0;
+  const Spin<D> spin = angular_velocity(body);
+  return radius * std::min(std::sqrt(dot(spin, spin)) * h, std::numbers::pi);
+}
+
+template <int D>
+Vec<D> velocity_of(const Body<D>& body) {
+  return body.moves() && !body.asleep ? body.velocity : Vec<D>(0.0);
+}
+
+// How far two bodies may come against each other.
+template <int D>
+double way_of(const Body<D>& a, const Body<D>& b, double h) {
+  return glm::length(velocity_of(b) - velocity_of(a)) * h + turning_way(a, h) + turning_way(b, h);
+}
+
 // Two bodies that may touch during the step.
 template <int D>
 struct IslandPair : Touch<D> {  // what it remembers, and what the step tells
   ContactRows<D> rows;
+  double fast = 0;       // what goes farther in a step is located
   bool located = false;  // bouncing or fast: their impacts are located in time
   bool pressed = false;  // solved as a contact; an impact that is located needs no rows
   int rests = 0;         // how often it was located and too slow to bounce
@@ -56,6 +80,7 @@ struct Island {
   Forces<D> forces;                   // those that act among them
   std::vector<IslandPair<D>> pairs;   // by ids
   std::vector<JointRows<D>> joints;   // by ids
+  std::vector<double> farthest;       // of the bodies, in the step: from where they were
   // Of the sub-step that the joints' impulses are from; 0: of those that the step before has left,
   // see JointRows.
   double joint_seconds = 0;

@@ -8,20 +8,82 @@
 namespace lantern::physics {
 namespace {
 
+// When a pair next meets, as far as is known: not before `until`, seconds that are left of the
+// step.
+template <int D>
+struct Foreseen {
+  bool known = false;
+  double until = 0;
+  std::optional<TimeOfImpact<D>> met;
+};
+
 template <int D>
 struct Impact {
   double time = 0;
   IslandPair<D>* pair = nullptr;
+  Meeting meeting = Meeting::strikes;
 };
+
+// How fast a body's corners turn, at most, within so many seconds, not counting what turns about
+// the normal, nor a capsule's spin about its length.
+template <int D>
+double turning_across(const Body<D>& body, [[maybe_unused]] const Vec<D>& normal,
+                      [[maybe_unused]] double seconds) {
+  if (turning_reach<D>(body.shape) == 0 || !body.moves() || body.asleep) return 0;
+  const Spin<D> spin = angular_velocity(body);
+  if constexpr (D == 2) {
+    return std::abs(spin);
+  } else {
+    const bool round = std::holds_alternative<Capsule>(body.shape);
+    const Vec<3> along = round ? matrix(body.orientation)[1] : Vec<3>(0.0);
+    const double rolls = glm::dot(along, spin);
+    const Vec<3> turns = spin - along * rolls;
+    // It wanders by Euler's equation, I w' = L x w.
+    Vec<3> wanders = glm::cross(turns, along) * -rolls;
+    if (body.is_dynamic())
+      wanders += world_inverse_inertia(body) * glm::cross(body.angular_momentum, spin);
+    return std::min(glm::length(glm::cross(turns, normal)) + glm::length(wanders) * seconds,
+                    glm::length(spin) * kWandering<D>);
+  }
+}
+
+// How much a corner is accelerated along the normal, at most, because its body turns.
+template <int D>
+double swerve_along(const Body<D>& body, const Vec<D>& normal, double seconds) {
+  const Whirl turns = whirl(body);
+  return std::min(turns.swerve,
+                  kWandering<D> * turns.speed * turning_across(body, normal, seconds));
+}
+
+// How far the body reaches in this direction.
+template <int D>
+double extent(const Body<D>& body, const Vec<D>& direction) {
+  return visit_shape<D>(
+      body.shape,
+      [&](const Core<D>& core) {
+        const Mat<D> axes = core.turns ? matrix(body.orientation) : Mat<D>(1.0);
+        double reach = glm::dot(body.position, direction) + core.radius;
+        for (int i = 0; i < D; ++i) reach += core.half[i] * std::abs(glm::dot(axes[i], direction));
+        return reach;
+      },
+      [&](const HalfSpace<D>&) { return glm::dot(body.position, direction); });
+}
+
+template <int D>
+double gap_along(const Body<D>& a, const Body<D>& b, const Vec<D>& normal) {
+  return -extent(b, Vec<D>(-normal)) - extent(a, normal);
+}
 
 // A bounce that would end within a small share of `step` seconds is none. So a ball that bounces
 // lower and lower comes to rest after finitely many impacts. This is the speed of such a bounce.
 template <int D>
 double slowest_impact(const Trajectory<D>& a, const Trajectory<D>& b, double step) {
   const double pull = 2 * glm::length(b.bend - a.bend) + a.held + b.held;
-  return std::max(
-      pull * step * kImpactSettings.shortest_bounce,
-      kImpactSettings.speed_by_rounding * (glm::length(a.velocity) + glm::length(b.velocity)));
+  const double speeds = glm::length(a.velocity) + glm::length(b.velocity);
+  const double turns = whirl(*a.body).speed + whirl(*b.body).speed;
+  return std::max({pull * step * kImpactSettings.shortest_bounce,
+                   kImpactSettings.speed_by_rounding * speeds,
+                   kImpactSettings.speed_by_turning * turns});
 }
 
 template <int D>
@@ -29,39 +91,165 @@ class ImpactMotion {
  public:
   ImpactMotion(const IslandMove<D>& move, const ContactSolver& solver, int& budget,
                ImpactLog<D>& log)
-      : move_(move), island_(move.island), solver_(solver), budget_(budget), log_(log) {}
+      : move_(move), island_(move.island), solver_(solver), budget_(budget), log_(log) {
+    island_.farthest.assign(begun_.size(), 0.0);
+  }
 
   void run() {
-    double left = move_.h;
-    const bool any_located = std::ranges::any_of(island_.pairs, &IslandPair<D>::located);
-    while (any_located) {
-      find_increments_if_any<D>(move_.config, island_.bodies, island_.forces, left,
-                                island_.increments, move_.work);
-      const auto next = next_impact(left);
-      if (!next) break;
-      if (budget_ <= 0) {  // the rest of the step is soft for all
-        for (IslandPair<D>& pair : island_.pairs) pair.pressed = true;
-        break;
+    while (left_ > 0) {
+      const auto next = next_event();
+      const double until = next ? next->time : left_;
+      const double gone = until > 0 ? advance(until) : 0;
+      note_ways();
+      left_ -= gone;
+      if (gone < until) {
+        if (!(gone > 0)) return;  // what is left of the step they wait
+        look_again();
+      } else if (next && next->meeting == Meeting::rests) {
+        press(*next->pair);
+      } else if (next && next->meeting == Meeting::apart) {
+        --budget_;
+      } else if (next) {
+        strike_at(*next, gone > 0);
       }
-      if (next->time > 0) solve(next->time);
-      left -= next->time;
-      const ContactRows<D>& met = next->pair->rows;
-      log_.moments.push_back(
-          {move_.h - left, pose(island_.bodies[met.a]), pose(island_.bodies[met.b])});
-      const int impacts = resolve_impacts();
-      move_.work.impacts_located += static_cast<std::uint64_t>(impacts);
-      budget_ -= std::max(impacts, 1);
-      if (impacts == 0) next->pair->pressed = true;  // others have moved its bodies off their way
-      for (IslandPair<D>& pair : island_.pairs)      // what does not bounce stays
-        if (pair.touched && pair.rows.restitution == 0) pair.pressed = true;
-      if (!(left > 0)) return;
     }
-    solve(left);
   }
 
  private:
-  void solve(double seconds) {
-    solver_.solve.in<D>()({island_, move_.config, seconds, move_.whole, move_.work});
+  void strike_at(const Impact<D>& next, bool moved) {
+    const ContactRows<D>& met = next.pair->rows;
+    log_.moments.push_back(
+        {move_.h - left_, pose(island_.bodies[met.a]), pose(island_.bodies[met.b])});
+    const int impacts = resolve_impacts();
+    move_.work.impacts_located += static_cast<std::uint64_t>(impacts);
+    budget_ -= std::max(impacts, 1);
+    // Others have moved its bodies off their way.
+    if (impacts == 0 && !moved) next.pair->pressed = true;
+    for (IslandPair<D>& pair : island_.pairs)  // what does not bounce stays
+      if (pair.touched && pair.rows.restitution == 0 && holds(pair, pair.rows.normal))
+        pair.pressed = true;
+  }
+
+  // Between two events bodies fly nearly straight, so that none was farther away than at its ends.
+  void note_ways() {
+    for (std::size_t i = 0; i < begun_.size(); ++i)
+      island_.farthest[i] = std::max(
+          island_.farthest[i],
+          glm::length(island_.bodies[i].position - begun_[i].position) +
+              std::max(turning_way(island_.bodies[i], left_) - turning_way(begun_[i], move_.h),
+                       0.0));
+  }
+
+  static void press(IslandPair<D>& pair) {
+    pair.pressed = true;
+    ++pair.rests;
+  }
+
+  double turning(const IslandPair<D>& pair, const Vec<D>& normal, double seconds) const {
+    return turning_across(island_.bodies[pair.rows.a], normal, seconds) +
+           turning_across(island_.bodies[pair.rows.b], normal, seconds);
+  }
+
+  // A contact stays what it is as long as its bodies hardly turn.
+  bool holds(const IslandPair<D>& pair, const Vec<D>& normal) const {
+    return turning(pair, normal, left_) * left_ <= kImpactSettings.most_held_turn;
+  }
+
+  // After a part in which contacts held, those of bouncing and fast pairs are looked for anew.
+  void look_again() {
+    if (budget_ <= 0) return;
+    for (IslandPair<D>& pair : island_.pairs)
+      if (pair.located && !holds(pair, pair.rows.normal)) pair.pressed = false;
+  }
+
+  void solve(double seconds) { solve(seconds, solver_); }
+  void solve(double seconds, const ContactSolver& solver) {
+    solver.solve.in<D>()({island_, move_.config, seconds, move_.whole, move_.work});
+  }
+
+  // A pair of a body that is in a located one: the two must not come to lie deep in each other.
+  struct Watched {
+    std::uint32_t a = 0, b = 0;
+    Vec<D> normal{0.0};
+    Vec<D> offset{0.0};  // from a to b
+    double gap = 0;      // along the normal
+    double deep = 0;
+  };
+
+  std::vector<Watched> watched_pairs(double& seconds) {
+    std::vector<Watched> all;
+    std::vector<std::uint8_t> fast(island_.bodies.size());
+    for (const IslandPair<D>& pair : island_.pairs)
+      for (const std::uint32_t i : {pair.rows.a, pair.rows.b})
+        fast[i] |= pair.located && island_.bodies[i].is_dynamic();
+    for (IslandPair<D>& pair : island_.pairs) {
+      if (!fast[pair.rows.a] && !fast[pair.rows.b]) continue;
+      stop_if_asked();
+      const Body<D>&a = island_.bodies[pair.rows.a], &b = island_.bodies[pair.rows.b];
+      ++move_.work.narrow_tests;
+      const auto seen = collide(placed(a), placed(b), std::max(pair.reach, way_of(a, b, seconds)));
+      if (!seen) continue;
+      const double gap = gap_along(a, b, seen->normal), thin = thinner(a, b);
+      if (gap < -thin / 2) continue;  // they lie in each other already
+      // Others press them together, though they part.
+      if (gap < -thin * kImpactSettings.deep / 4) pair.pressed = true;
+      all.push_back({pair.rows.a, pair.rows.b, seen->normal, b.position - a.position, gap,
+                     kImpactSettings.deep * thin});
+      if (const double turn = turning(pair, seen->normal, seconds); pair.pressed && turn > 0)
+        seconds = std::min(seconds, kImpactSettings.most_held_turn / turn);
+    }
+    return all;
+  }
+
+  // How far apart the two are on the sides on which they were.
+  double gap_now(const Watched& pair, double way) const {
+    const Body<D>&a = island_.bodies[pair.a], &b = island_.bodies[pair.b];
+    const double gap = gap_along(a, b, pair.normal);
+    if (gap >= -pair.deep) return gap;
+    ++move_.work.narrow_tests;
+    const auto seen = collide(placed(a), placed(b), std::max(pair.gap, 0.0) + way);
+    if (!seen || glm::dot(seen->normal, pair.normal) < kImpactSettings.same_side) return gap;
+    return std::max(gap, gap_along(a, b, seen->normal));
+  }
+
+  // Whether the two have kept apart over so many seconds, in which corners flew on parabolas at
+  // worst; or have hardly moved at all.
+  bool kept_apart(const Watched& pair, double seconds) const {
+    const Body<D>&a = island_.bodies[pair.a], &b = island_.bodies[pair.b];
+    const double way = glm::length(b.position - a.position - pair.offset) +
+                       (whirl(a).speed + whirl(b).speed) * seconds;
+    if (way <= pair.deep / 8) return true;
+    const double gap = std::min(pair.gap, gap_now(pair, way));
+    const double bend =
+        swerve_along(a, pair.normal, seconds) + swerve_along(b, pair.normal, seconds);
+    return gap - bend * seconds * seconds / 8 >= -std::max(pair.deep, pair.deep / 8 - pair.gap);
+  }
+
+  // Moves the island on by so many seconds, or by less: what contacts hold, and joints, does not
+  // fly as was foreseen. A part of the step after which a pair lies deeper in each other than a
+  // contact can hold is made anew, half as long. Returns how many seconds went by; 0 if the
+  // island has been moved often enough.
+  double advance(double seconds) {
+    if (island_.joints.empty() && std::ranges::none_of(island_.pairs, &IslandPair<D>::pressed)) {
+      solve(seconds);
+      return seconds;
+    }
+    double part = seconds;
+    const std::vector<Watched> watched = watched_pairs(part);
+    part = std::min(part, 2 * last_part_);
+    const ContactSolver* solver = &solver_;
+    for (; parts_ > 0; part /= 2, solver = &contact_solver(ContactMethod::direct)) {
+      parts_ -= part < seconds;
+      const Island<D> kept = watched.empty() ? Island<D>{} : island_;
+      solve(part, *solver);
+      last_part_ = part < seconds ? part : HUGE_VAL;
+      if (std::ranges::all_of(watched, [&](const Watched& p) { return kept_apart(p, part); }))
+        return part;
+      island_ = kept;
+      if (part == seconds) --parts_;
+      if (part < move_.whole * kImpactSettings.shortest_part) break;
+    }
+    return 0;
   }
 
   // Newton's law of restitution at all points of a pair at once: those that approach will part with
@@ -236,26 +424,89 @@ class ImpactMotion {
     return all;
   }
 
-  // The next impact. Pairs that meet too slowly become contacts on the way.
-  std::optional<Impact<D>> next_impact(double within) {
+  // What was struck may come from farther than the pair was looked for when the step began.
+  double reach_of(const IslandPair<D>& pair, const Trajectory<D>& a, const Trajectory<D>& b) const {
+    const double bends = glm::length(b.bend) + glm::length(a.bend);
+    return std::max(pair.reach, way_of(*a.body, *b.body, left_) + bends * left_ * left_);
+  }
+
+  // What is known of a pair stays so as long as both bodies fly on as was foreseen.
+  void forget_what_left_its_way(const std::vector<Trajectory<D>>& flying) {
+    foreseen_.resize(island_.pairs.size());
+    std::vector<std::uint8_t> strayed(flying.size());
+    for (std::size_t i = 0; i < flying.size(); ++i)
+      strayed[i] = ways_.empty() || !goes_on(ways_[i], ways_begun_ - left_, flying[i]);
+    for (std::size_t i = 0; i < foreseen_.size(); ++i) {
+      const IslandPair<D>& pair = island_.pairs[i];
+      if (pair.pressed || strayed[pair.rows.a] || strayed[pair.rows.b]) foreseen_[i] = {};
+    }
+    seen_bodies_ = island_.bodies;
+    ways_ = flying;
+    ways_begun_ = left_;
+    for (std::size_t i = 0; i < ways_.size(); ++i) ways_[i].body = &seen_bodies_[i];
+  }
+
+  static bool goes_on(const Trajectory<D>& way, double t, const Trajectory<D>& now) {
+    if (!way.body->moves()) return true;
+    const Body<D> there = flown(way, t);
+    const double speed = glm::length(there.velocity), bend = glm::length(way.bend);
+    double turned = 0;
+    for (int i = 0; i < D; ++i)
+      turned += glm::length(matrix(there.orientation)[i] - matrix(now.body->orientation)[i]);
+    const double same = kImpactSettings.same_way;
+    return there.angular_momentum == now.body->angular_momentum && turned <= same &&
+           glm::length(there.velocity - now.velocity) <= same * speed &&
+           glm::length(way.bend - now.bend) <= same * bend &&
+           glm::length(there.position - now.body->position) <=
+               same * (glm::length(there.position) + (speed + bend * t) * t);
+  }
+
+  // The next impact, or the next contact of what turns. Pairs that meet too slowly become contacts
+  // on the way. When the budget is used up all others are, too.
+  std::optional<Impact<D>> next_event() {
+    if (std::ranges::none_of(island_.pairs, &IslandPair<D>::located)) return std::nullopt;
+    if (budget_ <= 0) {
+      for (IslandPair<D>& pair : island_.pairs) pair.pressed = true;
+      return std::nullopt;
+    }
+    const double within = left_;
+    find_increments_if_any<D>(move_.config, island_.bodies, island_.forces, within,
+                              island_.increments, move_.work);
     std::vector<ImpactLook<D>>* const looks = log_.keeps_looks ? &log_.looks : nullptr;
     const std::vector<Trajectory<D>> flying = trajectories(within);
+    forget_what_left_its_way(flying);
     std::optional<Impact<D>> first;
-    for (IslandPair<D>& pair : island_.pairs) {
+    for (std::size_t i = 0; i < island_.pairs.size(); ++i) {
       stop_if_asked();
+      IslandPair<D>& pair = island_.pairs[i];
       const Trajectory<D>& a = flying[pair.rows.a];
       const Trajectory<D>& b = flying[pair.rows.b];
       pair.slow = slowest_impact(a, b, move_.h);
+      if (!pair.located && way_of(*a.body, *b.body, within) > pair.fast) {
+        pair.located = true;  // since it was struck
+        pair.pressed = false;
+      }
       if (!pair.located || pair.pressed) continue;
-      const auto met = time_of_impact<D>(
-          {a, b, within, pair.slow, pair.reach, move_.work, looks, move_.h - within});
-      if (!met) continue;
-      if (met->rests) {
-        pair.pressed = true;
-        ++pair.rests;
-      } else if (!first || met->seconds < first->time)
-        first = Impact<D>{met->seconds, &pair};
+      Foreseen<D>& seen = foreseen_[i];
+      if (!seen.known || (!seen.met && seen.until > left_ - (first ? first->time : within))) {
+        // What turns fast is looked at no further than to the first impact.
+        const bool whole = !first || holds(pair, Vec<D>(0.0));
+        const double ahead = whole ? within : first->time;
+        const double since = move_.h - within;
+        seen = {true, within - ahead,
+                time_of_impact<D>(
+                    {a, b, ahead, pair.slow, reach_of(pair, a, b), move_.work, looks, since})};
+        if (seen.met) seen.until = within - seen.met->seconds;
+      }
+      if (!seen.met) continue;
+      const double time = std::max(within - seen.until, 0.0);
+      if (seen.met->meeting == Meeting::rests && holds(pair, seen.met->normal)) {
+        press(pair);
+      } else if (!first || time < first->time) {
+        first = Impact<D>{time, &pair, seen.met->meeting};
+      }
     }
+    if (first) foreseen_[static_cast<std::size_t>(first->pair - island_.pairs.data())] = {};
     return first;
   }
 
@@ -264,6 +515,14 @@ class ImpactMotion {
   const ContactSolver& solver_;
   int& budget_;
   ImpactLog<D>& log_;
+  std::vector<Body<D>> begun_ = island_.bodies;
+  double left_ = move_.h;
+  std::vector<Foreseen<D>> foreseen_;  // of each pair
+  std::vector<Trajectory<D>> ways_;    // by which that was foreseen, of
+  std::vector<Body<D>> seen_bodies_;
+  double ways_begun_ = 0;
+  int parts_ = kImpactSettings.most_parts;
+  double last_part_ = HUGE_VAL;
 };
 
 }  // namespace

@@ -18,16 +18,26 @@ struct ImpactSettings {
   // Of the thinner one's thickness: points so near each other touch at a time; what gets no nearer
   // in half of all advances is there.
   double near = 1e-9;
-  double touches = 1e-15;             // of the sizes: so near is at the moment of the impact
+  double touches = 1e-15;  // of the sizes: so near is at the moment of the impact
+  // Of the thinner one's thickness: what turns may bend its way by so little before it is looked at
+  // again, where it touches without approaching.
+  double lift = 1e-3;
   double shortest_bounce = 1.0 / 32;  // of a step: one that would be shorter is none
   int most_rests = 3;                 // in a step: a pair that rests so often does not bounce again
   double speed_by_rounding = 1e-12;   // of both speeds: what approaches slower is at rest
+  double speed_by_turning = 1e-7;     // of the speeds of what turns, the same
   int bouncing_rounds = 64;           // through all touching pairs, in one impact
   int most_rounds = 96;               // the last ones without restitution
   int most_point_sweeps = 200;        // over the points of one pair
   double change = 1e-15;              // of the largest impulse: so small a one ends these sweeps
   double touching = 4e-9;             // of the thinner one's: so near is struck, too
   double gain_by_rounding = 1e-12;    // of the blow's energy: so small a gain of it is none
+  double most_held_turn = 0.5;        // radians for which a contact holds what turns
+  double same_way = 1e-12;            // relatively: what moves so nearly as foreseen, does so
+  double deep = 0.25;                 // of the thinner one's thickness: deeper no contact may be,
+  double same_side = 0.7;             // cosine between normals of a contact that is still the same
+  double shortest_part = 1e-9;        // of a step, and
+  int most_parts = 1024;              // of a step, into which it is cut to keep it so
 };
 inline constexpr ImpactSettings kImpactSettings;
 
@@ -58,9 +68,27 @@ struct Encounter {
   double begun = 0;                        // so many seconds after its step began
 };
 
+// A body after so many seconds of it.
+template <int D>
+Body<D> flown(const Trajectory<D>& path, double t) {
+  Body<D> body = *path.body;
+  body.position += t * (path.velocity + t * path.bend);
+  body.velocity = path.velocity + 2 * t * path.bend;
+  turn_freely(body, t, path.rotation);
+  return body;
+}
+
+enum class Meeting {
+  strikes,
+  rests,  // too slow for an impact: from then on it is a contact
+  apart,  // none yet: so far it was looked for
+};
+
+template <int D>
 struct TimeOfImpact {
   double seconds = 0;
-  bool rests = false;  // too slow for an impact: from then on it is a contact
+  Meeting meeting = Meeting::strikes;
+  Vec<D> normal{0.0};
 };
 
 // A body at a moment of its free flight.
@@ -70,10 +98,11 @@ struct Flying {
   Vec<D> position{0.0};
   Mat<D> axes{1.0};  // of its core, as columns
   Vec<D> velocity{0.0};
-  Spin<D> spin{0.0};   // radians a second
-  double pull = 0;     // its centre is accelerated by so much, never more
-  double fastest = 0;  // it never spins faster
-  double swerve = 0;   // acceleration of a point that is 1 from the centre, by turning alone
+  Spin<D> spin{0.0};         // radians a second
+  double pull = 0;           // its centre is accelerated by so much, never more
+  double fastest = 0;        // it never spins faster
+  double swerve = 0;         // acceleration of a point that is 1 from the centre, by turning alone
+  double corner_swerve = 0;  // the same of its own corners
 };
 
 // A plane that turns is followed for so many radians at most: what bounds it grows with time.
@@ -101,7 +130,7 @@ template <int D>
 Side seen(const Flying<D>& body, const Vec<D>& arm, const Vec<D>& n, const SeenFrom<D>& frame) {
   const double reach = glm::length(arm);
   const Vec<D> point = body.position + arm, v = body.velocity + cross(body.spin, arm);
-  const double bend = body.pull + body.swerve * reach;
+  const double bend = body.pull + body.corner_swerve;
   if (frame.body == nullptr) return {glm::dot(n, point), glm::dot(n, v), bend};
   const Flying<D>& own = *frame.body;
   const Vec<D> d = point - own.position;
@@ -189,6 +218,51 @@ double fastest_spin(const Body<D>& body) {
   return std::sqrt(square);
 }
 
+// Acceleration of what turns, against spin^2 radius: a spin that wanders has more. I w' = L x w,
+// and no inertia is larger than the other two together, so |w'| <= w^2 / sqrt(3).
+template <int D>
+inline constexpr double kWandering = D == 2 ? 1 : 1.58;
+
+// Of the corners of a free body, by turning alone: the most that they become as its spin wanders.
+struct Whirl {
+  double speed = 0;
+  double swerve = 0;  // acceleration
+};
+
+// Of vectors whose components are at most so large.
+inline Vec<3> largest_cross(const Vec<3>& a, const Vec<3>& b) {
+  return {a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x};
+}
+
+// No component of the spin, about the body's own axes, is larger than all of |L| or all of the
+// energy would make it. So a needle's spin about its length, which may be huge, is not taken for
+// one that moves its ends.
+template <int D>
+Whirl whirl(const Body<D>& body) {
+  const double reach = turning_reach<D>(body.shape);
+  if (reach == 0 || !body.moves() || body.asleep) return {};
+  if constexpr (D == 3)
+    if (body.is_dynamic() && body.turns_about_every_axis()) {
+      const Vec<3>& inverse = body.inverse_inertia;
+      const Vec<3> l = glm::conjugate(body.orientation.q) * body.angular_momentum;
+      const double length = glm::length(l), energy = glm::dot(l * inverse, l);
+      const Vec<3> spin = glm::min(length * inverse, glm::sqrt(energy * inverse));
+      const Vec<3> arm = visit_shape<3>(
+          body.shape, [](const Core<3>& core) { return core.half; },
+          [](const HalfSpace<3>&) { return Vec<3>(0.0); });
+      const Vec<3> wanders =
+          inverse *
+          glm::abs(Vec<3>(1 / inverse.y - 1 / inverse.z, 1 / inverse.z - 1 / inverse.x,
+                          1 / inverse.x - 1 / inverse.y)) *
+          Vec<3>(spin.y * spin.z, spin.z * spin.x, spin.x * spin.y);
+      const Vec<3> speed = largest_cross(spin, arm);
+      return {glm::length(speed),
+              glm::length(largest_cross(spin, speed) + largest_cross(wanders, arm))};
+    }
+  const double spin = fastest_spin(body);
+  return {spin * reach, (body.is_dynamic() ? kWandering<D> : 1) * spin * spin * reach};
+}
+
 // Seconds, at most `within`, in which the two are sure not to touch. `normal` points from a to b
 // and nearly parts them; the better it does, the longer. What is no deeper than `depth` along it
 // counts as apart: touching bodies may part.
@@ -213,10 +287,21 @@ double sure_advance(const Flying<D>& a, const Flying<D>& b, const Vec<D>& n, dou
   return sure;
 }
 
-// Acceleration of what turns, against spin^2 radius: a spin that wanders has more. I w' = L x w,
-// and no inertia is larger than the other two together, so |w'| <= w^2 / sqrt(3).
 template <int D>
-inline constexpr double kWandering = D == 2 ? 1 : 1.58;
+Flying<D> flying(const Trajectory<D>& path) {
+  const Body<D>& now = *path.body;
+  Flying<D> body{now.shape, now.position};
+  if (turns<D>(now.shape)) body.axes = matrix(now.orientation);
+  body.velocity = path.velocity;
+  body.pull = 2 * glm::length(path.bend);
+  const Whirl turning = whirl(now);
+  if (turning.speed == 0) return body;
+  body.spin = angular_velocity(now);
+  body.fastest = fastest_spin(now);
+  body.swerve = body.fastest * body.fastest * (now.is_dynamic() ? kWandering<D> : 1);
+  body.corner_swerve = turning.swerve;
+  return body;
+}
 
 template <int D>
 struct Gap {
@@ -231,34 +316,39 @@ class Approach {
  public:
   explicit Approach(const Encounter<D>& of) : of_(of) {
     const Trajectory<D>&a = of.a, &b = of.b;
-    fastest_a_ = spin_of(a);
-    fastest_b_ = spin_of(b);
-    turn_a_ = fastest_a_ * turning_reach<D>(a.body->shape);
-    turn_b_ = fastest_b_ * turning_reach<D>(b.body->shape);
-    bend_ = 2 * glm::length(b.bend - a.bend) + (fastest_a_ + fastest_b_) * (turn_a_ + turn_b_);
+    const Whirl turns_a = whirl(*a.body), turns_b = whirl(*b.body);
+    turn_a_ = turns_a.speed;
+    turn_b_ = turns_b.speed;
+    bend_ = 2 * glm::length(b.bend - a.bend) + turns_a.swerve + turns_b.swerve;
     turns_ = turn_a_ + turn_b_ > 0;
+    most_turn_ = kMostTurn / (fastest_spin(*a.body) + fastest_spin(*b.body));
     near_ = kImpactSettings.near * thinner(*a.body, *b.body);
+    lift_ = std::sqrt(kImpactSettings.lift * thinner(*a.body, *b.body) / bend_);
     size_ = glm::length(a.body->position) + glm::length(b.body->position);
     for (const Trajectory<D>* path : {&a, &b})
       if (const double t = thickness<D>(path->body->shape); t < kEndless) size_ += t;
   }
 
-  std::optional<TimeOfImpact> find() const {
+  std::optional<TimeOfImpact<D>> find() const {
     double t = 0;
+    Vec<D> normal(0.0);
     for (int i = 0; i < kImpactSettings.most_advances; ++i) {
       const auto seen = gap_at(t);
       if (!seen) return std::nullopt;
+      normal = seen->normal;
       double next = t;
       if (seen->gap <= size_ * kImpactSettings.touches) {
-        if (seen->closing > of_.slow) return TimeOfImpact{t, false};
+        if (seen->closing > of_.slow) return TimeOfImpact<D>{t, Meeting::strikes, seen->normal};
         if (seen->closing > -of_.slow) {
           // They glide along each other, unless something presses them.
           if (bend_ == 0 && of_.a.held + of_.b.held == 0) return std::nullopt;
-          return TimeOfImpact{t, true};
+          if (!turns_ || !lifts_off(t)) return TimeOfImpact<D>{t, Meeting::rests, seen->normal};
+          next = t + lift_;
+        } else {
+          // They part, and cannot be back before this.
+          if (bend_ == 0) return std::nullopt;
+          next = t + (turns_ ? sure(t, *seen) : 2 * -seen->closing / bend_);
         }
-        // They part, and cannot be back before this.
-        if (bend_ == 0) return std::nullopt;
-        next = t + (turns_ ? sure(t, *seen) : 2 * -seen->closing / bend_);
       } else {
         const double root = std::sqrt(seen->bound * seen->bound + 2 * bend_ * seen->gap);
         if (!(seen->bound + root > 0)) return std::nullopt;
@@ -267,57 +357,47 @@ class Approach {
         tell_free_until(next);
         if (const auto met = bracketed(t, *seen, next)) return met;
       }
+      // No nearer in numbers, or so slowly that it is as good as there. What parts may come back.
+      if (next == t || (i > kImpactSettings.most_advances / 2 && seen->gap < near_)) {
+        if (const auto met = at(t, *seen)) return met;
+        next = std::max(next, t + lift_);
+      }
       if (!(next < of_.within)) return std::nullopt;
-      // No nearer in numbers, or so slowly that it is as good as there.
-      if (next == t || (i > kImpactSettings.most_advances / 2 && seen->gap < near_))
-        return at(t, *seen);
       t = next;
     }
-    // They turn so fast that no sure advance comes to an end: a contact, from here on.
-    return turns_ ? std::optional(TimeOfImpact{t, true}) : std::nullopt;
+    // They turn so fast that no sure advance comes to an end.
+    return turns_
+               ? std::optional(TimeOfImpact<D>{t, t > 0 ? Meeting::apart : Meeting::rests, normal})
+               : std::nullopt;
   }
 
  private:
-  double spin_of(const Trajectory<D>& path) const {
-    if (turning_reach<D>(path.body->shape) == 0 || !path.body->moves()) return 0;
-    return fastest_spin(*path.body);
-  }
   double sure(double t, const Gap<D>& seen) const {
-    return sure_advance(flying(of_.a, t, fastest_a_), flying(of_.b, t, fastest_b_), seen.normal,
+    const Body<D> a = flown(of_.a, t), b = flown(of_.b, t);
+    return sure_advance(flying<D>({&a, a.velocity, of_.a.bend}),
+                        flying<D>({&b, b.velocity, of_.b.bend}), seen.normal,
                         std::max(-seen.gap, 0.0) + near_, of_.within - t);
   }
-  Flying<D> flying(const Trajectory<D>& path, double t, double fastest) const {
-    const Body<D> now = placed_at(path, t);
-    Flying<D> body{now.shape, now.position};
-    if (turns<D>(now.shape)) body.axes = matrix(now.orientation);
-    body.velocity = now.velocity;
-    body.pull = 2 * glm::length(path.bend);
-    if (fastest == 0) return body;
-    body.spin = angular_velocity(now);
-    body.fastest = fastest;
-    body.swerve = fastest * fastest * (now.is_dynamic() ? kWandering<D> : 1);
-    return body;
-  }
-  Body<D> placed_at(const Trajectory<D>& path, double t) const {
-    Body<D> body = *path.body;
-    body.position += t * (path.velocity + t * path.bend);
-    body.velocity = path.velocity + 2 * t * path.bend;
-    turn_freely(body, t, path.rotation);
-    return body;
+  // The corner on which a body turns leaves what it touches, pulled towards the body's centre.
+  bool lifts_off(double t) const {
+    const auto later = gap_at(t + lift_);
+    return !later || later->gap > size_ * kImpactSettings.touches;
   }
 
-  std::optional<TimeOfImpact> at(double t, const Gap<D>& seen) const {
+  std::optional<TimeOfImpact<D>> at(double t, const Gap<D>& seen) const {
     if (seen.closing <= -of_.slow) return std::nullopt;
-    return TimeOfImpact{t, seen.closing <= of_.slow};
+    return TimeOfImpact<D>{t, seen.closing <= of_.slow ? Meeting::rests : Meeting::strikes,
+                           seen.normal};
   }
 
   // What turns is sure not to touch for a short while only, and advances creep. But where the
   // nearest points would meet if they kept their speed, the shapes mostly overlap, so that the
   // moment lies in between (by false position, Illinois).
-  std::optional<TimeOfImpact> bracketed(double t, Gap<D> seen, double sure) const {
+  std::optional<TimeOfImpact<D>> bracketed(double t, Gap<D> seen, double sure) const {
     if (!turns_ || !(seen.closing > of_.slow)) return std::nullopt;
     if (!(sure < of_.within)) return std::nullopt;
-    double end = std::min(t + seen.gap / seen.closing * kImpactSettings.overshoot, of_.within);
+    double end = std::min(
+        {t + seen.gap / seen.closing * kImpactSettings.overshoot, t + most_turn_, of_.within});
     if (!(end > sure)) return std::nullopt;
     auto later = gap_at(end);
     if (!later || later->gap > 0) return std::nullopt;
@@ -342,7 +422,7 @@ class Approach {
   }
 
   std::optional<Gap<D>> gap_at(double t) const {
-    const Body<D> a = placed_at(of_.a, t), b = placed_at(of_.b, t);
+    const Body<D> a = flown(of_.a, t), b = flown(of_.b, t);
     ++of_.work.narrow_tests;
     ++of_.work.impact_looks;
     const auto manifold = collide(placed(a), placed(b), of_.reach);
@@ -382,11 +462,12 @@ class Approach {
   }
 
   const Encounter<D>& of_;
-  double fastest_a_ = 0, fastest_b_ = 0;  // spins
-  double turn_a_ = 0, turn_b_ = 0;        // how fast surfaces can move by turning
-  double bend_ = 0;                       // the gap's second derivative is at least minus this
+  double turn_a_ = 0, turn_b_ = 0;  // how fast surfaces can move by turning
+  double bend_ = 0;                 // the gap's second derivative is at least minus this
   double size_ = 0;
   double near_ = 0;
+  double most_turn_ = 0;  // seconds
+  double lift_ = 0;       // seconds in which it bends a way by next to nothing
   bool turns_ = false;
 };
 
@@ -394,10 +475,10 @@ class Approach {
 // conservative advancement (Mirtich, "Impulse-based Dynamic Simulation", 1996): go on for as long
 // as they surely cannot touch.
 template <int D>
-std::optional<TimeOfImpact> time_of_impact(const Encounter<D>& of) {
+std::optional<TimeOfImpact<D>> time_of_impact(const Encounter<D>& of) {
   const std::size_t before = of.looks == nullptr ? 0 : of.looks->size();
   const auto met = Approach<D>(of).find();
-  if (of.looks != nullptr && met && !met->rests)
+  if (of.looks != nullptr && met && met->meeting == Meeting::strikes)
     for (std::size_t i = before; i < of.looks->size(); ++i)
       (*of.looks)[i].meets = (*of.looks)[i].time == of.begun + met->seconds;
   return met;
