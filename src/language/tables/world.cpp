@@ -118,7 +118,11 @@ TableDoc world_table() {
           range(1, 1000)),
       key(&W::impact_budget, "impact_budget",
           "How many impacts are located in one world step; later ones are treated as soft. "
-          "Bouncing bodies are stopped at the moment of impact, however often they bounce.",
+          "Bouncing bodies, and those that fly or spin fast, are stopped at the moment of impact, "
+          "however often they meet. Where contacts must hold what spins fast, a world step is cut "
+          "into up to 1024 parts, so that what flies or spins fast gets through no wall; what even "
+          "these cannot move on waits until the next step. The lecture's own contacts do none of "
+          "this.",
           range(0, 10'000'000)),
       key(&W::may_sleep, "may_sleep", "Bodies that have been at rest for a while fall asleep."),
       key(&Display::boxes, "show_boxes", "The boxes of the broad phase are drawn."),
