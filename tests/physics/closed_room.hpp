@@ -42,9 +42,8 @@ class ClosedRoom {
         left = std::min(left, kHalf - std::abs(body.position[i]));
     return left;
   }
-  // Of the energy, so much may be gained: a free top's swings by up to a thousandth
-  // (freely_turned).
-  static constexpr double kSwing = D == 2 ? 1e-9 : 1e-3;
+  // Of the energy, so much may be gained by rounding.
+  static constexpr double kSwing = 1e-9;
   // Kinetic, and potential above the floor: never negative.
   double energy_above_floor() const {
     double sum = energy<D>(world_.bodies(), world_.forces()).total();

@@ -154,7 +154,7 @@ double gap_of_bridge(ContactMethod contacts, int iterations) {
   Body<2> ball = ball_at<2>({4.2, 1.5}, {0, -6}, 1);
   ball.density = 10;
   world.add(ball);
-  return follow(world, 60, 0.01).gap;
+  return follow(world, 40, 0.01).gap;
 }
 
 TEST(JointExtremes, ABridgeHoldsAHeavyBall) {
@@ -173,7 +173,7 @@ double gap_under_load(ContactMethod contacts, Integrator integrator, double slac
   WorldConfig<D> config = jointed<D>(integrator);
   config.contacts = contacts;
   World<D> world(config);
-  constexpr int kPlanks = 12;
+  constexpr int kPlanks = 8;
   Vec<D> end(0.0);
   world.add(fixed_at<D>(end));
   for (int i = 0; i < kPlanks; ++i) {
@@ -197,7 +197,7 @@ double gap_under_load(ContactMethod contacts, Integrator integrator, double slac
   half.x = 0.9;
   const double middle = -end.x / 2 * std::tan(slack / 2);  // of the arc
   world.add(plank_at<D>(along<D>(end.x / 2, middle + 0.6 + slack * 0.2), half, ratio));
-  return follow(world, 60, 0.01).gap;
+  return follow(world, 40, 0.01).gap;
 }
 
 template <int D>

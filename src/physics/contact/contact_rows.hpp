@@ -291,7 +291,8 @@ struct ContactRows {
   // The mean speed of parting for a point that sweeps alone push, see RowSettings.
   double swept_push(const ContactPoint<D>& p, double h) const {
     if (p.gap > 0) return -p.gap / h;
-    const double eased = std::min(-p.separation, shallow), pushed = -p.separation - eased;
+    const double eased = p.pn > 0 ? std::min(-p.separation, shallow) : 0,
+                 pushed = -p.separation - eased;
     return std::min((eased * kRowSettings.eased_out + pushed * kRowSettings.pushed_out) / h,
                     kRowSettings.fastest_push);
   }
