@@ -145,8 +145,8 @@ TEST(CommandLine, ListExplainDoctorAnswerOnStandardOutput) {
   for (const char* name : {"falling_boxes", "pong_bsp", "kdtree_atlas", "tumbling_box"}) {
     const std::string told = shell("lantern explain " + scenario(name)).out;
     EXPECT_LE(std::ranges::count(told, '\n'), 30) << "more than a screen:\n" << told;
-    for (const json& stage :
-         json::parse(shell("lantern explain --json " + scenario(name)).out)["stages"])
+    const json same = json::parse(shell("lantern explain --json " + scenario(name)).out);
+    for (const json& stage : same["stages"])
       EXPECT_NE(told.find(stage["stage"].get<std::string>()), std::string::npos) << stage["stage"];
   }
   const Outcome doctor = shell("lantern doctor --json");
