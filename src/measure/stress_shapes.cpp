@@ -201,8 +201,10 @@ std::vector<Vec<D>> relative_places(double offset, int steps) {
   const BodyId anchor = world.add(hook);
   const BodyId sprung = world.add(make_ball<D>(origin + at<D>(-7, 4), 0.2));
   world.add_spring({.a = anchor, .b = sprung, .rest_length = 2, .stiffness = 10});
-  const BodyId hung = world.add(make_ball<D>(origin + at<D>(-10, 6), 0.2));
-  world.add_joint({.kind = JointKind::distance, .a = anchor, .b = hung, .length = 2});
+  hook.position = origin + at<D>(-14, 6);  // so far off that they do not meet
+  const BodyId post = world.add(hook);
+  const BodyId hung = world.add(make_ball<D>(origin + at<D>(-16, 6), 0.2));
+  world.add_joint({.kind = JointKind::distance, .a = post, .b = hung, .length = 2});
   for (int i = 0; i < steps; ++i) world.step(kStep);
   std::vector<Vec<D>> places;
   for (const Body<D>& body : world.bodies())

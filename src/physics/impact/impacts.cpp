@@ -55,23 +55,23 @@ double swerve_along(const Body<D>& body, const Vec<D>& normal, double seconds) {
                   kWandering<D> * turns.speed * turning_across(body, normal, seconds));
 }
 
-// How far the body reaches in this direction.
+// How far the body reaches from its centre, in this direction and in the opposite one.
 template <int D>
 double extent(const Body<D>& body, const Vec<D>& direction) {
   return visit_shape<D>(
       body.shape,
       [&](const Core<D>& core) {
         const Mat<D> axes = core.turns ? matrix(body.orientation) : Mat<D>(1.0);
-        double reach = glm::dot(body.position, direction) + core.radius;
+        double reach = core.radius;
         for (int i = 0; i < D; ++i) reach += core.half[i] * std::abs(glm::dot(axes[i], direction));
         return reach;
       },
-      [&](const HalfSpace<D>&) { return glm::dot(body.position, direction); });
+      [](const HalfSpace<D>&) { return 0.0; });
 }
 
 template <int D>
 double gap_along(const Body<D>& a, const Body<D>& b, const Vec<D>& normal) {
-  return -extent(b, Vec<D>(-normal)) - extent(a, normal);
+  return glm::dot(b.position - a.position, normal) - extent(a, normal) - extent(b, normal);
 }
 
 // A bounce that would end within a small share of `step` seconds is none. So a ball that bounces
@@ -458,7 +458,8 @@ class ImpactMotion {
            glm::length(there.velocity - now.velocity) <= same * speed &&
            glm::length(way.bend - now.bend) <= same * bend &&
            glm::length(there.position - now.body->position) <=
-               same * (glm::length(there.position) + (speed + bend * t) * t);
+               2 * std::numeric_limits<double>::epsilon() * glm::length(there.position) +
+                   same * (speed + bend * t) * t;
   }
 
   // The next impact, or the next contact of what turns. Pairs that meet too slowly become contacts
