@@ -244,16 +244,19 @@ class SubStep {
   void take_half_way() {
     const Forces<D>& forces = island.forces;
     if (!island.joints.empty() || !forces.springs.empty() || forces.gravitation > 0) return;
+    const auto may = [&](const Body<D>& body) {
+      return std::holds_alternative<Sphere>(body.shape) && body.is_dynamic() &&
+             integration(body.integrator.value_or(config.integrator)).lag < 0.5 &&
+             !(body.linear_drag > 0) && !(body.angular_drag > 0);
+    };
+    if (std::ranges::none_of(island.bodies, may)) return;
     std::vector<int> touched(island.bodies.size());  // 1: by what stands still, 2: by what moves
     each_pair([&](const ContactRows<D>& rows, const auto&, const auto&) {
       touched[rows.a] |= island.bodies[rows.b].moves() ? 2 : 1;
       touched[rows.b] |= island.bodies[rows.a].moves() ? 2 : 1;
     });
     for (std::size_t i = 0; i < touched.size(); ++i) {
-      const Body<D>& body = island.bodies[i];
-      const double lag = integration(body.integrator.value_or(config.integrator)).lag;
-      if (touched[i] != 1 || lag >= 0.5 || !std::holds_alternative<Sphere>(body.shape)) continue;
-      if (body.linear_drag > 0 || body.angular_drag > 0) continue;
+      if (touched[i] != 1 || !may(island.bodies[i])) continue;
       Increment<D>& increment = island.increments[i];
       increment.drift = -h / 2 * increment.kick;
       increment.lag = -0.5 * increment.twist;
