@@ -1,6 +1,7 @@
 // A rigid body and its state, its mass, and how it turns by itself.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -184,5 +185,11 @@ Rotation<D> freely_turned(const Body<D>& body, double h) {
 // to show.
 template <int D>
 void turn_freely(Body<D>& body, double h, RotationMethod method, const Spin<D>& lag = Spin<D>(0.0));
+
+// The thickness of the thinner of two bodies.
+template <int D>
+double thinner(const Body<D>& a, const Body<D>& b) {
+  return std::min(thickness<D>(a.shape), thickness<D>(b.shape));
+}
 
 }  // namespace lantern::physics

@@ -317,7 +317,7 @@ struct World<D>::Step : World<D>::StepIslands {
     if (!manifold) return std::nullopt;
     found.restitution = std::max(a.material.restitution, b.material.restitution);
     found.friction = std::sqrt(a.material.friction * b.material.friction);
-    const double thin = std::min(thickness<D>(a.shape), thickness<D>(b.shape));
+    const double thin = thinner(a, b);
     const double fast =
         world.config_.wanted_error > 0 ? kStepSettings.fast_quick : kStepSettings.fast;
     found.fast = !locates_impacts() ? HUGE_VAL : found.restitution > 0 ? -1 : fast * thin;

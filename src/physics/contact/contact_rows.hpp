@@ -113,8 +113,7 @@ struct ContactRows {
                   double scale) {
     normal = manifold.normal;
     count = manifold.count;
-    shallow =
-        kRowSettings.shallow * std::min(thickness<D>(body_a.shape), thickness<D>(body_b.shape));
+    shallow = kRowSettings.shallow * thinner(body_a, body_b);
     for (int i = 0; i < manifold.count; ++i) {
       const auto at = static_cast<std::size_t>(i);
       const ManifoldPoint<D>& from = manifold.room[at];

@@ -51,11 +51,6 @@ struct Trajectory {
   double held = 0;  // acceleration that forces would give it, if it did not rest on something
 };
 
-template <int D>
-double thinner(const Body<D>& a, const Body<D>& b) {
-  return std::min(thickness<D>(a.shape), thickness<D>(b.shape));
-}
-
 // Two bodies that may meet.
 template <int D>
 struct Encounter {

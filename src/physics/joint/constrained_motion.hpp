@@ -283,7 +283,7 @@ class JointSystem {
     Hold hold{.joint = &joint, .first = rows_.size(), .width = joint.width()};
     const double lengths =
         joint.joint.length + glm::length(joint.joint.at_a) + glm::length(joint.joint.at_b);
-    hold.size = std::max(lengths, std::min(thickness<D>(a.shape), thickness<D>(b.shape)));
+    hold.size = std::max(lengths, thinner(a, b));
     hold.tolerance =
         kJointSettings.rounding * (lengths + glm::length(a.position) + glm::length(b.position));
     holds_.push_back(hold);
