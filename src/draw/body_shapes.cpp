@@ -15,8 +15,7 @@ std::vector<Vec<2>> capsule_outline(const Capsule& capsule) {
   for (const int end : {1, -1})
     for (int i = 0; i <= kPerEnd; ++i) {
       const double angle = (i / double(kPerEnd) + (end < 0)) * std::numbers::pi;
-      points.push_back(Vec<2>(geometry::cos(angle), geometry::sin(angle)) * capsule.radius +
-                       Vec<2>(0, end * capsule.half_length));
+      points.push_back(unit_at(angle) * capsule.radius + Vec<2>(0, end * capsule.half_length));
     }
   return points;
 }
@@ -54,7 +53,7 @@ Vec<3> link_end(const FrameBody& body, const FrameBody& other) {
 std::vector<Vec<2>> turned_outline(const FrameBody& body, const Box<2>& place) {
   std::vector<Vec<2>> points = turning_outline(body.shape);
   if (points.empty()) return points;
-  const double c = geometry::cos(body.angle), s = geometry::sin(body.angle);
+  const auto [s, c] = geometry::sin_cos(body.angle);
   Vec<2> reach{0.0};  // from the middle
   for (Vec<2>& p : points) {
     p = Vec<2>(c * p.x - s * p.y, -(s * p.x + c * p.y));

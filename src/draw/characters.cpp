@@ -184,7 +184,7 @@ void draw_round(const FrameBody& body, const Figure& f, DrawList& list) {
   list.rect(Box<2>::around(f.center, f.half - Vec<2>(0.04 * f.unit)), fill_of(body),
             rim_of(body, f), 0.96 * f.unit);
   if (body.angle == 0 && body.angular_momentum.z == 0) return;
-  const Vec<2> way{geometry::cos(body.angle), -geometry::sin(body.angle)};  // how far it has turned
+  const Vec<2> way = unit_at(-body.angle);  // how far it has turned
   const double r = 0.96 * f.unit - f.line;
   list.line(f.center + way * (0.36 * r), f.center + way * r, rim_of(body, f));
 }

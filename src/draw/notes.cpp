@@ -148,7 +148,7 @@ struct Placing {
     for (double away = 26; away <= farthest; away += 18)
       for (int i = 0; i < kWays; ++i) {
         const double angle = 2 * std::numbers::pi * (i + 0.5) / kWays;
-        const Vec<2> way{geometry::cos(angle), -geometry::sin(angle)};
+        const Vec<2> way = unit_at(-angle);
         const Vec<2> reach = target.box.size() / 2.0 + words.size / 2.0 + Vec<2>(away);
         const Box<2> plate = Box<2>::around(target.box.center() + way * reach, words.size / 2.0);
         const auto cost = cost_of(plate, clear);

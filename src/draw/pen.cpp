@@ -27,7 +27,7 @@ std::vector<Vec<2>> outline_of(const RectShape& shape) {
                         corner < 2 ? centers.hi.y : centers.lo.y};
     for (int i = 0; i <= kPerCorner; ++i) {
       const double angle = (corner + i / double(kPerCorner)) * std::numbers::pi / 2;
-      points.push_back(center + Vec<2>(geometry::cos(angle), geometry::sin(angle)) * radius);
+      points.push_back(center + unit_at(angle) * radius);
     }
   }
   return points;
@@ -179,7 +179,7 @@ std::vector<Vec<2>> ring_of(const Vec<2>& center, double radius, int corners, do
   std::vector<Vec<2>> points;
   for (int i = 0; i < corners; ++i) {
     const double angle = turn + 2 * std::numbers::pi * i / corners;
-    points.push_back(center + Vec<2>(geometry::cos(angle), geometry::sin(angle)) * radius);
+    points.push_back(center + unit_at(angle) * radius);
   }
   return points;
 }

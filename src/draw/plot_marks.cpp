@@ -28,7 +28,7 @@ std::vector<Vec<2>> star(const Vec<2>& at, double radius, int tips, double inner
 std::vector<Vec<2>> plus(const Vec<2>& at, double radius, double half, double turn) {
   std::vector<Vec<2>> points;
   for (int arm = 0; arm < 4; ++arm) {
-    const double a = turn + 2 * kQuarter * arm, c = geometry::cos(a), s = geometry::sin(a);
+    const auto [s, c] = geometry::sin_cos(turn + 2 * kQuarter * arm);
     for (const Vec<2>& p : {Vec<2>{half, -half}, Vec<2>{1, -half}, Vec<2>{1, half}})
       points.push_back(at + radius * Vec<2>{c * p.x - s * p.y, s * p.x + c * p.y});
   }

@@ -33,6 +33,12 @@ struct Rotation<3> {
   glm::dquat q{1, 0, 0, 0};  // w, x, y, z; of unit length
 };
 
+// The unit vector at an angle from the x axis, counter-clockwise.
+inline Vec<2> unit_at(double angle) {
+  const auto [s, c] = sin_cos(angle);
+  return {c, s};
+}
+
 // Columns are the body's axes in the world: matrix(r) * local = world.
 inline Mat<2> matrix(const Rotation<2>& r) {
   const auto [s, c] = sin_cos(r.angle);

@@ -109,7 +109,7 @@ Box<2> part_of(const Box<2>& bounds, const ViewSpec& view) {
 // Counter-clockwise as seen from above.
 Vec<3> turned_about(const Vec<3>& middle, const Vec<3>& p, double angle) {
   const Vec<3> way = p - middle;
-  const double c = geometry::cos(angle), s = geometry::sin(angle);
+  const auto [s, c] = geometry::sin_cos(angle);
   return middle + Vec<3>(c * way.x + s * way.z, way.y, c * way.z - s * way.x);
 }
 

@@ -33,7 +33,7 @@ struct HalfEdges {
 std::optional<HalfEdges> half_edges_of(const FrameBody& body, double scale) {
   const auto* box = std::get_if<OrientedBox<3>>(&body.shape);
   if (!box || !body.lit) return std::nullopt;
-  const double c = geometry::cos(body.angle), s = geometry::sin(body.angle);
+  const auto [s, c] = geometry::sin_cos(body.angle);
   if (std::abs(s) < 1e-9 || std::abs(c) < 1e-9) return std::nullopt;
   return HalfEdges{Vec<2>(c, -s) * (box->half_size.x * scale),
                    Vec<2>(-s, -c) * (box->half_size.y * scale), box->half_size};
@@ -50,8 +50,8 @@ void draw_projections(const World2D& w, const FrameBody& body, const HalfEdges& 
   const Vec<2> c = box.center();
   pen.arrow(c, c + edges.along, {kAlong, 3.4}, 12, 1.4);
   pen.arrow(c, c + edges.across, {kAcross, 3.4}, 12, 1.4);
-  const double cosine = std::abs(geometry::cos(body.angle)),
-               sine = std::abs(geometry::sin(body.angle));
+  const Vec<2> turned = unit_at(body.angle);
+  const double cosine = std::abs(turned.x), sine = std::abs(turned.y);
   const auto sum = [](double a, double b) {
     return fmt::format("{} + {} = {}", short_number(a), short_number(b), short_number(a + b));
   };
