@@ -20,7 +20,7 @@ class Model {
   }
 
   Kept operator()(const std::vector<BodyState>& states, const Skins& skins) const {
-    std::vector<Body<D>> bodies = players_.world().bodies();
+    auto bodies = players_.world().bodies();
     for (Body<D>& body : bodies)
       if (const auto index = players_.index_of(body.id)) put(body, states[*index]);
     const std::span<const Body<D>> all(bodies);

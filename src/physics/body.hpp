@@ -6,6 +6,7 @@
 #include <string>
 #include <type_traits>
 
+#include "base/name.hpp"
 #include "geometry/shape.hpp"
 #include "physics/manifold.hpp"
 #include "physics/methods.hpp"
@@ -28,7 +29,7 @@ struct Material {
 template <int D>
 struct Body {
   BodyId id = 0;  // given by the world
-  std::string name{};
+  Name name = {};
   Shape<D> shape{};
   BodyKind kind = BodyKind::dynamic_body;
   Vec<D> position{0.0};

@@ -5,9 +5,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <utility>
 #include <vector>
 
+#include "base/scratch.hpp"
 #include "base/stop.hpp"
 #include "physics/body.hpp"
 
@@ -76,14 +78,14 @@ inline constexpr CrushSettings kCrushSettings;
 // For each contact whether it crushes a body: that it presses, and another one does against it.
 // Nothing if none does. `body_of(id)` is the body where the step has left it.
 template <int D, class BodyOf>
-std::vector<std::uint8_t> crushing(const std::vector<Contact<D>>& contacts, BodyOf&& body_of) {
+Scratch<std::uint8_t> crushing(std::span<const Contact<D>> contacts, BodyOf&& body_of) {
   struct Press {
     BodyId body;
     std::size_t contact;
     Vec<D> push;   // upon the body
     double depth;  // of its thickness
   };
-  std::vector<Press> presses;
+  Scratch<Press> presses;
   bool deep = false;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact<D>& contact = contacts[i];
@@ -100,9 +102,9 @@ std::vector<std::uint8_t> crushing(const std::vector<Contact<D>>& contacts, Body
       deep |= presses.back().depth > kCrushSettings.deep / 2;
     }
   }
-  std::vector<std::uint8_t> found;
+  Scratch<std::uint8_t> found;
   if (!deep) return found;
-  std::ranges::stable_sort(presses, {}, &Press::body);
+  std::ranges::sort(presses, {}, [](const Press& p) { return std::pair(p.body, p.contact); });
   for (std::size_t i = 0; i < presses.size(); ++i)
     for (std::size_t j = i + 1; j < presses.size() && presses[j].body == presses[i].body; ++j) {
       if (!(presses[i].depth + presses[j].depth > kCrushSettings.deep)) continue;
@@ -119,15 +121,15 @@ struct ToldPair {
   int frames_left = 0;  // steps without touch before its end is told
 };
 
-// What is new about the contacts, in order of ids as they and `told` are, which becomes that of
-// now; a pair that parts is said to have done so after `frames` steps.
+// What is new about the contacts, in order of ids as they and the pairs told of are: `old` ones
+// before, `told` now. A pair that parts is said to have done so after `frames` steps.
 template <int D, class BodyOf>
-std::vector<ContactEvent> tell_events(const std::vector<Contact<D>>& contacts, int frames,
-                                      BodyOf&& body_of, std::vector<ToldPair>& told) {
-  const std::vector<std::uint8_t> crush = crushing<D>(contacts, body_of);
-  const std::vector<ToldPair> old = std::move(told);
-  std::vector<ContactEvent> events;
+void tell_events(std::span<const Contact<D>> contacts, int frames, BodyOf&& body_of,
+                 std::span<const ToldPair> old, std::vector<ToldPair>& told,
+                 std::vector<ContactEvent>& events) {
+  const Scratch<std::uint8_t> crush = crushing<D>(contacts, body_of);
   told.clear();
+  events.clear();
   std::size_t i = 0, j = 0;
   while (i < old.size() || j < contacts.size()) {
     stop_if_asked();
@@ -146,7 +148,6 @@ std::vector<ContactEvent> tell_events(const std::vector<Contact<D>>& contacts, i
     if (known) ++i;
     if (!parted) ++j;
   }
-  return events;
 }
 
 // When impacts were, and, for who asks, how that was found out. First where a body is at some

@@ -7,11 +7,11 @@
 #include <span>
 #include <string_view>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/scratch.hpp"
 #include "physics/body.hpp"
 
 namespace lantern::physics {
@@ -51,8 +51,8 @@ template <int D>
 struct Forces {
   Vec<D> gravity{0.0};     // acceleration
   double gravitation = 0;  // of 0, bodies do not attract each other
-  std::vector<Spring<D>> springs;
-  std::vector<Push<D>> pushes;
+  Scratch<Spring<D>> springs;
+  Scratch<Push<D>> pushes;
 };
 
 // A spring, or two bodies that attract each other, at one moment.
@@ -122,7 +122,7 @@ class BodyLookup {
   }
 
  private:
-  std::vector<std::pair<BodyId, std::size_t>> places_;  // by id
+  Scratch<std::pair<BodyId, std::size_t>> places_;  // by id
 };
 
 // What a system of bodies should keep: energy, in joules; momentum and angular momentum. Pushes

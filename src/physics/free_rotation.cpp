@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -215,7 +216,7 @@ struct Split {
 
 Split split(const Vec<3>& inverse_inertia) {
   std::array<int, 3> order{0, 1, 2};
-  std::ranges::stable_sort(order, {}, [&](int i) { return inverse_inertia[i]; });
+  std::ranges::sort(order, {}, [&](int i) { return std::pair(inverse_inertia[i], i); });
   const double middle = inverse_inertia[order[1]];
   return {order[1],
           middle,

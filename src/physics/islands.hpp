@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <span>
 #include <utility>
-#include <vector>
 
+#include "base/scratch.hpp"
 #include "base/stop.hpp"
 #include "physics/body.hpp"
 
@@ -32,7 +32,7 @@ class DisjointSets {
   }
 
  private:
-  std::vector<std::uint32_t> parent_;
+  Scratch<std::uint32_t> parent_;
 };
 
 enum class Disturbed {
@@ -44,22 +44,22 @@ enum class Disturbed {
 // seconds of what wakes begin anew. Static and kinematic bodies pass nothing on unless they are
 // named. Bodies are in order of ids; links name two of them each.
 template <int D>
-void wake_together(std::vector<Body<D>>& bodies, std::vector<double>& rested,
-                   std::vector<std::uint32_t> places, std::span<const Pair> links,
+void wake_together(std::span<Body<D>> bodies, std::span<double> rested,
+                   Scratch<std::uint32_t> places, std::span<const Pair> links,
                    Disturbed disturbed) {
   if (places.empty()) return;
   const auto place_of = [&](BodyId id) {
     return static_cast<std::uint32_t>(std::ranges::lower_bound(bodies, id, {}, &Body<D>::id) -
                                       bodies.begin());
   };
-  std::vector<std::vector<std::uint32_t>> linked(bodies.size());
+  Scratch<Scratch<std::uint32_t>> linked(bodies.size());
   for (const Pair& link : links) {
     stop_if_asked();
     const std::uint32_t a = place_of(link.a), b = place_of(link.b);
     if (bodies[b].is_dynamic()) linked[a].push_back(b);
     if (bodies[a].is_dynamic()) linked[b].push_back(a);
   }
-  std::vector<std::uint8_t> seen(bodies.size());
+  Scratch<std::uint8_t> seen(bodies.size());
   while (!places.empty()) {
     stop_if_asked();
     const std::uint32_t place = places.back();

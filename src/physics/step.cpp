@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/memory.hpp"
+#include "base/scratch.hpp"
 #include "base/stop.hpp"
 #include "geometry/not_finite.hpp"
 #include "physics/step_islands.hpp"
@@ -51,17 +52,17 @@ struct World<D>::Step : World<D>::StepIslands {
   using StepIslands::world, StepIslands::h, StepIslands::moved, StepIslands::rested;
   using typename StepIslands::Group, typename StepIslands::NearPair;
 
-  std::vector<double> reach;  // of each body: how far its surface may come; at least as given
-  std::vector<Increment<D>> anew = {};  // increments anew, since bodies woke in this step
-  std::vector<Proxy<D>> boxes = {};     // of bodies, enlarged by how far each may come
-  std::uint64_t narrow_pairs = 0;       // of the broad phase's, looked at by the narrow phase
-  std::vector<Mat<D>> axes = {};        // of bodies, as the narrow phase sees them
-  bool struck = false;                  // an impact was located
-  Outcome outcome = {.impacts = {{}, {}, world.outcome_.impacts.keeps_looks}};
+  Scratch<double> reach;            // of each body: how far its surface may come; at least as given
+  Scratch<Increment<D>> anew = {};  // increments anew, since bodies woke in this step
+  Scratch<Proxy<D>> boxes = {};     // of bodies, enlarged by how far each may come
+  std::uint64_t narrow_pairs = 0;   // of the broad phase's, looked at by the narrow phase
+  Scratch<Mat<D>> axes = {};        // of bodies, as the narrow phase sees them
+  bool struck = false;              // an impact was located
+  Outcome& outcome = world.cleared_outcome();
 
   // The phases, in their order: see World::step.
   void find_forces() {
-    std::vector<std::uint32_t> released;
+    Scratch<std::uint32_t> released;
     std::erase_if(forces.pushes, [&](const Push<D>& push) {
       const bool ends = push.until && *push.until <= world.time_ + kStepSettings.rounding * h;
       if (ends) released.push_back(place_of(push.body));
@@ -92,7 +93,7 @@ struct World<D>::Step : World<D>::StepIslands {
     if (!looks_for_contacts()) return;
     BroadPhase<D>& structure = world.structure();
     structure.update(boxes);
-    outcome.pairs = structure.pairs();
+    outcome.pairs.assign(structure.pairs().begin(), structure.pairs().end());
     ++world.work_.broad_phases;
     world.work_.pair_tests += structure.counters().pair_tests;
     world.work_.candidate_pairs += outcome.pairs.size();
@@ -105,7 +106,7 @@ struct World<D>::Step : World<D>::StepIslands {
     axes.clear();
     if (outcome.pairs.empty()) return;
     for (const Body<D>& body : moved) axes.push_back(axes_of(body));
-    const std::vector<Pair> joined = joined_pairs();
+    const Scratch<Pair> joined = joined_pairs();
     auto touch = world.touching_.begin();  // in order of ids, as the pairs are
     for (const Pair& pair : outcome.pairs) {
       stop_if_asked();
@@ -119,14 +120,15 @@ struct World<D>::Step : World<D>::StepIslands {
     // They are made when their islands are moved, and remembered for the next step.
     constexpr std::uint64_t kEach =
         sizeof(NearPair) + sizeof(IslandPair<D>) + 2 * (sizeof(Touch<D>) + sizeof(Contact<D>));
-    require_memory(kEach * near.size(), fmt::format("{} pairs that may touch", near.size()),
-                   "take fewer bodies that overlap");
+    if (const std::uint64_t bytes = kEach * near.size(); bytes > memory_budget())
+      refuse_memory(bytes, fmt::format("{} pairs that may touch", near.size()),
+                    "take fewer bodies that overlap");
   }
 
   // Whether any woke, who may touch others.
   bool wake_what_is_touched() {
     if (!looks_for_contacts()) return false;
-    std::vector<std::uint32_t> woken;
+    Scratch<std::uint32_t> woken;
     for (const NearPair& pair : near) {
       if (moved[pair.a].asleep) woken.push_back(pair.a);
       if (moved[pair.b].asleep) woken.push_back(pair.b);
@@ -147,7 +149,7 @@ struct World<D>::Step : World<D>::StepIslands {
 
   void solve_and_integrate() {
     const ContactSolver& solver = contact_solver(world.config_.contacts);
-    std::vector<std::uint8_t> solved(moved.size());
+    Scratch<std::uint8_t> solved(moved.size());
     touch_of.assign(near.size(), kNone);
     touching.reserve(std::min(near.size(), world.touching_.size() + world.touching_.size() / 8));
     int budget = world.config_.impact_budget;
@@ -202,14 +204,14 @@ struct World<D>::Step : World<D>::StepIslands {
   void update_contact_events() {
     this->order_touches();
     for (const Touch<D>& touch : touching) outcome.contacts.push_back(touch.record);
-    outcome.told = world.outcome_.told;
-    outcome.events = tell_events<D>(
+    tell_events<D>(
         outcome.contacts, contact_solver(world.config_.contacts).frames_remembered,
-        [&](BodyId id) -> const Body<D>& { return moved[place_of(id)]; }, outcome.told);
+        [&](BodyId id) -> const Body<D>& { return moved[place_of(id)]; }, world.outcome_.told,
+        outcome.told, outcome.events);
   }
 
   void commit() {
-    world.bodies_ = std::move(moved);
+    std::swap(world.bodies_, moved);
     world.rested_ = std::move(rested);
     world.may_rest_ =
         world.work_.asleep > 0 ||
@@ -219,7 +221,7 @@ struct World<D>::Step : World<D>::StepIslands {
     world.joint_memories_ = std::move(joint_memories);
     world.forces_.pushes = std::move(forces.pushes);
     world.touching_ = std::move(touching);
-    world.outcome_ = std::move(outcome);
+    std::swap(world.outcome_, outcome);
     world.ahead_.reset();
     world.time_ += h;
     WorldWork& work = world.work_;
@@ -230,7 +232,7 @@ struct World<D>::Step : World<D>::StepIslands {
   }
 
   // Over the whole step, if nothing touches.
-  const std::vector<Increment<D>>& increments() const {
+  const Scratch<Increment<D>>& increments() const {
     return anew.empty() ? world.ahead_->increments : anew;
   }
 
@@ -242,8 +244,8 @@ struct World<D>::Step : World<D>::StepIslands {
                                   world.work_.steps + 1));
   }
 
-  std::vector<Proxy<D>> enlarged_boxes() const {
-    std::vector<Proxy<D>> proxies;
+  Scratch<Proxy<D>> enlarged_boxes() const {
+    Scratch<Proxy<D>> proxies;
     for (std::size_t i = 0; i < moved.size(); ++i)
       if (moved[i].collides)
         proxies.push_back({moved[i].id, enlarged_box(i), !moved[i].moves(), moved[i].stirs()});
@@ -260,7 +262,7 @@ struct World<D>::Step : World<D>::StepIslands {
   // Whether anything flies, or may be met, where it would fly: not if joints hold all that moves.
   bool flies_anywhere() const {
     if (collides()) return true;
-    std::vector<std::uint8_t> held(moved.size());
+    Scratch<std::uint8_t> held(moved.size());
     for (const auto& entry : world.joints_)
       for (const BodyId id : {entry.second.a, entry.second.b}) held[place_of(id)] = true;
     for (std::size_t i = 0; i < moved.size(); ++i)
@@ -289,8 +291,8 @@ struct World<D>::Step : World<D>::StepIslands {
   }
 
   // What a joint ties together without letting it touch; ascending.
-  std::vector<Pair> joined_pairs() const {
-    std::vector<Pair> joined;
+  Scratch<Pair> joined_pairs() const {
+    Scratch<Pair> joined;
     for (const auto& [id, joint] : world.joints_)
       if (!joint.collide)
         joined.push_back({std::min(joint.a, joint.b), std::max(joint.a, joint.b)});
@@ -329,7 +331,7 @@ struct World<D>::Step : World<D>::StepIslands {
     return found;
   }
 
-  void wake(std::vector<std::uint32_t> places) {
+  void wake(Scratch<std::uint32_t> places) {
     wake_together<D>(moved, rested, std::move(places), world.links(), Disturbed::sleepers);
   }
 };
@@ -346,7 +348,7 @@ void World<D>::step(double h) {
   stop_if_asked();
   if (h == 0) return;  // else -0.0 + 0.0 would change the sign of a zero
   const WorldWork before = work_;
-  std::vector<double> reach;
+  Scratch<double> reach;
   try {
     for (int tries = 1;; ++tries) {
       Step step{{*this, h}, std::move(reach)};
@@ -381,7 +383,7 @@ void World<D>::step(double h) {
 template <int D>
 void World<D>::store(std::span<const BodyId> ids, double h,
                      const typename BroadPhase<D>::Watch& watch) {
-  std::vector<Proxy<D>> proxies;
+  Scratch<Proxy<D>> proxies;
   for (const BodyId id : ids) {
     const Body<D>& body = bodies_[index_of(id)];
     const Vec<D> reach(config_.contacts == ContactMethod::none ? 0 : coasting_reach(body, h));

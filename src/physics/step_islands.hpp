@@ -7,6 +7,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/scratch.hpp"
 #include "base/stop.hpp"
 #include "physics/contact/contact_solver.hpp"
 #include "physics/islands.hpp"
@@ -32,23 +33,23 @@ struct World<D>::StepIslands {
   // What a solver is given together: places of bodies, of near pairs, of joints, of what pulls and
   // pushes them; all ascending.
   struct Group {
-    std::vector<std::uint32_t> bodies;
-    std::vector<std::size_t> pairs, joints, springs, pushes;
+    Scratch<std::uint32_t> bodies;
+    Scratch<std::size_t> pairs, joints, springs, pushes;
   };
 
   World& world;
   double h;
-  std::vector<Body<D>> moved = world.bodies_;
-  std::vector<double> rested = world.rested_;
-  std::vector<JointMemory<D>> joint_memories = world.joint_memories_;
+  std::vector<Body<D>>& moved = world.next_bodies_ = world.bodies_;
+  Scratch<double> rested = world.rested_;
+  Scratch<JointMemory<D>> joint_memories = world.joint_memories_;
   Forces<D> forces = world.forces_;
-  std::vector<NearPair> near = {};  // in order of ids
-  std::vector<Manifold<D>> manifolds = {};
-  std::vector<std::uint32_t> root = {};         // of each body's island; static ones have their own
-  std::vector<std::uint32_t> local_place = {};  // of each body in the island that was gathered last
-  std::vector<double> farthest = {};            // of each body, in its island
-  std::vector<Touch<D>> touching = {};
-  std::vector<std::uint32_t> touch_of = {};  // of each near pair; kNone: it did not touch
+  Scratch<NearPair> near = {};  // in order of ids
+  Scratch<Manifold<D>> manifolds = {};
+  Scratch<std::uint32_t> root = {};         // of each body's island; static ones have their own
+  Scratch<std::uint32_t> local_place = {};  // of each body in the island that was gathered last
+  Scratch<double> farthest = {};            // of each body, in its island
+  Scratch<Touch<D>> touching = {};
+  Scratch<std::uint32_t> touch_of = {};  // of each near pair; kNone: it did not touch
 
   std::uint32_t place_of(BodyId id) const { return static_cast<std::uint32_t>(world.index_of(id)); }
 
@@ -94,7 +95,7 @@ struct World<D>::StepIslands {
 
   // Which bodies, pairs and joints the solver is given together: those of each island, or of the
   // whole world. What neither touches nor is joined is in none of them, but flies.
-  std::vector<Group> groups_to_solve(bool whole_world) const {
+  Scratch<Group> groups_to_solve(bool whole_world) const {
     if (near.empty() && world.joints_.empty()) return {};
     const auto dynamic = [&](std::uint32_t i) { return moved[i].is_dynamic(); };
     const auto own = [&](std::uint32_t i) { return whole_world ? 0 : root[i]; };
@@ -103,10 +104,10 @@ struct World<D>::StepIslands {
       return std::pair(place_of(tie.a), place_of(tie.b));
     };
     // Of each root the number of its group, if pairs or joints are to be solved in it.
-    std::vector<std::uint32_t> number(moved.size(), kNone);
+    Scratch<std::uint32_t> number(moved.size(), kNone);
     for (const NearPair& pair : near) number[owner(pair.a, pair.b)] = 0;
     for (const auto& [id, joint] : world.joints_) number[std::apply(owner, places(joint))] = 0;
-    std::vector<Group> groups;
+    Scratch<Group> groups;
     for (std::uint32_t& n : number) {
       if (n == kNone) continue;
       n = static_cast<std::uint32_t>(groups.size());
@@ -137,7 +138,7 @@ struct World<D>::StepIslands {
 
   Island<D> gather(const Group& group) {
     Island<D> island;
-    std::vector<std::uint32_t> others;  // static bodies, and ends of springs
+    Scratch<std::uint32_t> others;  // static bodies, and ends of springs
     const auto add = [&](BodyId id) { others.push_back(place_of(id)); };
     for (const std::size_t i : group.pairs)
       for (const std::uint32_t place : {near[i].a, near[i].b})
@@ -208,10 +209,10 @@ struct World<D>::StepIslands {
   // An island sleeps when all of it has been slow for a while and something holds it, or drag
   // brakes it; a body that flies freely sleeps only if it does not move at all. What attracts each
   // other never rests: something far away may come nearer.
-  void fall_asleep(const std::vector<Increment<D>>& increments) {
+  void fall_asleep(const Scratch<Increment<D>>& increments) {
     world.work_.asleep = 0;
     if (world.config_.may_sleep && !(forces.gravitation > 0)) {
-      std::vector<std::uint8_t> restless(moved.size()), held(moved.size());
+      Scratch<std::uint8_t> restless(moved.size()), held(moved.size());
       for (const Touch<D>& touch : touching)
         for (const BodyId id : {touch.record.a, touch.record.b}) {
           held[root[place_of(id)]] = true;
@@ -245,7 +246,7 @@ struct World<D>::StepIslands {
 
   // In order of ids, as the near pairs are, with those of bodies that slept through.
   void order_touches() {
-    std::vector<Touch<D>> slept, ordered;
+    Scratch<Touch<D>> slept, ordered;
     const auto rests = [&](BodyId id) {
       return !world.bodies_[place_of(id)].stirs() && !moved[place_of(id)].stirs();
     };

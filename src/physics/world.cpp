@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "base/hash.hpp"
+#include "base/scratch.hpp"
 #include "geometry/not_finite.hpp"
 #include "physics/islands.hpp"
 
@@ -107,7 +108,7 @@ BodyId World<D>::add(Body<D> body, const Spin<D>& angular_velocity) {
 // All of them in one pass through all else: one after another would cost the square of them.
 template <int D>
 void World<D>::remove(std::span<const BodyId> ids) {
-  std::vector<BodyId> gone, disturbed;
+  Scratch<BodyId> gone, disturbed;
   for (const BodyId id : ids)
     if (find(id) != nullptr) gone.push_back(id);
   if (gone.empty()) return;
@@ -163,7 +164,7 @@ void World<D>::place(BodyId id, const Vec<D>& position, const Vec<D>& velocity,
 template <int D>
 void World<D>::set_velocities(std::span<const std::pair<BodyId, Vec<D>>> velocities) {
   if (velocities.empty()) return;
-  std::vector<BodyId> ids;
+  Scratch<BodyId> ids;
   for (const auto& [id, velocity] : velocities) {
     require_finite<D>(velocity, fmt::format("body '{}'", bodies_[index_of(id)].name), "velocity");
     ids.push_back(id);
@@ -213,7 +214,7 @@ void World<D>::apply_impulse(BodyId id, const Vec<D>& impulse, const Vec<D>& at)
 template <int D>
 void World<D>::set_gravity(const Vec<D>& gravity) {
   require_finite<D>(gravity, "world", "gravity");
-  std::vector<BodyId> all;
+  Scratch<BodyId> all;
   for (const Body<D>& body : bodies_) all.push_back(body.id);
   wake_from(all);
   config_.gravity = forces_.gravity = gravity;
@@ -223,7 +224,7 @@ template <int D>
 void World<D>::wake_from(std::span<const BodyId> ids) {
   ahead_.reset();
   if (!may_rest_) return;
-  std::vector<std::uint32_t> places;
+  Scratch<std::uint32_t> places;
   for (const BodyId id : ids) places.push_back(static_cast<std::uint32_t>(index_of(id)));
   wake_together<D>(bodies_, rested_, std::move(places), links(), Disturbed::all);
 }
@@ -336,8 +337,8 @@ void World<D>::remove_joint(JointId id) {
 }
 
 template <int D>
-std::vector<Pair> World<D>::links() const {
-  std::vector<Pair> all;
+Scratch<Pair> World<D>::links() const {
+  Scratch<Pair> all;
   for (const Touch<D>& touch : touching_) all.push_back(touch.record.pair());
   for (const Spring<D>& spring : forces_.springs) all.push_back({spring.a, spring.b});
   for (const auto& entry : joints_) all.push_back({entry.second.a, entry.second.b});
@@ -362,7 +363,7 @@ void World<D>::push(BodyId id, const Vec<D>& force, const Vec<D>& at,
 
 template <int D>
 void World<D>::clear_pushes() {
-  std::vector<BodyId> pushed;
+  Scratch<BodyId> pushed;
   for (const Push<D>& push : forces_.pushes) pushed.push_back(push.body);
   wake_from(pushed);
   forces_.pushes.clear();

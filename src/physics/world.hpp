@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/scratch.hpp"
 #include "physics/body.hpp"
 #include "physics/contacts.hpp"
 #include "physics/integrate/integrator.hpp"
@@ -146,23 +147,32 @@ class World {
     std::vector<ToldPair> told = {};  // by pair
     std::vector<Pair> pairs = {};
     ImpactLog<D> impacts = {};
+    void clear(bool keeps_looks) {
+      contacts.clear(), events.clear(), told.clear(), pairs.clear();
+      impacts.moments.clear(), impacts.looks.clear();
+      impacts.keeps_looks = keeps_looks;
+    }
   };
   struct StepIslands;  // its part that is of islands (step_islands.hpp)
   struct Step;         // one step while it is made (step.cpp)
   // What looking ahead found out for the next step.
   struct Ahead {
     double h = 0;
-    std::vector<Increment<D>> increments;
+    Scratch<Increment<D>> increments;
     std::uint64_t force_evaluations = 0;
   };
 
   std::size_t index_of(BodyId id) const;
-  std::vector<Pair> links() const;  // of what wakes together
+  Scratch<Pair> links() const;  // of what wakes together
   void wake_from(std::span<const BodyId> ids);
   void wake_from(BodyId id) { wake_from(std::span(&id, 1)); }
   void part_islands();
   void forget_contacts_of(std::span<const BodyId> ids);
   static void spin(Body<D>& body, const Spin<D>& angular_velocity);
+  Outcome& cleared_outcome() {
+    next_outcome_.clear(outcome_.impacts.keeps_looks);
+    return next_outcome_;
+  }
   BroadPhase<D>& structure() {  // made when it is first needed
     if (!broad_phase_) broad_phase_.emplace(config_.broad_phase);
     return *broad_phase_;
@@ -170,19 +180,22 @@ class World {
 
   WorldConfig<D> config_;
   std::vector<Body<D>> bodies_;
-  std::vector<double> rested_;   // seconds that each body has been slow
+  Scratch<double> rested_;       // seconds that each body has been slow
   bool may_rest_ = false;        // one of them is above 0, or a body sleeps: there may be who wakes
   std::vector<BodyId> islands_;  // of each body
   Forces<D> forces_;
   std::vector<std::pair<JointId, Joint<D>>> joints_;
-  std::vector<JointMemory<D>> joint_memories_;
+  Scratch<JointMemory<D>> joint_memories_;
   BodyId next_id_ = 0;
   SpringId next_spring_ = 0;
   JointId next_joint_ = 0;
   double time_ = 0;
 
-  std::vector<Touch<D>> touching_;  // by pair: of the last step, and of those that sleep
+  Scratch<Touch<D>> touching_;  // by pair: of the last step, and of those that sleep
   Outcome outcome_;
+  // Where the next step writes its own, kept for their memory.
+  std::vector<Body<D>> next_bodies_;
+  Outcome next_outcome_;
   std::optional<BroadPhase<D>> broad_phase_;
   std::optional<Ahead> ahead_;  // until anything changes
   WorldWork work_;

@@ -55,7 +55,7 @@ std::span<const CountDoc> step_measures() { return kStepMeasures; }
 namespace {
 
 template <int D>
-FrameContact frame_contact(const Contact<D>& contact, const std::vector<ContactEvent>& events) {
+FrameContact frame_contact(const Contact<D>& contact, std::span<const ContactEvent> events) {
   FrameContact c;
   c.pair = {contact.a, contact.b};
   c.normal = solid(contact.manifold.normal);

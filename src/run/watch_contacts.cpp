@@ -281,9 +281,10 @@ class ThroughWatch : public Watcher {
             const std::string& what) {
     if (!told_.insert({moved.id, obstacle.id}).second) return;
     found_.add([&] {
-      return warning(scenario_, place_of_firmness(scenario_.world),
-                     fmt::format("'{}' {} at {:.4g} s", moved.name, what, players.world().time()),
-                     firmer(scenario_.world) + ", or '" + obstacle.name + "' a larger size");
+      return warning(
+          scenario_, place_of_firmness(scenario_.world),
+          fmt::format("'{}' {} at {:.4g} s", moved.name, what, players.world().time()),
+          firmer(scenario_.world) + fmt::format(", or '{}' a larger size", obstacle.name));
     });
   }
 

@@ -2,6 +2,7 @@
 // flight. Scenarios of a program that adds it may say integrator = "position_verlet".
 #include <cmath>
 #include <cstdio>
+#include <span>
 
 #include <lantern/physics/integrate/smooth_system.hpp>
 #include <lantern/physics/world.hpp>
@@ -12,7 +13,7 @@ namespace {
 
 //! [integrator]
 template <int D>
-void position_verlet(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out) {
+void position_verlet(SmoothSystem<D>& system, double h, std::span<Increment<D>> out) {
   SmoothState<D> middle = system.start();
   system.fly(middle, middle, h / 2);
   const Pull<D> pull = system.evaluate(middle);

@@ -12,7 +12,7 @@ constexpr std::size_t kAny = 1'000'000;  // entries
 
 template <int B>
 BlockSystem<B> planned(std::size_t count,
-                       const std::vector<std::pair<std::size_t, std::size_t>>& links) {
+                       const Scratch<std::pair<std::size_t, std::size_t>>& links) {
   return *BlockSystem<B>::planned(count, links, kAny);
 }
 
@@ -54,7 +54,7 @@ class Filled {
 
   void expect_solved(Random& random) {
     using Row = typename BlockSystem<B>::Row;
-    std::vector<Row> x(dense_.size() / B), rows(x.size());
+    Scratch<Row> x(dense_.size() / B), rows(x.size());
     for (Row& row : x)
       for (double& value : row) value = random.between(-1, 1);
     for (std::size_t i = 0; i < dense_.size(); ++i)
@@ -67,14 +67,14 @@ class Filled {
   }
 
  private:
-  std::vector<std::pair<std::size_t, std::size_t>> links_of(std::size_t count, Random& random) {
+  Scratch<std::pair<std::size_t, std::size_t>> links_of(std::size_t count, Random& random) {
     for (std::size_t i = 0; i < count; ++i)
       for (std::size_t j = 0; j < count; ++j)
         if (i != j && random.whole(0, 3) == 0) links_.push_back({i, j});
     return links_;
   }
 
-  std::vector<std::pair<std::size_t, std::size_t>> links_;
+  Scratch<std::pair<std::size_t, std::size_t>> links_;
   std::vector<std::vector<double>> dense_;
   BlockSystem<B> system_;
 };

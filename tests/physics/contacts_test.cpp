@@ -407,7 +407,7 @@ TEST(Crushing, IsOfThoseThatPressFromOppositeSides) {
     contacts.push_back(contact);
   }
   const auto body_of = [&](BodyId id) -> const Body<2>& { return bodies[id]; };
-  EXPECT_EQ(crushing<2>(contacts, body_of), (std::vector<std::uint8_t>{1, 0, 1}));
+  EXPECT_EQ(crushing<2>(contacts, body_of), (Scratch<std::uint8_t>{1, 0, 1}));
   contacts.pop_back();
   EXPECT_TRUE(crushing<2>(contacts, body_of).empty()) << "from the side";
 }

@@ -13,7 +13,7 @@ namespace {
 using Dense = std::vector<std::vector<double>>;
 
 // Symmetric, with ragged lines, and its diagonal so large that it is positive definite.
-Dense ragged(Random& random, std::size_t lines, std::vector<std::size_t>& first) {
+Dense ragged(Random& random, std::size_t lines, Scratch<std::size_t>& first) {
   Dense m(lines, std::vector<double>(lines));
   for (std::size_t i = 0; i < lines; ++i) {
     first.push_back(static_cast<std::size_t>(random.between(0, static_cast<double>(i) + 0.99)));
@@ -30,11 +30,11 @@ auto entries_of(const Dense& m) {
 TEST(EnvelopeSystem, SolvesRaggedMatrices) {
   Random random(5);
   for (std::size_t lines = 1; lines < 30; ++lines) {
-    std::vector<std::size_t> first;
+    Scratch<std::size_t> first;
     const Dense m = ragged(random, lines, first);
     EnvelopeSystem system;
     for (const std::size_t f : first) system.add_line(f);
-    std::vector<double> x, values;
+    Scratch<double> x, values;
     for (std::size_t i = 0; i < lines; ++i) x.push_back(random.between(-1, 1));
     for (std::size_t i = 0; i < lines; ++i) {
       values.push_back(0);

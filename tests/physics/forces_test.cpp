@@ -12,8 +12,8 @@ namespace lantern::physics {
 namespace {
 
 template <int D>
-std::vector<Increment<D>> increments(SmoothScene<D>& scene, Integrator method, double h) {
-  std::vector<Increment<D>> all;
+Scratch<Increment<D>> increments(SmoothScene<D>& scene, Integrator method, double h) {
+  Scratch<Increment<D>> all;
   find_increments<D>(method, scene.bodies, scene.forces, h, all, scene.evaluations);
   return all;
 }

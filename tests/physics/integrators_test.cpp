@@ -124,7 +124,7 @@ TEST(Integrators, TheRowSaysWhatTheMethodIs) {
     SmoothScene<2> falling;
     falling.add({0, 0}, {1, 2}, 1);
     falling.forces.gravity = {0, -10};
-    std::vector<Increment<2>> all;
+    Scratch<Increment<2>> all;
     find_increments<2>(order.method, falling.bodies, falling.forces, 0.1, all, falling.evaluations);
     const Vec<2> kick = all[0].kick;
     EXPECT_NEAR(-glm::dot(all[0].drift, kick) / (0.1 * glm::dot(kick, kick)), row.lag, 1e-12)
@@ -228,7 +228,7 @@ TEST(Integrators, FarFromTheOriginNothingIsLostButThePlace) {
     SmoothScene<2> near = oscillator(3, 0.1, 0.5), far = near;
     const double offset = 0x1p30;
     for (Body<2>& body : far.bodies) body.position += offset;
-    std::vector<Increment<2>> here, there;
+    Scratch<Increment<2>> here, there;
     find_increments<2>(method, near.bodies, near.forces, 0.1, here, near.evaluations);
     find_increments<2>(method, far.bodies, far.forces, 0.1, there, far.evaluations);
     EXPECT_EQ(here[1].kick, there[1].kick) << to_string(method) << ": rounded within the step";
@@ -250,7 +250,7 @@ TEST(Integrators, BodiesThatNoForceMovesGetNothing) {
     scene.bodies[4].inverse_mass = 0;
     for (BodyId i = 2; i < 5; ++i)
       scene.forces.springs.push_back({i, 1, {0.1, 0}, {0, 0}, 1, 10, 1});
-    std::vector<Increment<2>> all;
+    Scratch<Increment<2>> all;
     find_increments<2>(method, scene.bodies, scene.forces, 0.01, all, scene.evaluations);
     ASSERT_EQ(all.size(), 5u);
     EXPECT_NE(all[1].kick, Vec<2>(0.0));
@@ -279,7 +279,7 @@ TEST(Integrators, AKinematicBodyCarriesTheEndOfItsSpring) {
 
 TEST(Integrators, RefusesAStepThatIsNoStep) {
   SmoothScene<2> scene = oscillator(1, 0, 0.1);
-  std::vector<Increment<2>> all;
+  Scratch<Increment<2>> all;
   for (const double h : {0.0, -0.1, std::nan(""), HUGE_VAL})
     EXPECT_THROW(find_increments<2>(Integrator::runge_kutta_4, scene.bodies, scene.forces, h, all,
                                     scene.evaluations),

@@ -65,7 +65,7 @@ double length_of(const Vec<3>& v) { return glm::length(v); }
 
 // The largest difference of two lists against the largest entry.
 template <class T>
-double difference(const std::vector<T>& a, const std::vector<T>& b) {
+double difference(const Scratch<T>& a, const Scratch<T>& b) {
   double most = 0, size = 0;
   for (std::size_t i = 0; i < a.size(); ++i) {
     most = std::max(most, length_of(T(a[i] - b[i])));
@@ -115,7 +115,7 @@ TEST(Iteration, FindsTheSameDampedKickAsTheFactor) {
 }
 
 // The midpoint method by iterated stages, as implicit_midpoint.cpp makes it of any.
-std::vector<Vec<3>> places_after(double seconds, int steps) {
+Scratch<Vec<3>> places_after(double seconds, int steps) {
   SmoothScene<3> scene = attracting<3>(12, 0.2);
   for (Body<3>& body : scene.bodies) body.velocity *= 0.1;  // none comes near another
   const double h = seconds / steps;
@@ -128,7 +128,7 @@ std::vector<Vec<3>> places_after(double seconds, int steps) {
       scene.bodies[b].velocity += 2.0 * middle.kick[b];
     }
   }
-  std::vector<Vec<3>> places;
+  Scratch<Vec<3>> places;
   for (const Body<3>& body : scene.bodies) places.push_back(body.position);
   return places;
 }
@@ -156,7 +156,7 @@ TEST(Iteration, IsChosenWhereVeryManyAttractEachOther) {
 // order and the entries of the long one.
 TEST(BlockSystem, SolvesWhatIsLinkedThroughout) {
   constexpr std::size_t kCount = 9;
-  std::vector<BlockSystem<2>::Link> links;
+  Scratch<BlockSystem<2>::Link> links;
   for (std::size_t i = 0; i < kCount; ++i)
     for (std::size_t j = i + 1; j < kCount; ++j) links.emplace_back(j, i);
   auto system = BlockSystem<2>::planned(kCount, links, 1 << 20);
@@ -174,7 +174,7 @@ TEST(BlockSystem, SolvesWhatIsLinkedThroughout) {
       if (r / 2 > c / 2) system->add(r / 2, c / 2, row, column, matrix[r][c]);
     }
   ASSERT_TRUE(system->factor());
-  std::vector<BlockSystem<2>::Row> x(kCount);
+  Scratch<BlockSystem<2>::Row> x(kCount);
   std::vector<double> wanted(2 * kCount);
   for (std::size_t i = 0; i < 2 * kCount; ++i) x[i / 2][i % 2] = wanted[i] = random.between(-1, 1);
   system->solve(x);

@@ -35,7 +35,7 @@ struct SmoothScene {
   }
 
   void step(Integrator method, double h) {
-    std::vector<Increment<D>> all;
+    Scratch<Increment<D>> all;
     find_increments<D>(method, bodies, forces, h, all, evaluations);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       Body<D>& body = bodies[i];

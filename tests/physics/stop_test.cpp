@@ -99,7 +99,7 @@ TEST_F(StoppedStep, ADenseAndAnIteratedSolution) {
     for (int r = 0; r < 2; ++r) iteration.add(i, r, r, 2 + static_cast<double>(i));
   ASSERT_TRUE(iteration.factor());
   int products = 0;
-  std::vector<BlockIteration<2>::Row> rows(3, {1, 2});
+  Scratch<BlockIteration<2>::Row> rows(3, {1, 2});
   EXPECT_THROW(iteration.solve(rows, 1e-12, [&](const auto&, auto&) { ++products; }), Stopped);
   EXPECT_EQ(products, 0);
   EnvelopeSystem lines;

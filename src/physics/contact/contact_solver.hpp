@@ -8,8 +8,8 @@
 #include <numbers>
 #include <optional>
 #include <utility>
-#include <vector>
 
+#include "base/scratch.hpp"
 #include "physics/body.hpp"
 #include "physics/contact/contact_rows.hpp"
 #include "physics/integrate/integrator.hpp"
@@ -75,21 +75,21 @@ struct IslandPair : Touch<D> {  // what it remembers, and what the step tells
 
 template <int D>
 struct Island {
-  std::vector<Body<D>> bodies;        // by id: those that move together and those that they touch
-  std::vector<std::uint32_t> places;  // of the bodies in the world
-  Forces<D> forces;                   // those that act among them
-  std::vector<IslandPair<D>> pairs;   // by ids
-  std::vector<JointRows<D>> joints;   // by ids
-  std::vector<double> farthest;       // of the bodies, in the step: from where they were
+  Scratch<Body<D>> bodies;        // by id: those that move together and those that they touch
+  Scratch<std::uint32_t> places;  // of the bodies in the world
+  Forces<D> forces;               // those that act among them
+  Scratch<IslandPair<D>> pairs;   // by ids
+  Scratch<JointRows<D>> joints;   // by ids
+  Scratch<double> farthest;       // of the bodies, in the step: from where they were
   // Of the sub-step that the joints' impulses are from; 0: of those that the step before has left,
   // see JointRows.
   double joint_seconds = 0;
 
   // Scratch, kept for its memory.
-  std::vector<Mat<D>> axes;  // of the bodies where they are
-  std::vector<SolverBody<D>> solver_bodies;
-  std::vector<Increment<D>> increments;
-  std::vector<Motion<D>> kicked;  // after the forces, before the constraints
+  Scratch<Mat<D>> axes;  // of the bodies where they are
+  Scratch<SolverBody<D>> solver_bodies;
+  Scratch<Increment<D>> increments;
+  Scratch<Motion<D>> kicked;  // after the forces, before the constraints
   JointBlock<D> joint_block;
 
   void find_axes() {

@@ -16,8 +16,8 @@
 #include <bit>
 #include <cmath>
 #include <span>
-#include <vector>
 
+#include "base/scratch.hpp"
 #include "physics/contact/contact_solver.hpp"
 #include "physics/contact/sub_step.hpp"
 #include "physics/integrate/block_system.hpp"
@@ -341,28 +341,29 @@ class DirectSolve {
       for (ContactPoint<D>& p : pair.rows.points()) p = *kept++;
   }
 
-  std::vector<ConstraintRow<D>> rows_;
-  std::vector<RowPart> parts_;
+  Scratch<ConstraintRow<D>> rows_;
+  Scratch<RowPart> parts_;
   EnvelopeSystem system_;
-  std::vector<double> values_;  // wanted, then impulses
-  std::vector<SolverBody<D>> kept_bodies_;
-  std::vector<ContactPoint<D>> kept_;  // with the guess of what presses and sticks
+  Scratch<double> values_;  // wanted, then impulses
+  Scratch<SolverBody<D>> kept_bodies_;
+  Scratch<ContactPoint<D>> kept_;  // with the guess of what presses and sticks
 };
 
 }  // namespace
 
 template <int D>
-std::function<void(SubStep<D>&)> settle_directly() {
-  return [direct = DirectSolve<D>()](SubStep<D>& step) mutable { direct.settle(step); };
+void solve_directly(const IslandMove<D>& move, int sub_steps) {
+  DirectSolve<D> direct;
+  in_sub_steps<D>(move, sub_steps, [&](SubStep<D>& step) { direct.settle(step); });
 }
 
 template <int D>
 void direct_solve(const IslandMove<D>& move) {
-  in_sub_steps<D>(move, 1, settle_directly<D>());
+  solve_directly<D>(move, 1);
 }
 
-template std::function<void(SubStep<2>&)> settle_directly();
-template std::function<void(SubStep<3>&)> settle_directly();
+template void solve_directly(const IslandMove<2>&, int);
+template void solve_directly(const IslandMove<3>&, int);
 
 extern const ContactSolver kDirectSolve = {"direct", {direct_solve<2>, direct_solve<3>}};
 

@@ -7,9 +7,9 @@
 // and a fast body passes through a thin one.
 #include <algorithm>
 #include <utility>
-#include <vector>
 
 #include "base/error.hpp"
+#include "base/scratch.hpp"
 #include "lecture/physics_system.hpp"
 #include "physics/contact/contact_solver.hpp"
 
@@ -135,7 +135,7 @@ class LecturePass {
 
   Island<D>& island_;
   WorldWork& work_;
-  std::vector<GameObject> objects_;  // one a body, its id the body's place in the island
+  Scratch<GameObject> objects_;  // one a body, its id the body's place in the island
 };
 
 }  // namespace

@@ -11,8 +11,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
+#include "base/scratch.hpp"
 #include "base/stop.hpp"
 #include "geometry/elementary.hpp"
 #include "physics/contact/contact_solver.hpp"
@@ -316,8 +316,8 @@ class QuickSweeps {
     return change;
   }
 
-  std::vector<Contact> contacts_;
-  std::vector<Moving> bodies_;
+  Scratch<Contact> contacts_;
+  Scratch<Moving> bodies_;
   double last_squared_ = 0;  // change of all impulses by the sweep before; 0: there was none
 };
 
@@ -336,7 +336,7 @@ void soft_sub_steps(const IslandMove<D>& move) {
     const int parts = std::min(kQuickSettings.parts(error), config.sub_steps);
     in_sub_steps<D>(move, parts, [&](SubStep<D>& step) { quick.settle(step, error); });
   } else {
-    in_sub_steps<D>(move, config.sub_steps, settle_directly<D>());
+    solve_directly<D>(move, config.sub_steps);
   }
 }
 

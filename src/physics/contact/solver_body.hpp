@@ -7,8 +7,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <vector>
 
+#include "base/scratch.hpp"
 #include "base/stop.hpp"
 #include "physics/body.hpp"
 #include "physics/world_config.hpp"
@@ -132,7 +132,7 @@ class EnvelopeSystem {
   }
 
   // Replaces the right-hand side by the solution. After `factor`.
-  void solve(std::vector<double>& values) const {
+  void solve(Scratch<double>& values) const {
     for (std::size_t i = 0; i < lines(); ++i) {
       stop_if_asked();
       const double* line = &entries_[start_[i]];
@@ -148,8 +148,8 @@ class EnvelopeSystem {
   }
 
  private:
-  std::vector<std::size_t> first_, start_;  // of each line: its first column, and where it is kept
-  std::vector<double> entries_;             // of the factor
+  Scratch<std::size_t> first_, start_;  // of each line: its first column, and where it is kept
+  Scratch<double> entries_;             // of the factor
   double work_ = 0;
 };
 
@@ -187,8 +187,8 @@ struct ConstraintRow {
 // Gives the bodies the impulses of all rows: to their velocities, or to their mean velocities
 // alone.
 template <int D>
-void apply_rows(const std::vector<ConstraintRow<D>>& rows, const std::vector<double>& impulses,
-                std::vector<SolverBody<D>>& bodies, bool to_mean) {
+void apply_rows(const Scratch<ConstraintRow<D>>& rows, const Scratch<double>& impulses,
+                Scratch<SolverBody<D>>& bodies, bool to_mean) {
   const auto apply = [&](SolverBody<D>& body, const Vec<D>& direction, const Spin<D>& turn,
                          const Spin<D>& gained, double size) {
     Motion<D>& motion = to_mean ? body.mean : body;
@@ -206,9 +206,9 @@ void apply_rows(const std::vector<ConstraintRow<D>>& rows, const std::vector<dou
 // Lays out the factor of the matrix of all rows' answers to each other, of `bodies` bodies. False
 // as soon as it would take more than `most_work` products.
 template <int D>
-bool plan(const std::vector<ConstraintRow<D>>& rows, std::size_t bodies, EnvelopeSystem& factor,
+bool plan(const Scratch<ConstraintRow<D>>& rows, std::size_t bodies, EnvelopeSystem& factor,
           double most_work = std::numeric_limits<double>::infinity()) {
-  std::vector<std::size_t> first_of(bodies, rows.size());  // row of each body
+  Scratch<std::size_t> first_of(bodies, rows.size());  // row of each body
   factor.clear();
   factor.reserve(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -228,14 +228,14 @@ bool plan(const std::vector<ConstraintRow<D>>& rows, std::size_t bodies, Envelop
 
 // False if a row says no more than those before it, but for the part `least`.
 template <int D>
-bool factor_rows(const std::vector<ConstraintRow<D>>& rows, double least, EnvelopeSystem& factor) {
+bool factor_rows(const Scratch<ConstraintRow<D>>& rows, double least, EnvelopeSystem& factor) {
   return factor.factor([&](std::size_t i, std::size_t j) { return rows[i].answer_to(rows[j]); },
                        least);
 }
 
 // Each row gives way by the part `compliance`. False if rows are no numbers.
 template <int D>
-bool factor_compliant(const std::vector<ConstraintRow<D>>& rows, double compliance,
+bool factor_compliant(const Scratch<ConstraintRow<D>>& rows, double compliance,
                       EnvelopeSystem& factor) {
   return factor.factor([&](std::size_t i, std::size_t j) {
     return rows[i].answer_to(rows[j]) * (i == j ? 1 + compliance : 1);

@@ -14,8 +14,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
+#include "base/function_ref.hpp"
+#include "base/scratch.hpp"
 #include "base/stop.hpp"
 #include "physics/body.hpp"
 #include "physics/contact/contact_solver.hpp"
@@ -250,7 +251,7 @@ class SubStep {
              !(body.linear_drag > 0) && !(body.angular_drag > 0);
     };
     if (std::ranges::none_of(island.bodies, may)) return;
-    std::vector<int> touched(island.bodies.size());  // 1: by what stands still, 2: by what moves
+    Scratch<int> touched(island.bodies.size());  // 1: by what stands still, 2: by what moves
     each_pair([&](const ContactRows<D>& rows, const auto&, const auto&) {
       touched[rows.a] |= island.bodies[rows.b].moves() ? 2 : 1;
       touched[rows.b] |= island.bodies[rows.a].moves() ? 2 : 1;
@@ -285,7 +286,7 @@ inline double rescaled(double seconds, double old) { return std::min(seconds / o
 template <int D>
 class SubSteps {
  public:
-  SubSteps(const IslandMove<D>& move, const std::function<void(SubStep<D>&)>& solve)
+  SubSteps(const IslandMove<D>& move, FunctionRef<void(SubStep<D>&)> solve)
       : move_(move), island_(move.island), solve_(solve) {}
 
   void run(int sub_steps) {
@@ -407,7 +408,7 @@ class SubSteps {
 
   const IslandMove<D>& move_;
   Island<D>& island_;
-  const std::function<void(SubStep<D>&)>& solve_;
+  FunctionRef<void(SubStep<D>&)> solve_;
 };
 
 // Moves the island in parts of which `sub_steps` make a whole step. Contacts are looked at once;
@@ -415,13 +416,12 @@ class SubSteps {
 // nothing touches, there are no parts: all fly, or move as their joints let them
 // (joint/constrained_motion.hpp).
 template <int D>
-void in_sub_steps(const IslandMove<D>& move, int sub_steps,
-                  const std::function<void(SubStep<D>&)>& solve) {
+void in_sub_steps(const IslandMove<D>& move, int sub_steps, FunctionRef<void(SubStep<D>&)> solve) {
   SubSteps<D>(move, solve).run(sub_steps);
 }
 
-// Solves one part after another, all rows at once (direct_solve.cpp).
+// The same, in which all rows of a part are solved at once (direct_solve.cpp).
 template <int D>
-std::function<void(SubStep<D>&)> settle_directly();
+void solve_directly(const IslandMove<D>& move, int sub_steps);
 
 }  // namespace lantern::physics

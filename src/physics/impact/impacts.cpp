@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/scratch.hpp"
 #include "base/stop.hpp"
 #include "physics/impact/time_of_impact.hpp"
 
@@ -176,9 +177,9 @@ class ImpactMotion {
     double deep = 0;
   };
 
-  std::vector<Watched> watched_pairs(double& seconds) {
-    std::vector<Watched> all;
-    std::vector<std::uint8_t> fast(island_.bodies.size());
+  Scratch<Watched> watched_pairs(double& seconds) {
+    Scratch<Watched> all;
+    Scratch<std::uint8_t> fast(island_.bodies.size());
     for (const IslandPair<D>& pair : island_.pairs)
       for (const std::uint32_t i : {pair.rows.a, pair.rows.b})
         fast[i] |= pair.located && island_.bodies[i].is_dynamic();
@@ -235,7 +236,7 @@ class ImpactMotion {
       return seconds;
     }
     double part = seconds;
-    const std::vector<Watched> watched = watched_pairs(part);
+    const Scratch<Watched> watched = watched_pairs(part);
     part = std::min(part, 2 * last_part_);
     const ContactSolver* solver = &solver_;
     for (; parts_ > 0; part /= 2, solver = &contact_solver(ContactMethod::direct)) {
@@ -334,8 +335,8 @@ class ImpactMotion {
   }
 
   // Sets up the points of all pairs that touch now.
-  std::vector<std::size_t> touching_pairs() {
-    std::vector<std::size_t> touching;
+  Scratch<std::size_t> touching_pairs() {
+    Scratch<std::size_t> touching;
     for (std::size_t i = 0; i < island_.pairs.size(); ++i) {
       stop_if_asked();
       IslandPair<D>& pair = island_.pairs[i];
@@ -369,7 +370,7 @@ class ImpactMotion {
   // to an end become contacts. Returns how many impacts there were.
   int resolve_impacts() {
     island_.set_solver_bodies();
-    const std::vector<std::size_t> touching = touching_pairs();
+    const Scratch<std::size_t> touching = touching_pairs();
     int impacts = 0;
     bool any = true;
     for (int round = 0; any && round < kImpactSettings.most_rounds; ++round) {
@@ -404,8 +405,8 @@ class ImpactMotion {
 
   // Bodies that rest on others do not fall while something comes: only the free ones are
   // accelerated.
-  std::vector<Trajectory<D>> trajectories(double within) const {
-    std::vector<Trajectory<D>> all;
+  Scratch<Trajectory<D>> trajectories(double within) const {
+    Scratch<Trajectory<D>> all;
     for (std::size_t i = 0; i < island_.bodies.size(); ++i) {
       const Body<D>& body = island_.bodies[i];
       const Increment<D>& free = island_.increments[i];
@@ -431,9 +432,9 @@ class ImpactMotion {
   }
 
   // What is known of a pair stays so as long as both bodies fly on as was foreseen.
-  void forget_what_left_its_way(const std::vector<Trajectory<D>>& flying) {
+  void forget_what_left_its_way(const Scratch<Trajectory<D>>& flying) {
     foreseen_.resize(island_.pairs.size());
-    std::vector<std::uint8_t> strayed(flying.size());
+    Scratch<std::uint8_t> strayed(flying.size());
     for (std::size_t i = 0; i < flying.size(); ++i)
       strayed[i] = ways_.empty() || !goes_on(ways_[i], ways_begun_ - left_, flying[i]);
     for (std::size_t i = 0; i < foreseen_.size(); ++i) {
@@ -474,7 +475,7 @@ class ImpactMotion {
     find_increments_if_any<D>(move_.config, island_.bodies, island_.forces, within,
                               island_.increments, move_.work);
     std::vector<ImpactLook<D>>* const looks = log_.keeps_looks ? &log_.looks : nullptr;
-    const std::vector<Trajectory<D>> flying = trajectories(within);
+    const Scratch<Trajectory<D>> flying = trajectories(within);
     forget_what_left_its_way(flying);
     std::optional<Impact<D>> first;
     for (std::size_t i = 0; i < island_.pairs.size(); ++i) {
@@ -516,11 +517,11 @@ class ImpactMotion {
   const ContactSolver& solver_;
   int& budget_;
   ImpactLog<D>& log_;
-  std::vector<Body<D>> begun_ = island_.bodies;
+  Scratch<Body<D>> begun_ = island_.bodies;
   double left_ = move_.h;
-  std::vector<Foreseen<D>> foreseen_;  // of each pair
-  std::vector<Trajectory<D>> ways_;    // by which that was foreseen, of
-  std::vector<Body<D>> seen_bodies_;
+  Scratch<Foreseen<D>> foreseen_;  // of each pair
+  Scratch<Trajectory<D>> ways_;    // by which that was foreseen, of
+  Scratch<Body<D>> seen_bodies_;
   double ways_begun_ = 0;
   int parts_ = kImpactSettings.most_parts;
   double last_part_ = HUGE_VAL;

@@ -5,7 +5,9 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
+#include "base/scratch.hpp"
 #include "physics/contact/contact_solver.hpp"
 
 namespace lantern::physics {
@@ -55,12 +57,12 @@ struct Trajectory {
 template <int D>
 struct Encounter {
   const Trajectory<D>&a, &b;
-  double within;                           // seconds
-  double slow;                             // what approaches more slowly is said to rest
-  double reach;                            // farther apart they are not looked at
-  WorldWork& work;                         // counts each look at the two, by the narrow phase
+  double within;                       // seconds
+  double slow;                         // what approaches more slowly is said to rest
+  double reach;                        // farther apart they are not looked at
+  WorldWork& work;                     // counts each look at the two, by the narrow phase
   std::vector<ImpactLook<D>>* looks = {};  // is told each, if there is one,
-  double begun = 0;                        // so many seconds after its step began
+  double begun = 0;                    // so many seconds after its step began
 };
 
 // A body after so many seconds of it.
@@ -206,7 +208,7 @@ double fastest_spin(const Body<D>& body) {
       const Vec<3> l = glm::conjugate(body.orientation.q) * body.angular_momentum;
       std::array<int, 3> axis{0, 1, 2};
       const Vec<3>& m = body.inverse_inertia;
-      std::ranges::stable_sort(axis, {}, [&](int i) { return m[i]; });
+      std::ranges::sort(axis, {}, [&](int i) { return std::pair(m[i], i); });
       square += (m[axis[1]] - m[axis[0]]) * (m[axis[2]] - m[axis[1]]) * l[axis[1]] * l[axis[1]];
     }
   }

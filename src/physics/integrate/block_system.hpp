@@ -8,10 +8,9 @@
 #include <cmath>
 #include <cstdint>
 #include <optional>
-#include <set>
 #include <utility>
-#include <vector>
 
+#include "base/scratch.hpp"
 #include "base/stop.hpp"
 
 namespace lantern::physics {
@@ -67,7 +66,7 @@ class BlockSystem {
 
   // `count` groups of B unknowns, of which the linked ones (different, in any order, perhaps named
   // more than once) share entries. Nothing if the factor would take more than `most_bytes`.
-  static std::optional<BlockSystem> planned(std::size_t count, const std::vector<Link>& links,
+  static std::optional<BlockSystem> planned(std::size_t count, const Scratch<Link>& links,
                                             std::size_t most_bytes) {
     BlockSystem system;
     if (!system.plan(count, links, most_bytes / sizeof(BlockBelow))) return std::nullopt;
@@ -117,8 +116,8 @@ class BlockSystem {
   }
 
   // Replaces the right-hand sides by the solution. After `factor`.
-  void solve(std::vector<Row>& rows) const {
-    std::vector<Row> x(rows.size());
+  void solve(Scratch<Row>& rows) const {
+    Scratch<Row> x(rows.size());
     for (std::size_t i = 0; i < rows.size(); ++i) x[place_[i]] = rows[i];
     for (std::size_t j = 0; j < x.size(); ++j) {
       solve_lower<B>(diagonal_[j], x[j]);
@@ -142,19 +141,19 @@ class BlockSystem {
 
   // Finds the order, and which entries the elimination fills: all that were linked to a group are
   // linked to each other when it goes. False if they are more than `most`.
-  bool plan(std::size_t count, const std::vector<Link>& links, std::size_t most) {
+  bool plan(std::size_t count, const Scratch<Link>& links, std::size_t most) {
     diagonal_.resize(count);
-    std::vector<std::set<std::size_t>> near(count);
+    Scratch<ScratchSet<std::size_t>> near(count);
     for (const auto& [a, b] : links) {
       stop_if_asked();
       near[a].insert(b);
       near[b].insert(a);
     }
-    std::set<std::pair<std::size_t, std::size_t>> waiting;  // number of links, group
+    ScratchSet<std::pair<std::size_t, std::size_t>> waiting;  // number of links, group
     for (std::size_t i = 0; i < count; ++i) waiting.insert({near[i].size(), i});
     place_.resize(count);
     columns_.resize(count);
-    std::vector<std::vector<std::size_t>> linked(count);
+    Scratch<Scratch<std::size_t>> linked(count);
     std::size_t entries = 0;
     for (std::size_t j = 0; j < count; ++j) {
       stop_if_asked();
@@ -164,7 +163,7 @@ class BlockSystem {
       if (const std::size_t left = count - j; waiting.begin()->first + 1 == left) {
         entries += left * (left - 1) / 2 - (left - 1);
         if (entries > most) return false;
-        std::vector<std::size_t> rest;
+        Scratch<std::size_t> rest;
         for (const auto& entry : waiting) rest.push_back(entry.second);
         for (std::size_t k = 0; k < left; ++k) {
           place_[rest[k]] = j + k;
@@ -213,9 +212,9 @@ class BlockSystem {
         for (int k = 0; k < B; ++k) m[r * B + c] -= a[r * B + k] * b[c * B + k];
   }
 
-  std::vector<std::size_t> place_;  // of a group in the order of elimination; all below is by place
-  std::vector<Block> diagonal_;
-  std::vector<std::vector<BlockBelow>> columns_;  // below the diagonal, by row
+  Scratch<std::size_t> place_;  // of a group in the order of elimination; all below is by place
+  Scratch<Block> diagonal_;
+  Scratch<Scratch<BlockBelow>> columns_;  // below the diagonal, by row
 };
 
 // Conjugate gradients (Hestenes and Stiefel, "Methods of conjugate gradients for solving linear
@@ -252,13 +251,13 @@ class BlockIteration {
   // diagonal blocks makes of x. After `factor`. False if the matrix turns out not to be positive
   // definite, or if numbers fail; the rows are then of no use.
   template <class AddLinks>
-  bool solve(std::vector<Row>& rows, double tolerance, AddLinks&& add_links) const {
-    const auto product = [&](const std::vector<Row>& x) {
-      std::vector<Row> y = on_diagonal(x);
+  bool solve(Scratch<Row>& rows, double tolerance, AddLinks&& add_links) const {
+    const auto product = [&](const Scratch<Row>& x) {
+      Scratch<Row> y = on_diagonal(x);
       add_links(x, y);
       return y;
     };
-    std::vector<Row> x(rows.size(), Row{}), missing = rows;
+    Scratch<Row> x(rows.size(), Row{}), missing = rows;
     const double allowed = tolerance * tolerance * dot(rows, preconditioned(rows));
     double before = 0;
     // What rounding has left is found from the equations themselves, and mended.
@@ -268,7 +267,7 @@ class BlockIteration {
       if (lacks <= allowed || (round > 0 && lacks > before / 4)) break;
       before = lacks;
       if (!descend(missing, std::max(allowed, kRounding * lacks), product, x)) return false;
-      const std::vector<Row> found = product(x);
+      const Scratch<Row> found = product(x);
       missing = rows;
       add_to(missing, -1, found);
     }
@@ -283,13 +282,12 @@ class BlockIteration {
 
   // One run of conjugate gradients, whose steps are added to x.
   template <class Product>
-  bool descend(std::vector<Row> missing, double allowed, Product&& product,
-               std::vector<Row>& x) const {
-    std::vector<Row> z = preconditioned(missing), way = z;
+  bool descend(Scratch<Row> missing, double allowed, Product&& product, Scratch<Row>& x) const {
+    Scratch<Row> z = preconditioned(missing), way = z;
     double lacks = dot(missing, z);
     for (int step = 0; step < kMostSteps && lacks > allowed; ++step) {
       stop_if_asked();
-      const std::vector<Row> gained = product(way);
+      const Scratch<Row> gained = product(way);
       const double bend = dot(way, gained);
       if (!(bend > 0) || !std::isfinite(bend)) return false;
       add_to(x, lacks / bend, way);
@@ -304,15 +302,15 @@ class BlockIteration {
     return true;
   }
 
-  std::vector<Row> on_diagonal(const std::vector<Row>& x) const {
-    std::vector<Row> y(x.size(), Row{});
+  Scratch<Row> on_diagonal(const Scratch<Row>& x) const {
+    Scratch<Row> y(x.size(), Row{});
     for (std::size_t i = 0; i < x.size(); ++i)
       for (int r = 0; r < B; ++r)
         for (int c = 0; c < B; ++c) y[i][r] += diagonal_[i][r * B + c] * x[i][c];
     return y;
   }
 
-  std::vector<Row> preconditioned(std::vector<Row> x) const {
+  Scratch<Row> preconditioned(Scratch<Row> x) const {
     for (std::size_t i = 0; i < x.size(); ++i) {
       solve_lower<B>(factors_[i], x[i]);
       solve_upper<B>(factors_[i], x[i]);
@@ -320,22 +318,22 @@ class BlockIteration {
     return x;
   }
 
-  static double dot(const std::vector<Row>& x, const std::vector<Row>& y) {
+  static double dot(const Scratch<Row>& x, const Scratch<Row>& y) {
     double sum = 0;
     for (std::size_t i = 0; i < x.size(); ++i)
       for (int c = 0; c < B; ++c) sum += x[i][c] * y[i][c];
     return sum;
   }
-  static void scale(std::vector<Row>& x, double factor) {
+  static void scale(Scratch<Row>& x, double factor) {
     for (Row& row : x)
       for (double& value : row) value *= factor;
   }
-  static void add_to(std::vector<Row>& x, double share, const std::vector<Row>& y) {
+  static void add_to(Scratch<Row>& x, double share, const Scratch<Row>& y) {
     for (std::size_t i = 0; i < x.size(); ++i)
       for (int c = 0; c < B; ++c) x[i][c] += share * y[i][c];
   }
 
-  std::vector<Block> diagonal_, factors_;
+  Scratch<Block> diagonal_, factors_;
 };
 
 }  // namespace lantern::physics

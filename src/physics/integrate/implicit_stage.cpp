@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/scratch.hpp"
 #include "physics/joint/constrained_motion.hpp"
 
 namespace lantern::physics {
@@ -49,7 +50,7 @@ class Newton {
         state = before;
         look(state);
       }
-      std::vector<Row> direction;
+      Scratch<Row> direction;
       if (!solve(
               state, time_ * time_, kShare, [&] { return missing_; }, direction))
         return false;
@@ -66,7 +67,7 @@ class Newton {
   // One solution with places as they are. False if there is none.
   bool kick(SmoothState<D>& state) {
     pull_ = system_.evaluate(state);
-    std::vector<Row> momenta(system_.movers().size()), step;
+    Scratch<Row> momenta(system_.movers().size()), step;
     for (std::size_t n = 0; n < momenta.size(); ++n) {
       const std::size_t i = system_.movers()[n];
       put(momenta[n], time_ / system_.bodies()[i].inverse_mass * pull_.acceleration[i],
@@ -88,7 +89,7 @@ class Newton {
   // The velocities for the momenta rows(), which may depend on the matrix. False if numbers fail.
   template <class Rows>
   bool solve(const SmoothState<D>& state, double time_squared, double tolerance, Rows&& rows,
-             std::vector<Row>& solution) {
+             Scratch<Row>& solution) {
     const auto attempt = [&](bool buckling, double heavier) {
       if (!matrix_.factor(state, time_squared, time_, buckling, heavier)) return false;
       solution = rows();
@@ -107,11 +108,11 @@ class Newton {
     pull_ = system_.evaluate(state);
     find_missing(state);
     const auto linear = [&] {
-      std::vector<Row> rows = missing_;
+      Scratch<Row> rows = missing_;
       matrix_.subtract_stretching(state, time_, rows);
       return rows;
     };
-    std::vector<Row> step;
+    Scratch<Row> step;
     if (!solve(state, time_ * time_, kShare, linear, step)) return false;
     go(state, SmoothState<D>(state), step, 1);
     look(state);
@@ -136,7 +137,7 @@ class Newton {
   }
 
   // state = before + share * step
-  void go(SmoothState<D>& state, const SmoothState<D>& before, const std::vector<Row>& step,
+  void go(SmoothState<D>& state, const SmoothState<D>& before, const Scratch<Row>& step,
           double share) const {
     for (std::size_t n = 0; n < step.size(); ++n) {
       const std::size_t i = system_.movers()[n];
@@ -151,7 +152,7 @@ class Newton {
     }
   }
 
-  double along(const std::vector<Row>& direction) const {
+  double along(const Scratch<Row>& direction) const {
     double sum = 0;
     for (std::size_t n = 0; n < direction.size(); ++n)
       for (int c = 0; c < B; ++c) sum += direction[n][c] * missing_[n][c];
@@ -161,7 +162,7 @@ class Newton {
 
   // Goes along the direction: all the way if that is no worse, else to about where nothing is
   // missing along it, which is bracketed since it was too near at first and too far at last.
-  void search(SmoothState<D>& state, const std::vector<Row>& direction) {
+  void search(SmoothState<D>& state, const Scratch<Row>& direction) {
     const SmoothState<D> before = state;
     const double first = along(direction);
     double near = 0, near_value = first, far = 1;
@@ -195,14 +196,14 @@ class Newton {
   // Of the momenta and angular momenta that cancel when nothing is missing, a sum of sizes a body.
   // `rounded`: a velocity near 0 counts as much as the two parts of which it is the sum, for it has
   // their rounding.
-  std::pair<std::vector<double>, std::vector<double>> sizes(const SmoothState<D>& state,
-                                                            bool rounded) const {
+  std::pair<Scratch<double>, Scratch<double>> sizes(const SmoothState<D>& state,
+                                                    bool rounded) const {
     const auto speed = [&](std::size_t i) {
       return size_of(system_.velocity(state, i)) + (rounded ? size_of(state.kick[i]) : 0);
     };
     const std::span<const Body<D>> bodies = system_.bodies();
     const Forces<D>& forces = system_.forces();
-    std::vector<double> linear(bodies.size(), 0.0), angular = linear;
+    Scratch<double> linear(bodies.size(), 0.0), angular = linear;
     for (const std::size_t i : system_.movers()) {
       const Body<D>& body = bodies[i];
       linear[i] = (size_of(state.kick[i]) + time_ * size_of(forces.gravity)) / body.inverse_mass +
@@ -238,7 +239,7 @@ class Newton {
   MotionMatrix<D, B> matrix_;
   double time_;
   Pull<D> pull_;
-  std::vector<Row> missing_;
+  Scratch<Row> missing_;
 };
 
 // The body that goes farthest astray: the first whose speed is no number, else the fastest.

@@ -7,8 +7,8 @@
 #include <span>
 #include <string_view>
 #include <utility>
-#include <vector>
 
+#include "base/scratch.hpp"
 #include "physics/integrate/block_system.hpp"
 #include "physics/integrate/smooth_system.hpp"
 
@@ -80,7 +80,7 @@ class MotionMatrix {
 
   // Momenta to velocities: to rounding if the solution is direct, else up to about `tolerance` of
   // the momenta. After `factor`. False if only now the matrix is found not to be positive definite.
-  bool solve(std::vector<Row>& rows, double tolerance) const {
+  bool solve(Scratch<Row>& rows, double tolerance) const {
     if (!blocks_)
       return iteration_->solve(rows, tolerance, [&](const auto& x, auto& y) { add_links(x, y); });
     blocks_->solve(rows);
@@ -89,7 +89,7 @@ class MotionMatrix {
 
   // rows -= time^2 K v: the momenta that springs give for the way that v leads in the time. K is
   // that of the last `factor`.
-  void subtract_stretching(const SmoothState<D>& state, double time, std::vector<Row>& rows) const {
+  void subtract_stretching(const SmoothState<D>& state, double time, Scratch<Row>& rows) const {
     system_.each_stretch(state, [&](const Ends& ends, const Stretch<D>& s, double) {
       const auto [a, b] = ends;
       const Sides sides = sides_of(s, time * time, 0);
@@ -106,8 +106,8 @@ class MotionMatrix {
   }
 
  private:
-  std::vector<std::pair<std::size_t, std::size_t>> links() const {
-    std::vector<std::pair<std::size_t, std::size_t>> all;
+  Scratch<std::pair<std::size_t, std::size_t>> links() const {
+    Scratch<std::pair<std::size_t, std::size_t>> all;
     const auto add = [&](const Ends& ends) {
       const auto [a, b] = ends;
       if (a != b && system_.moves(a) && system_.moves(b))
@@ -200,7 +200,7 @@ class MotionMatrix {
   }
 
   // y += (A without its diagonal blocks) x: what a motion of one end gives to the other.
-  void add_links(const std::vector<Row>& x, std::vector<Row>& y) const {
+  void add_links(const Scratch<Row>& x, Scratch<Row>& y) const {
     each_stretch([&](const Ends& ends, const Stretch<D>& s) {
       const auto [a, b] = ends;
       if (a == b || !system_.moves(a) || !system_.moves(b)) return;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
+#include "base/scratch.hpp"
 #include "physics/integrate/implicit_stage.hpp"
 #include "physics/integrate/smooth_system.hpp"
 #include "physics/joint/constrained_motion.hpp"
@@ -22,7 +23,7 @@ namespace {
 // Explicit Euler: everything by what it was at the start of the step. A warning: an undamped spring
 // gains energy at every step, however short.
 template <int D>
-void explicit_euler(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out) {
+void explicit_euler(SmoothSystem<D>& system, double h, std::span<Increment<D>> out) {
   const Pull<D> pull = system.evaluate(system.start());
   for (const std::size_t i : system.movers()) {
     const Vec<D> kick = h * pull.acceleration[i];
@@ -42,7 +43,7 @@ constexpr Integration kExplicitEuler = {
 // it would rise and fall by some percent: what they hold is moved by half a step of this and half a
 // step of its adjoint, which is velocity Verlet (Hairer, Lubich, Wanner, II.4 and VII.1).
 template <int D>
-void semi_implicit_euler(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out) {
+void semi_implicit_euler(SmoothSystem<D>& system, double h, std::span<Increment<D>> out) {
   const Pull<D> pull = system.evaluate(system.start());
   for (const std::size_t i : system.movers())
     out[i] = {h * pull.acceleration[i], Vec<D>(0.0), h * pull.torque[i], Spin<D>(0.0)};
@@ -87,7 +88,7 @@ void brake(const SmoothSystem<D>& system, double h, SmoothState<D>& state, Smoot
 // Forces are linear in it, so one system of linear equations does. Drag is taken by `brake`. The
 // only limit left is that of the springs, omega h < 2.
 template <int D>
-void velocity_verlet(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out) {
+void velocity_verlet(SmoothSystem<D>& system, double h, std::span<Increment<D>> out) {
   SmoothState<D> state = system.start();
   system.leave_drag();
   system.kick(state, system.evaluate(state), h / 2);
@@ -117,7 +118,7 @@ constexpr Integration kVelocityVerlet = {
 // The classical method of Runge and Kutta (Kutta 1901): four looks at the forces, at the start, two
 // in the middle and one at the end, each from where the one before leads.
 template <int D>
-void runge_kutta_4(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out) {
+void runge_kutta_4(SmoothSystem<D>& system, double h, std::span<Increment<D>> out) {
   SmoothState<D> state = system.start();
   // A look from `time` after the start, on the way that the last state and its pull show.
   const auto look = [&](const Pull<D>& pull, double time) {
@@ -158,7 +159,7 @@ constexpr Integration kRungeKutta4 = {
 // step; the energy of linear springs is kept to rounding (Hairer, Lubich, Wanner, IV.2 and VI.4).
 // Velocities, and the way to the middle, are the mean ones where drag is strong (see drag_share).
 template <int D>
-void implicit_midpoint(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out) {
+void implicit_midpoint(SmoothSystem<D>& system, double h, std::span<Increment<D>> out) {
   system.take_means(h);
   const SmoothState<D> middle = implicit_stage(system, h / 2, "implicit_midpoint", h);
   for (const std::size_t i : system.movers()) {
@@ -180,7 +181,7 @@ constexpr Integration kImplicitMidpoint = {
 // energy of every spring (Baraff and Witkin, "Large steps in cloth simulation", 1998; they stop
 // after one Newton iteration, this does not).
 template <int D>
-void implicit_euler(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out) {
+void implicit_euler(SmoothSystem<D>& system, double h, std::span<Increment<D>> out) {
   const SmoothState<D> end = implicit_stage(system, h, "implicit_euler", h);
   for (const std::size_t i : system.movers())
     out[i] = {end.kick[i], Vec<D>(0.0), end.twist[i], Spin<D>(0.0)};
@@ -202,9 +203,8 @@ MethodList<Integrator, Integration>& methods() {
 
 // Those of the dynamic bodies, each once; the world's own if there are none.
 template <int D>
-std::vector<Integrator> integrators_of(const WorldConfig<D>& config,
-                                       std::span<const Body<D>> bodies) {
-  std::vector<Integrator> used;
+Scratch<Integrator> integrators_of(const WorldConfig<D>& config, std::span<const Body<D>> bodies) {
+  Scratch<Integrator> used;
   for (const Body<D>& body : bodies) {
     if (!body.is_dynamic()) continue;
     const Integrator its = body.integrator.value_or(config.integrator);
@@ -235,7 +235,7 @@ std::vector<std::string_view> integrator_names() { return methods().names(); }
 
 template <int D>
 void find_increments(Integrator integrator, std::span<const Body<D>> bodies,
-                     const Forces<D>& forces, double h, std::vector<Increment<D>>& out,
+                     const Forces<D>& forces, double h, Scratch<Increment<D>>& out,
                      std::uint64_t& evaluations) {
   if (!std::isfinite(h) || !(h > 0)) throw Refused(fmt::format("time step {} is not allowed", h));
   SmoothSystem<D> system(bodies, forces, evaluations);
@@ -245,25 +245,24 @@ void find_increments(Integrator integrator, std::span<const Body<D>> bodies,
 
 template <int D>
 void find_increments_if_any(const WorldConfig<D>& config, std::span<const Body<D>> bodies,
-                            const Forces<D>& forces, double h, std::vector<Increment<D>>& out,
+                            const Forces<D>& forces, double h, Scratch<Increment<D>>& out,
                             WorldWork& work) {
   out.assign(bodies.size(), {});
   if (!any_force(bodies, forces)) return;
-  const auto find = [&](Integrator by, std::span<const Body<D>> of,
-                        std::vector<Increment<D>>& found) {
+  const auto find = [&](Integrator by, std::span<const Body<D>> of, Scratch<Increment<D>>& found) {
     try {
       find_increments<D>(by, of, forces, h, found, work.force_evaluations);
     } catch (const Refused& refused) {
       throw Refused(fmt::format("{} in step {}", refused.what(), work.steps + 1));
     }
   };
-  const std::vector<Integrator> used = integrators_of(config, bodies);
+  const Scratch<Integrator> used = integrators_of(config, bodies);
   if (used.size() == 1) return find(used[0], bodies, out);
   // No spring ties bodies of different methods (World::add_spring), so those of one method are all
   // that it needs to know: the others stand still meanwhile, as if they slept.
-  std::vector<Increment<D>> some;
+  Scratch<Increment<D>> some;
   for (const Integrator integrator : used) {
-    std::vector<Body<D>> its(bodies.begin(), bodies.end());
+    Scratch<Body<D>> its(bodies.begin(), bodies.end());
     for (Body<D>& body : its)
       if (body.is_dynamic() && body.integrator.value_or(config.integrator) != integrator)
         body.asleep = true;
@@ -275,9 +274,9 @@ void find_increments_if_any(const WorldConfig<D>& config, std::span<const Body<D
 
 #define LANTERN_INSTANTIATE(D)                                                                  \
   template void find_increments(Integrator, std::span<const Body<D>>, const Forces<D>&, double, \
-                                std::vector<Increment<D>>&, std::uint64_t&);                    \
+                                Scratch<Increment<D>>&, std::uint64_t&);                        \
   template void find_increments_if_any(const WorldConfig<D>&, std::span<const Body<D>>,         \
-                                       const Forces<D>&, double, std::vector<Increment<D>>&,    \
+                                       const Forces<D>&, double, Scratch<Increment<D>>&,        \
                                        WorldWork&);
 
 LANTERN_INSTANTIATE(2)

@@ -12,8 +12,8 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
-#include <vector>
 
+#include "base/scratch.hpp"
 #include "physics/forces.hpp"
 #include "physics/methods.hpp"
 #include "physics/world_config.hpp"
@@ -36,7 +36,7 @@ struct ConstrainedPart;
 // Fills in the increments over `h` seconds of the system's movers; `out` holds one zero increment a
 // body.
 template <int D>
-using FindIncrements = void (*)(SmoothSystem<D>& system, double h, std::vector<Increment<D>>& out);
+using FindIncrements = void (*)(SmoothSystem<D>& system, double h, std::span<Increment<D>> out);
 // Moves bodies whose joints are part of the equations (joint/constrained_motion.hpp); false if that
 // does not converge.
 template <int D>
@@ -65,13 +65,13 @@ Integrator add_integrator(const Integration& method);
 // in the end beyond all numbers: it is for the caller to look.
 template <int D>
 void find_increments(Integrator integrator, std::span<const Body<D>> bodies,
-                     const Forces<D>& forces, double h, std::vector<Increment<D>>& out,
+                     const Forces<D>& forces, double h, Scratch<Increment<D>>& out,
                      std::uint64_t& evaluations);
 
 // The same, each body's by its own method, or by the world's; all zero if there is no force.
 template <int D>
 void find_increments_if_any(const WorldConfig<D>& config, std::span<const Body<D>> bodies,
-                            const Forces<D>& forces, double h, std::vector<Increment<D>>& out,
+                            const Forces<D>& forces, double h, Scratch<Increment<D>>& out,
                             WorldWork& work);
 
 }  // namespace lantern::physics

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "base/scratch.hpp"
 #include "base/stop.hpp"
 #include "physics/body.hpp"
 #include "physics/integrate/integrator.hpp"
@@ -18,17 +18,17 @@ namespace lantern::physics {
 // difference from the start of the step: so nothing is lost by rounding far from the origin.
 template <int D>
 struct SmoothState {
-  std::vector<Vec<D>> shift;   // of the position
-  std::vector<Vec<D>> kick;    // of the velocity
-  std::vector<Spin<D>> twist;  // of the angular momentum
-  std::vector<Rotation<D>> orientation;
+  Scratch<Vec<D>> shift;   // of the position
+  Scratch<Vec<D>> kick;    // of the velocity
+  Scratch<Spin<D>> twist;  // of the angular momentum
+  Scratch<Rotation<D>> orientation;
 };
 
 // What all forces together do to each body; zero for those that no force moves.
 template <int D>
 struct Pull {
-  std::vector<Vec<D>> acceleration;
-  std::vector<Spin<D>> torque;
+  Scratch<Vec<D>> acceleration;
+  Scratch<Spin<D>> torque;
 };
 
 // Where the ends of a spring, or two that attract each other, are in the span of bodies.
@@ -96,7 +96,7 @@ class SmoothSystem {
   }
 
   // The bodies that forces move: dynamic, awake, not of infinite mass. In their order.
-  const std::vector<std::size_t>& movers() const { return movers_; }
+  const Scratch<std::size_t>& movers() const { return movers_; }
   std::size_t number(std::size_t mover) const { return number_[mover]; }  // among these
   bool moves(std::size_t i) const { return moves_[i] != 0; }
   // Whether any force can turn the body. If not, its torque is not evaluated and is zero.
@@ -152,7 +152,7 @@ class SmoothSystem {
   std::span<const Body<D>> bodies() const { return bodies_; }
   const Forces<D>& forces() const { return forces_; }
   // One a spring.
-  const std::vector<Ends>& ends() const { return ends_; }
+  const Scratch<Ends>& ends() const { return ends_; }
   // Whether every two bodies attract each other.
   bool any_attraction() const { return !masses_.empty(); }
   // f(ends) for each spring, then for every two bodies that attract each other and of which one
@@ -175,11 +175,11 @@ class SmoothSystem {
     });
   }
 
-  const std::vector<std::size_t>& pushed() const { return pushed_; }  // bodies, one a push
+  const Scratch<std::size_t>& pushed() const { return pushed_; }  // bodies, one a push
 
   SmoothState<D> start() const {
-    const std::vector<Vec<D>> none(bodies_.size(), Vec<D>(0.0));
-    SmoothState<D> state{none, none, std::vector<Spin<D>>(bodies_.size(), Spin<D>(0.0)), {}};
+    const Scratch<Vec<D>> none(bodies_.size(), Vec<D>(0.0));
+    SmoothState<D> state{none, none, Scratch<Spin<D>>(bodies_.size(), Spin<D>(0.0)), {}};
     for (const Body<D>& body : bodies_) state.orientation.push_back(body.orientation);
     return state;
   }
@@ -318,13 +318,13 @@ class SmoothSystem {
   std::span<const Body<D>> bodies_;
   const Forces<D>& forces_;
   std::uint64_t& evaluations_;
-  std::vector<std::size_t> movers_, number_;
-  std::vector<char> moves_;
-  std::vector<char> turns_;
-  std::vector<Ends> ends_;
-  std::vector<double> masses_;       // by which bodies attract; none if they do not
-  std::vector<std::size_t> pushed_;  // one a push
-  double mean_over_ = 0;             // seconds; 0: velocities are those of the state
+  Scratch<std::size_t> movers_, number_;
+  Scratch<char> moves_;
+  Scratch<char> turns_;
+  Scratch<Ends> ends_;
+  Scratch<double> masses_;       // by which bodies attract; none if they do not
+  Scratch<std::size_t> pushed_;  // one a push
+  double mean_over_ = 0;         // seconds; 0: velocities are those of the state
   bool any_turns_ = false;
   bool any_damping_ = false;  // of springs
   bool drag_acts_ = true;

@@ -12,8 +12,8 @@
 #include <cmath>
 #include <optional>
 #include <utility>
-#include <vector>
 
+#include "base/scratch.hpp"
 #include "physics/integrate/implicit_stage.hpp"
 #include "physics/joint/constrained_motion.hpp"
 
@@ -39,7 +39,7 @@ class ImplicitStage {
   // Velocities of the stage, `time` after the start, so that the joints hold after the whole step.
   bool run() {
     end_ = state_;
-    std::vector<Row> momenta(system_.movers().size());
+    Scratch<Row> momenta(system_.movers().size());
     double last = 0;
     for (int round = 0; round < kJointSettings.most_rounds; ++round) {
       system_.fly(state_, state_, time_);
@@ -48,7 +48,7 @@ class ImplicitStage {
       find_missing(pull, momenta);
       system_.fly(end_, state_, h_);
       joints_.find_errors(end_);
-      std::vector<double> wanted = joints_.errors();
+      Scratch<double> wanted = joints_.errors();
       for (double& value : wanted) value /= h_;
       if (!solve(momenta, std::move(wanted), time_ * time_)) return false;
       const double change = apply(momenta);
@@ -64,21 +64,21 @@ class ImplicitStage {
   // One solution with places as they are.
   bool kick() {
     const Pull<D> pull = system_.evaluate(state_);
-    std::vector<Row> momenta(system_.movers().size());
+    Scratch<Row> momenta(system_.movers().size());
     for (std::size_t n = 0; n < momenta.size(); ++n) {
       const std::size_t i = system_.movers()[n];
       add(momenta[n], pull.acceleration[i] / system_.bodies()[i].inverse_mass, pull.torque[i],
           time_);
     }
-    std::vector<double> wanted = joints_.speeds(state_);
+    Scratch<double> wanted = joints_.speeds(state_);
     for (double& value : wanted) value = -value;
     if (!solve(momenta, std::move(wanted), 0)) return false;
     return std::isfinite(apply(momenta));
   }
 
  private:
-  static std::vector<Tie<D>> ties_of(const JointSystem<D>& joints) {
-    std::vector<Tie<D>> ties;
+  static Scratch<Tie<D>> ties_of(const JointSystem<D>& joints) {
+    Scratch<Tie<D>> ties;
     for (const auto& hold : joints.holds()) ties.push_back({{hold.joint->a, hold.joint->b}, {}});
     return ties;
   }
@@ -97,7 +97,7 @@ class ImplicitStage {
   }
 
   // Adds J^T of one row.
-  void add_impulse(std::vector<Row>& momenta, std::size_t r, double impulse) const {
+  void add_impulse(Scratch<Row>& momenta, std::size_t r, double impulse) const {
     const auto& row = joints_.rows()[r];
     const auto add_to = [&](std::uint32_t i, const Spin<D>& turn, double by) {
       if (system_.moves(i))
@@ -107,7 +107,7 @@ class ImplicitStage {
     add_to(row.b, row.turn_b, impulse);
   }
 
-  double speed(const std::vector<Row>& velocities, std::size_t r) const {
+  double speed(const Scratch<Row>& velocities, std::size_t r) const {
     const auto& row = joints_.rows()[r];
     const auto of = [&](std::uint32_t i, const Spin<D>& turn) {
       if (!system_.moves(i)) return 0.0;
@@ -117,7 +117,7 @@ class ImplicitStage {
     return of(row.b, row.turn_b) - of(row.a, row.turn_a);
   }
 
-  void find_missing(const Pull<D>& pull, std::vector<Row>& momenta) const {
+  void find_missing(const Pull<D>& pull, Scratch<Row>& momenta) const {
     for (std::size_t n = 0; n < momenta.size(); ++n) {
       const std::size_t i = system_.movers()[n];
       const double mass = 1 / system_.bodies()[i].inverse_mass;
@@ -176,7 +176,7 @@ class ImplicitStage {
   }
 
   // From missing momenta to velocities that bring the wanted speeds; impulses grow.
-  bool solve(std::vector<Row>& momenta, std::vector<double> wanted, double time_squared) {
+  bool solve(Scratch<Row>& momenta, Scratch<double> wanted, double time_squared) {
     const std::optional<double> stiffness = factor_matrix(time_squared);
     if (!stiffness) return false;
     for (std::size_t r = 0; r < wanted.size(); ++r) add_impulse(momenta, r, *stiffness * wanted[r]);
@@ -208,7 +208,7 @@ class ImplicitStage {
   }
 
   // Adds to the velocities; returns the largest change as a part of the fastest speed.
-  double apply(const std::vector<Row>& change) {
+  double apply(const Scratch<Row>& change) {
     double fastest = 0, most = 0;
     for (std::size_t n = 0; n < change.size(); ++n) {
       const std::size_t i = system_.movers()[n];
@@ -242,10 +242,10 @@ class ImplicitStage {
   JointSystem<D>& joints_ = part_.joints;
   SmoothState<D>& state_ = part_.state;
   const double h_ = part_.h, time_;
-  std::vector<Tie<D>> ties_ = ties_of(joints_);
+  Scratch<Tie<D>> ties_ = ties_of(joints_);
   MotionMatrix<D, B> matrix_{system_, LinearSolver::by_size, ties_};
   EnvelopeSystem schur_;
-  std::vector<std::vector<Row>> answers_;  // to an impulse of 1 in each row
+  Scratch<Scratch<Row>> answers_;  // to an impulse of 1 in each row
   SmoothState<D> end_;
 };
 

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <optional>
 #include <utility>
-#include <vector>
 
+#include "base/scratch.hpp"
 #include "physics/forces.hpp"
 
 namespace lantern::physics {
@@ -52,7 +52,7 @@ class PartMotion {
   }
   double swing() const { return swing_; }
 
-  void add_impulses(std::vector<Vec<D>>& sums) const {
+  void add_impulses(Scratch<Vec<D>>& sums) const {
     for (const auto& hold : joints_.holds())
       sums[static_cast<std::size_t>(hold.joint - island_.joints.data())] += joints_.impulse(hold);
   }
@@ -177,8 +177,8 @@ MoveOutcome try_to_move(const IslandMove<D>& move, Attempt attempt) {
   const double h = move.h, turning = parts_of_turning(island, h);
   if (turning > kJointSettings.most_parts) return MoveOutcome::failed;
   attempt.parts = static_cast<int>(turning);
-  const std::vector<Body<D>> start = island.bodies;
-  std::vector<Vec<D>> impulses;
+  const Scratch<Body<D>> start = island.bodies;
+  Scratch<Vec<D>> impulses;
   for (double swing = 0;; island.bodies = start) {
     impulses.assign(island.joints.size(), Vec<D>(0.0));
     int moved = 0;
@@ -277,7 +277,7 @@ class RungeKutta {
   }
 
   // To where the slopes lead from the start.
-  void go(std::vector<Slope>& slopes, double time) {
+  void go(Scratch<Slope>& slopes, double time) {
     const std::span<const Body<D>> bodies = system_.bodies();
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       if (bodies[i].kind != BodyKind::kinematic_body) continue;
@@ -303,7 +303,7 @@ class RungeKutta {
   const double h_ = part_.h;
   const Tableau& tableau_;
   Pull<D> pull_;
-  std::vector<Slope> slopes_{system_.movers().size()}, sums_ = slopes_;  // one a mover
+  Scratch<Slope> slopes_{system_.movers().size()}, sums_ = slopes_;  // one a mover
 };
 
 }  // namespace

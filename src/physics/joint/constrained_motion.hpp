@@ -20,8 +20,8 @@
 #include <cstdint>
 #include <limits>
 #include <span>
-#include <vector>
 
+#include "base/scratch.hpp"
 #include "physics/contact/contact_solver.hpp"
 #include "physics/integrate/smooth_system.hpp"
 #include "physics/joint/joint_rows.hpp"
@@ -81,11 +81,11 @@ class JointSystem {
 
   // False if a joint turns a body that can turn about some axes only.
   bool can_be_solved() const { return can_be_solved_; }
-  const std::vector<ConstraintRow<D>>& rows() const { return rows_; }
-  const std::vector<Hold>& holds() const { return holds_; }
+  const Scratch<ConstraintRow<D>>& rows() const { return rows_; }
+  const Scratch<Hold>& holds() const { return holds_; }
   // Impulses of all rows so far, and what was last added to them.
-  std::vector<double>& impulses() { return impulses_; }
-  const std::vector<double>& impulses() const { return impulses_; }
+  Scratch<double>& impulses() { return impulses_; }
+  const Scratch<double>& impulses() const { return impulses_; }
 
   // Upon b.
   Vec<D> impulse(const Hold& hold) const {
@@ -121,7 +121,7 @@ class JointSystem {
   }
 
   // J v of the rows' own state.
-  const std::vector<double>& speeds(const SmoothState<D>& state) {
+  const Scratch<double>& speeds(const SmoothState<D>& state) {
     find_velocities(state);
     for (std::size_t r = 0; r < rows_.size(); ++r) {
       const ConstraintRow<D>& row = rows_[r];
@@ -153,7 +153,7 @@ class JointSystem {
     return worst;
   }
 
-  const std::vector<double>& errors() const { return values_; }
+  const Scratch<double>& errors() const { return values_; }
   // Whether the errors last found are too large to be closed at once, in a step of `h` seconds.
   bool wide_open(double h) const {
     for (const Hold& hold : holds_) {
@@ -331,7 +331,7 @@ class JointSystem {
   }
 
   // What was solved for acts upon the bodies: impulses upon velocities, forces upon accelerations.
-  void act(std::vector<Vec<D>>& linear, std::vector<Spin<D>>& angular) const {
+  void act(Scratch<Vec<D>>& linear, Scratch<Spin<D>>& angular) const {
     for (std::size_t r = 0; r < rows_.size(); ++r) {
       const ConstraintRow<D>& row = rows_[r];
       linear[row.a] -= row.direction * (row.mass_a * values_[r]);
@@ -385,12 +385,12 @@ class JointSystem {
   WorldWork& work_;
   bool can_be_solved_ = true;
   bool compliant_ = false;
-  std::vector<HeldBody> held_;  // one a body
-  std::vector<Hold> holds_;
-  std::vector<ConstraintRow<D>> rows_;
+  Scratch<HeldBody> held_;  // one a body
+  Scratch<Hold> holds_;
+  Scratch<ConstraintRow<D>> rows_;
   EnvelopeSystem factor_;
-  std::vector<double> values_;  // what is missing, then impulses
-  std::vector<double> speeds_, impulses_;
+  Scratch<double> values_;  // what is missing, then impulses
+  Scratch<double> speeds_, impulses_;
 };
 
 // Moves the island, whole or, where that does not converge, in parts. Joints' impulses are noted in

@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include <glm/matrix.hpp>
 
+#include "base/scratch.hpp"
 #include "geometry/elementary.hpp"
 #include "physics/contact/contact_rows.hpp"
 #include "physics/joint.hpp"
@@ -152,7 +152,7 @@ class JointBlock {
  public:
   // Of joints that were refreshed, for bodies as they are. False if that is too much work: then
   // they are swept over one by one, and nothing closes their gaps.
-  bool refresh(const std::vector<JointRows<D>>& joints, const std::vector<SolverBody<D>>& bodies) {
+  bool refresh(const Scratch<JointRows<D>>& joints, const Scratch<SolverBody<D>>& bodies) {
     list(joints, bodies);
     if (factor_.lines() != rows_.size()) plan(rows_, bodies.size(), factor_);
     solved_ = !rows_.empty() && factor_.work() <= kJointSettings.most_work &&
@@ -163,8 +163,8 @@ class JointBlock {
   }
 
   // Impulses after which no joint parts.
-  void solve_velocities(std::vector<JointRows<D>>& joints, std::vector<SolverBody<D>>& bodies,
-                        Sweep& sweep, WorldWork& work) {
+  void solve_velocities(Scratch<JointRows<D>>& joints, Scratch<SolverBody<D>>& bodies, Sweep& sweep,
+                        WorldWork& work) {
     stop_parting(joints, bodies, false, work);
     for (std::size_t r = 0; r < rows_.size(); ++r) {
       Vec<D>& impulse = joints[joint_of_[r]].impulse;
@@ -175,8 +175,8 @@ class JointBlock {
   }
 
   // The same of mean velocities.
-  void correct_positions(const std::vector<JointRows<D>>& joints,
-                         std::vector<SolverBody<D>>& bodies, Sweep& sweep, WorldWork& work) {
+  void correct_positions(const Scratch<JointRows<D>>& joints, Scratch<SolverBody<D>>& bodies,
+                         Sweep& sweep, WorldWork& work) {
     stop_parting(joints, bodies, true, work);
     for (const double value : values_) sweep.change = std::max(sweep.change, std::abs(value));
   }
@@ -186,7 +186,7 @@ class JointBlock {
   // give way across it only: what would close their gaps at once would throw them about. So where
   // that goes wrong it is damped (Levenberg, Quart. Appl. Math. 2, 1944), by rows of where the
   // bodies have come to; a gap that is small against their sag is left.
-  void close_gaps(std::vector<JointRows<D>>& joints, std::vector<Body<D>>& bodies, double h,
+  void close_gaps(Scratch<JointRows<D>>& joints, Scratch<Body<D>>& bodies, double h,
                   WorldWork& work) {
     if (!solved_) return;
     double left = kRowSettings.fastest_push * h;
@@ -229,7 +229,7 @@ class JointBlock {
 
  private:
   // By their velocities, or by their mean velocities.
-  void stop_parting(const std::vector<JointRows<D>>& joints, std::vector<SolverBody<D>>& bodies,
+  void stop_parting(const Scratch<JointRows<D>>& joints, Scratch<SolverBody<D>>& bodies,
                     bool of_mean, WorldWork& work) {
     for (std::size_t r = 0; r < rows_.size(); ++r) {
       const ConstraintRow<D>& row = rows_[r];
@@ -243,7 +243,7 @@ class JointBlock {
     apply_rows(rows_, values_, bodies, of_mean);
   }
 
-  void list(const std::vector<JointRows<D>>& joints, const std::vector<SolverBody<D>>& bodies) {
+  void list(const Scratch<JointRows<D>>& joints, const Scratch<SolverBody<D>>& bodies) {
     rows_.clear();
     joint_of_.clear();
     for (std::size_t i = 0; i < joints.size(); ++i) {
@@ -262,7 +262,7 @@ class JointBlock {
   }
 
   // The rows of joints whose gaps were found where the bodies are.
-  void look(const std::vector<JointRows<D>>& joints, const std::vector<Body<D>>& bodies) {
+  void look(const Scratch<JointRows<D>>& joints, const Scratch<Body<D>>& bodies) {
     const auto inertia = [&](std::uint32_t i) {
       const Body<D>& body = bodies[i];
       const bool turns = body.is_pushed() && body.inverse_inertia != Spin<D>(0.0);
@@ -291,7 +291,7 @@ class JointBlock {
   }
 
   // How far the bodies have come from where they were kept, at most: of their surfaces.
-  double way_of(const std::vector<Body<D>>& bodies) const {
+  double way_of(const Scratch<Body<D>>& bodies) const {
     double most = 0;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       if (!bodies[i].is_dynamic()) continue;
@@ -309,7 +309,7 @@ class JointBlock {
   }
 
   // The largest one.
-  double find_errors(std::vector<JointRows<D>>& joints, const std::vector<Body<D>>& bodies) {
+  double find_errors(Scratch<JointRows<D>>& joints, const Scratch<Body<D>>& bodies) {
     for (JointRows<D>& joint : joints) joint.find_gap(bodies[joint.a], bodies[joint.b]);
     double worst = 0;
     for (std::size_t r = 0; r < rows_.size(); ++r) {
@@ -319,7 +319,7 @@ class JointBlock {
     return worst;
   }
 
-  void move(std::vector<Body<D>>& bodies, double share) const {
+  void move(Scratch<Body<D>>& bodies, double share) const {
     for (std::size_t r = 0; r < rows_.size(); ++r) {
       const ConstraintRow<D>& row = rows_[r];
       const double by = values_[r] * share;
@@ -332,12 +332,12 @@ class JointBlock {
     }
   }
 
-  std::vector<ConstraintRow<D>> rows_;
-  std::vector<std::uint32_t> joint_of_;  // of each row
+  Scratch<ConstraintRow<D>> rows_;
+  Scratch<std::uint32_t> joint_of_;  // of each row
   EnvelopeSystem factor_;
   bool solved_ = false;
-  std::vector<Body<D>> kept_;
-  std::vector<double> values_;  // what is missing, then impulses
+  Scratch<Body<D>> kept_;
+  Scratch<double> values_;  // what is missing, then impulses
 };
 
 }  // namespace lantern::physics

@@ -8,8 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <vector>
 
+#include "base/scratch.hpp"
 #include "physics/narrow/block_searches.hpp"
 
 namespace lantern::physics::narrow {
@@ -131,14 +131,13 @@ double distance_to(const PlacedCore<D>& block, const Vec<D>& point) {
 // The deepest point, the one farthest from it, and on each side of the line through both the one
 // that spans the largest triangle; no more if the points lie on a line. So that rounding does not
 // swap equal ones, a later point must be deeper by `slack`, or wider by a part of 1e-6.
-std::vector<int> widest_four(const Outline<3>& outline,
-                             const std::array<double, kMostCorners>& heights, const Vec<3>& normal,
-                             double slack) {
+Scratch<int> widest_four(const Outline<3>& outline, const std::array<double, kMostCorners>& heights,
+                         const Vec<3>& normal, double slack) {
   const auto height = [&](int i) { return heights[static_cast<std::size_t>(i)]; };
   int deepest = 0;
   for (int i = 1; i < outline.count; ++i)
     if (height(i) < height(deepest) - slack) deepest = i;
-  std::vector<int> chosen{deepest};
+  Scratch<int> chosen{deepest};
   const auto add_best = [&](const auto& measure) {
     int best = -1;
     double most = 0;
@@ -213,7 +212,7 @@ FaceContact<D> face_contact(const PlacedCore<D>& reference, const PlacedCore<D>&
     close.add(outline[i]);
   }
 
-  std::vector<int> widest;
+  Scratch<int> widest;
   if constexpr (D == 3)
     if (close.count > 4) widest = widest_four(close, heights, normal, slack);
   const std::uint32_t faces =

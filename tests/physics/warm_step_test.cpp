@@ -1,0 +1,126 @@
+// What a step asks for, counted where memory is really asked for: once warm, nothing.
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include <gtest/gtest.h>
+
+#include "physics/world_scene.hpp"
+
+namespace {
+std::atomic<std::uint64_t> calls{0};
+}
+
+// Where one of the pair is inlined and the other is not, GCC takes them for strangers (bug 103993).
+#if defined(__GNUC__) && !defined(__clang__)
+#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
+#endif
+
+void* operator new(std::size_t size) {
+  ++calls;
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  ++calls;
+  return std::malloc(size == 0 ? 1 : size);
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+
+namespace lantern::physics {
+namespace {
+
+constexpr std::string_view kLongName = "a name that is too long to lie in a string without memory";
+
+template <int D>
+void add(World<D>& world, Body<D> body) {
+  body.name = std::string(kLongName);
+  world.add(std::move(body));
+}
+
+// Boxes that lie on each other, with a ball that bounces beside them.
+template <int D>
+World<D> pile(WorldConfig<D> config) {
+  World<D> world(config);
+  add(world, floor_at<D>());
+  for (int i = 0; i < 12; ++i) add(world, box_at<D>(along<D>(i % 4 * 1.01, 0.5 + i / 4)));
+  Body<D> ball = ball_at<D>(along<D>(-3, 2));
+  ball.material.restitution = 1;
+  add(world, ball);
+  return world;
+}
+
+// Links on pins, tied by a spring, pushed, braked; the last one may meet the floor.
+template <int D>
+World<D> chain(WorldConfig<D> config) {
+  World<D> world(config);
+  add(world, floor_at<D>(-3));
+  for (int i = 0; i < 5; ++i) {
+    Body<D> link = box_at<D>(along<D>(i, 0), 0.4);
+    if (i == 0) link.kind = BodyKind::static_body;
+    link.linear_drag = 0.1;
+    add(world, link);
+  }
+  for (BodyId i = 1; i < 5; ++i)
+    world.add_joint({.kind = JointKind::pin,
+                     .a = i,
+                     .b = i + 1,
+                     .at_a = along<D>(0.5),
+                     .at_b = along<D>(-0.5)});
+  world.add_spring({.a = 1, .b = 5, .rest_length = 3, .stiffness = 20, .damping = 1});
+  world.push(5, along<D>(1, 2), along<D>(4));
+  return world;
+}
+
+// Of so many steps, how many asked for memory.
+template <int D>
+int cold_steps(World<D>& world, int steps) {
+  int cold = 0;
+  for (int i = 0; i < steps; ++i) {
+    const std::uint64_t before = calls;
+    world.step(kStep);
+    cold += calls != before;
+  }
+  return cold;
+}
+
+template <int D>
+void expect_warm_steps(World<D> world, const std::string& what) {
+  SCOPED_TRACE(what + (D == 2 ? " in 2D" : " in 3D"));
+  cold_steps(world, 300);
+  EXPECT_EQ(cold_steps(world, 100), 0);
+}
+
+template <int D>
+void expect_all_warm() {
+  WorldConfig<D> config = falling<D>();
+  config.may_sleep = false;
+  for (const std::string_view name : contact_method_names()) {
+    config.contacts = *contact_method_named(name);
+    if (config.contacts == ContactMethod::lecture) continue;  // its containers are the lecture's
+    expect_warm_steps(pile<D>(config), std::string(name) + ", a pile");
+    expect_warm_steps(chain<D>(config), std::string(name) + ", a chain");
+  }
+  config.contacts = ContactMethod::soft;
+  config.wanted_error = 0.01;
+  expect_warm_steps(pile<D>(config), "quick sweeps, a pile");
+  config.wanted_error = 0;
+  for (const std::string_view name : integrator_names()) {
+    config.integrator = *integrator_named(name);
+    expect_warm_steps(chain<D>(config), std::string(name) + ", a chain");
+  }
+}
+
+TEST(WarmStep, AsksForNoMemory) {
+  expect_all_warm<2>();
+  expect_all_warm<3>();
+}
+
+TEST(WarmStep, IsCountedColdAtFirst) {
+  World<2> world = pile<2>(falling<2>());
+  EXPECT_GT(cold_steps(world, 1), 0) << "nothing is counted";
+}
+
+}  // namespace
+}  // namespace lantern::physics
