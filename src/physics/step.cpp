@@ -216,16 +216,14 @@ struct World<D>::Step : World<D>::StepIslands {
     world.may_rest_ =
         world.work_.asleep > 0 ||
         std::ranges::any_of(world.rested_, [](double seconds) { return seconds > 0; });
-    for (std::size_t i = 0; i < world.bodies_.size(); ++i)
-      world.islands_[i] = world.bodies_[i].is_dynamic() ? world.bodies_[root[i]].id : kNoIsland;
+    std::swap(world.roots_, root);
     world.joint_memories_ = std::move(joint_memories);
     world.forces_.pushes = std::move(forces.pushes);
     world.touching_ = std::move(touching);
     std::swap(world.outcome_, outcome);
-    world.ahead_.reset();
-    world.time_ += h;
+    world.rests_ = rests();
+    world.go_on(h);
     WorldWork& work = world.work_;
-    ++work.steps;
     work.narrow_pairs += narrow_pairs;
     work.constraint_rows =
         work.normal_rows + work.friction_rows + work.joint_rows + work.direct_rows;
@@ -253,6 +251,18 @@ struct World<D>::Step : World<D>::StepIslands {
   }
 
  private:
+  // Whether nothing moves, nothing ends, and nothing is new: then the next step is as this one.
+  bool rests() const {
+    const Outcome& told = world.outcome_;
+    return std::ranges::none_of(world.bodies_, &Body<D>::stirs) &&
+           std::ranges::none_of(world.forces_.pushes,
+                                [](const Push<D>& push) { return push.until.has_value(); }) &&
+           told.pairs.empty() && told.impacts.moments.empty() &&
+           told.told.size() == told.contacts.size() &&
+           std::ranges::all_of(told.events, [](const ContactEvent& event) {
+             return event.kind == ContactEvent::Kind::stay;
+           });
+  }
   bool collides() const { return world.config_.contacts != ContactMethod::none; }
   bool locates_impacts() const {
     return collides() && world.config_.continuous &&
@@ -347,6 +357,7 @@ void World<D>::step(double h) {
   if (!std::isfinite(h) || h < 0) throw Refused(fmt::format("time step {} is not allowed", h));
   stop_if_asked();
   if (h == 0) return;  // else -0.0 + 0.0 would change the sign of a zero
+  if (rests_) return go_on(h);
   const WorldWork before = work_;
   Scratch<double> reach;
   try {

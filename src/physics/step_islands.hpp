@@ -55,8 +55,8 @@ struct World<D>::StepIslands {
 
   // Static and kinematic bodies do not join what touches them.
   void make_islands() {
-    if (near.empty() && world.touching_.empty() && world.joints_.empty() &&
-        forces.springs.empty() && !(forces.gravitation > 0)) {
+    if (near.empty() && world.joints_.empty() && forces.springs.empty() &&
+        !(forces.gravitation > 0)) {
       root.resize(moved.size());
       std::iota(root.begin(), root.end(), 0u);
       return count_islands();
@@ -66,11 +66,6 @@ struct World<D>::StepIslands {
       if (moved[a].is_dynamic() && moved[b].is_dynamic()) sets.unite(a, b);
     };
     for (const NearPair& pair : near) unite(pair.a, pair.b);
-    // What sleeps is not looked at: it hangs together as when it fell asleep.
-    for (const Touch<D>& touch : world.touching_) {
-      const std::uint32_t a = place_of(touch.record.a), b = place_of(touch.record.b);
-      if (moved[a].asleep && moved[b].asleep) unite(a, b);
-    }
     for (const auto& entry : world.joints_)
       unite(place_of(entry.second.a), place_of(entry.second.b));
     for (const Spring<D>& spring : forces.springs) unite(place_of(spring.a), place_of(spring.b));
@@ -171,7 +166,7 @@ struct World<D>::StepIslands {
     island.pairs.reserve(group.pairs.size());
     for (const std::size_t i : group.pairs) {
       stop_if_asked();
-      island.pairs.push_back(island_pair(near[i]));
+      fill(island.pairs.emplace_back(), near[i]);
       ContactRows<D>& rows = island.pairs.back().rows;
       rows.a = local(rows.a);
       rows.b = local(rows.b);
@@ -252,6 +247,8 @@ struct World<D>::StepIslands {
     };
     for (const Touch<D>& touch : world.touching_)
       if (rests(touch.record.a) && rests(touch.record.b)) slept.push_back(touch);
+    const auto pair_of = [](const Touch<D>& touch) { return touch.record.pair(); };
+    if (slept.empty() && std::ranges::is_sorted(touching, {}, pair_of)) return;
     ordered.reserve(touching.size() + slept.size());
     auto next = slept.begin();
     for (std::size_t i = 0; i < near.size(); ++i) {
@@ -268,8 +265,7 @@ struct World<D>::StepIslands {
   }
 
  private:
-  IslandPair<D> island_pair(const NearPair& from) const {
-    IslandPair<D> pair;
+  void fill(IslandPair<D>& pair, const NearPair& from) const {
     pair.rows.a = from.a;
     pair.rows.b = from.b;
     pair.rows.restitution = from.restitution;
@@ -278,10 +274,13 @@ struct World<D>::StepIslands {
     pair.fast = from.fast;
     pair.located = from.located;
     pair.pressed = !from.located;
-    if (from.touch != nullptr) static_cast<Touch<D>&>(pair) = *from.touch;
-    pair.record = {moved[from.a].id, moved[from.b].id, {}, {}, {}};
+    if (from.touch != nullptr) {
+      pair.memory = from.touch->memory;
+      pair.seconds = from.touch->seconds;
+    }
+    pair.record.a = moved[from.a].id;
+    pair.record.b = moved[from.b].id;
     if (from.manifold != kNone) pair.seen = &manifolds[from.manifold];
-    return pair;
   }
 
   // Slow, and slow for another second if it is accelerated as in this step: a pendulum at its

@@ -98,6 +98,8 @@ BodyId World<D>::add(Body<D> body, const Spin<D>& angular_velocity) {
   if (angular_velocity != Spin<D>(0.0)) spin(body, angular_velocity);
   body.id = next_id_;
   ahead_.reset();
+  rests_ = false;
+  write_islands();
   may_rest_ |= body.asleep;
   bodies_.push_back(std::move(body));
   rested_.push_back(0);
@@ -122,6 +124,7 @@ void World<D>::remove(std::span<const BodyId> ids) {
   for (const Spring<D>& spring : forces_.springs) disturb(spring);
   for (const auto& entry : joints_) disturb(entry.second);
   wake_from(disturbed);
+  write_islands();
   std::erase_if(forces_.springs, goes);
   erase_where([&](std::size_t i) { return goes(joints_[i].second); }, joint_memories_, joints_);
   std::erase_if(forces_.pushes, [&](const Push<D>& push) { return is_gone(push.body); });
@@ -223,15 +226,34 @@ void World<D>::set_gravity(const Vec<D>& gravity) {
 template <int D>
 void World<D>::wake_from(std::span<const BodyId> ids) {
   ahead_.reset();
+  rests_ = false;
   if (!may_rest_) return;
+  write_islands();
   Scratch<std::uint32_t> places;
   for (const BodyId id : ids) places.push_back(static_cast<std::uint32_t>(index_of(id)));
   wake_together<D>(bodies_, rested_, std::move(places), links(), Disturbed::all);
 }
 
+// Bodies that sleep hang together as when they fell asleep.
+template <int D>
+void World<D>::write_islands() const {
+  if (roots_.empty()) return;
+  DisjointSets sets(bodies_.size());
+  for (std::uint32_t i = 0; i < roots_.size(); ++i) sets.unite(i, roots_[i]);
+  for (const Touch<D>& touch : touching_) {
+    const std::size_t a = index_of(touch.record.a), b = index_of(touch.record.b);
+    if (bodies_[a].asleep && bodies_[b].asleep)
+      sets.unite(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
+  }
+  for (std::uint32_t i = 0; i < roots_.size(); ++i)
+    islands_[i] = bodies_[i].is_dynamic() ? bodies_[sets.root(i)].id : kNoIsland;
+  roots_.clear();
+}
+
 // Of each island what still touches or is tied stays together.
 template <int D>
 void World<D>::part_islands() {
+  write_islands();
   DisjointSets sets(bodies_.size());
   for (const Pair& link : links()) {
     const std::size_t a = index_of(link.a), b = index_of(link.b);
@@ -257,6 +279,8 @@ void World<D>::sleep(BodyId id) {
   Body<D>& body = bodies_[index_of(id)];
   if (!body.is_dynamic()) return;
   ahead_.reset();
+  rests_ = false;
+  write_islands();
   may_rest_ = body.asleep = true;
   body.velocity = Vec<D>(0.0);
   body.angular_momentum = Spin<D>(0.0);
@@ -274,6 +298,7 @@ void World<D>::switch_contacts(ContactMethod method, int sub_steps, int iteratio
   config.wanted_error = wanted_error;
   check_config(config);
   config_ = config;
+  rests_ = false;
 }
 
 template <int D>

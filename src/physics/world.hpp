@@ -126,7 +126,11 @@ class World {
   // The island of each body, in order of bodies(): the lowest id among those that the step moved
   // together, or that went on sleeping together. What has left or let go since has parted them.
   // kNoIsland of what only `place` or its own velocity moves, and of what no step has seen yet.
-  const std::vector<BodyId>& islands() const { return islands_; }
+  // Written down when somebody asks: not from several threads at a time.
+  const std::vector<BodyId>& islands() const {
+    write_islands();
+    return islands_;
+  }
   const std::vector<ToldPair>& told() const { return outcome_.told; }  // by pair
   // Its impacts that were located; of the looks by which they were, nothing unless they are kept.
   const ImpactLog<D>& impacts() const { return outcome_.impacts; }
@@ -166,9 +170,15 @@ class World {
   Scratch<Pair> links() const;  // of what wakes together
   void wake_from(std::span<const BodyId> ids);
   void wake_from(BodyId id) { wake_from(std::span(&id, 1)); }
+  void write_islands() const;
   void part_islands();
   void forget_contacts_of(std::span<const BodyId> ids);
   static void spin(Body<D>& body, const Spin<D>& angular_velocity);
+  void go_on(double h) {
+    ahead_.reset();
+    time_ += h;
+    ++work_.steps;
+  }
   Outcome& cleared_outcome() {
     next_outcome_.clear(outcome_.impacts.keeps_looks);
     return next_outcome_;
@@ -180,9 +190,13 @@ class World {
 
   WorldConfig<D> config_;
   std::vector<Body<D>> bodies_;
-  Scratch<double> rested_;       // seconds that each body has been slow
-  bool may_rest_ = false;        // one of them is above 0, or a body sleeps: there may be who wakes
-  std::vector<BodyId> islands_;  // of each body
+  Scratch<double> rested_;  // seconds that each body has been slow
+  bool may_rest_ = false;   // one of them is above 0, or a body sleeps: there may be who wakes
+  bool rests_ = false;      // nothing moves: a step would tell what the last one told
+  // Of each body; and of the last step, until that is written down: the place of the lowest of its
+  // island, where what slept is not looked at.
+  mutable std::vector<BodyId> islands_;
+  mutable Scratch<std::uint32_t> roots_;
   Forces<D> forces_;
   std::vector<std::pair<JointId, Joint<D>>> joints_;
   Scratch<JointMemory<D>> joint_memories_;

@@ -117,6 +117,68 @@ TEST(WarmStep, AsksForNoMemory) {
   expect_all_warm<3>();
 }
 
+// What all that sleeps costs a step: nothing, but that time goes on.
+template <int D>
+void expect_rest() {
+  World<D> world = pile<D>(falling<D>());
+  world.remove(13);  // the ball, which would bounce for ever
+  for (int i = 0; i < 200; ++i) world.step(kStep);
+  ASSERT_EQ(world.work().asleep, 12u);
+  const WorldWork before = world.work();
+  const std::uint64_t hash = world.hash();
+  const std::size_t touching = world.contacts().size();
+  const double begun = world.time();
+  const Contact<D>* const told = world.contacts().data();
+  world.step(kStep);
+  EXPECT_EQ(world.contacts().data(), told) << "what it tells is not even written anew";
+  EXPECT_EQ(cold_steps(world, 99), 0);
+  for (const WorldCounter& counter : kWorldCounters)
+    EXPECT_EQ(world.work().*counter.count - before.*counter.count,
+              counter.name == "steps" ? 100u : 0u)
+        << counter.name;
+  EXPECT_NEAR(world.time() - begun, 100 * kStep, 1e-9);
+  EXPECT_EQ(world.contacts().size(), touching);
+  EXPECT_GT(touching, 11u);
+  EXPECT_TRUE(std::ranges::all_of(world.events(), [](const ContactEvent& event) {
+    return event.kind == ContactEvent::Kind::stay;
+  }));
+  EXPECT_EQ(world.islands()[1], 1u) << "it hangs together as when it fell asleep";
+  EXPECT_EQ(world.islands()[9], 1u);
+  world.apply_impulse(12, up<D>(3), world.bodies()[12].position);
+  world.step(kStep);
+  EXPECT_GT(world.bodies()[12].velocity.y, 1);
+  EXPECT_NE(world.hash(), hash);
+}
+
+TEST(WarmStep, OfWhatRestsDoesNothing) {
+  expect_rest<2>();
+  expect_rest<3>();
+}
+
+// Who sleeps beside one that moves is neither looked at nor solved.
+TEST(WarmStep, LeavesOutWhatSleeps) {
+  WorldConfig<2> config = falling<2>();
+  World<2> alone(config), beside(config);
+  for (World<2>* world : {&alone, &beside}) {
+    world->add(floor_at<2>());
+    Body<2> ball = ball_at<2>({-20, 2});
+    ball.material.restitution = 1;
+    world->add(ball);
+  }
+  for (int i = 0; i < 100; ++i) {
+    Body<2> box = box_at<2>({i * 1.5, 0.5});
+    box.asleep = true;
+    beside.add(box);
+  }
+  for (int i = 0; i < 60; ++i) alone.step(kStep), beside.step(kStep);
+  for (const WorldCounter& counter : kWorldCounters) {
+    if (counter.name == "pair_tests") continue;  // of the broad phase, which holds them all
+    EXPECT_EQ(alone.work().*counter.count, beside.work().*counter.count) << counter.name;
+  }
+  EXPECT_EQ(beside.work().asleep, 100u);
+  EXPECT_EQ(alone.bodies()[1].position, beside.bodies()[1].position);
+}
+
 TEST(WarmStep, IsCountedColdAtFirst) {
   World<2> world = pile<2>(falling<2>());
   EXPECT_GT(cold_steps(world, 1), 0) << "nothing is counted";
