@@ -1,0 +1,372 @@
+// Sweeps over the contacts of a large island, as many as a wanted error asks for. The rows are
+// those of contact/contact_rows.hpp, solved four at a time (quick_vectors.hpp).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "base/stop.hpp"
+#include "physics/contact/quick_vectors.hpp"
+#include "physics/contact/sub_step.hpp"
+
+namespace lantern::physics {
+
+// The order in which sweeps solve contacts, four at a time: from above, where loads come from, down
+// to what carries them, so that one sweep hands them on all the way. A contact is in the first
+// layer behind all those of its bodies before it; those of a layer do not know of each other. So
+// each body meets its contacts as if they were solved one by one. (Layers are the colours of a
+// graph whose order matters.)
+class QuickOrder {
+ public:
+  static constexpr std::uint32_t kFixed = ~std::uint32_t{0};  // a body that cannot be moved
+
+  void clear(std::size_t bodies) {
+    next_.assign(bodies, 0);
+    contacts_.clear();
+  }
+  // Contacts that lie equally high are solved as they are told.
+  void add(std::uint32_t a, std::uint32_t b, int points, double height) {
+    contacts_.push_back({a, b, static_cast<std::uint32_t>(points), height});
+  }
+  // Gives each contact its place, and returns how many groups there are; those that are not full
+  // have places for nobody.
+  std::size_t arrange(std::vector<std::uint32_t>& places) {
+    find_heights();
+    keys_.resize(contacts_.size());
+    std::uint32_t last = 0;
+    for (const std::uint32_t i : in_order(kHeights)) {
+      const auto& [a, b, points, height] = contacts_[i];
+      const std::uint32_t layer = std::max(a != kFixed ? next_[a] : 0, b != kFixed ? next_[b] : 0);
+      if (a != kFixed) next_[a] = layer + 1;
+      if (b != kFixed) next_[b] = layer + 1;
+      // Those with as many points come together.
+      keys_[i] = (layer + 1) * kMostPoints - points;
+      last = std::max(last, keys_[i]);
+    }
+    places.resize(keys_.size());
+    groups_.clear();
+    std::uint32_t layer = 0, place = 0;
+    for (const std::uint32_t i : in_order(last + 1)) {
+      if (std::exchange(layer, keys_[i] / kMostPoints) != layer)
+        place = static_cast<std::uint32_t>(groups_.size() * kQuickLanes);
+      places[i] = place++;
+      groups_.resize((place + kQuickLanes - 1) / kQuickLanes);
+      groups_.back().points += contacts_[i].points;
+      groups_.back().most = std::max(groups_.back().most, contacts_[i].points);
+    }
+    return groups_.size();
+  }
+  // Of a group: how many points a contact has at most, and whether four have as many.
+  std::size_t most_points(std::size_t group) const { return groups_[group].most; }
+  bool is_full(std::size_t group) const {
+    return groups_[group].points == kQuickLanes * groups_[group].most;
+  }
+
+ private:
+  static constexpr std::uint32_t kMostPoints = 4;
+  static constexpr std::uint32_t kHeights = 4096;  // that are told apart
+  struct Contact {
+    std::uint32_t a, b, points;
+    double height;
+  };
+  struct Group {
+    std::uint32_t points = 0, most = 0;
+  };
+
+  void find_heights() {
+    keys_.clear();
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+    for (const Contact& contact : contacts_) {
+      if (!std::isfinite(contact.height)) continue;
+      lowest = std::min(lowest, contact.height);
+      highest = std::max(highest, contact.height);
+    }
+    const double scale = (kHeights - 1) / (highest - lowest);
+    for (const Contact& contact : contacts_) {
+      const double below = (highest - contact.height) * scale;
+      keys_.push_back(below > 0 ? static_cast<std::uint32_t>(std::min(below, kHeights - 1.0)) : 0);
+    }
+  }
+
+  // Contacts in order of their keys, which are below `end`; of equal ones as they were told.
+  const std::vector<std::uint32_t>& in_order(std::uint32_t end) {
+    begin_.assign(end + 1, 0);
+    for (const std::uint32_t key : keys_) ++begin_[key + 1];
+    for (std::uint32_t key = 0; key < end; ++key) begin_[key + 1] += begin_[key];
+    sorted_.resize(keys_.size());
+    for (std::uint32_t i = 0; i < keys_.size(); ++i) sorted_[begin_[keys_[i]]++] = i;
+    return sorted_;
+  }
+
+  std::vector<Contact> contacts_;
+  std::vector<Group> groups_;
+  std::vector<std::uint32_t> next_;  // of each body: the layer behind its contacts
+  std::vector<std::uint32_t> keys_;  // of each contact: its height, then layer and points
+  std::vector<std::uint32_t> begin_, sorted_;
+};
+
+template <int D>
+class QuickSweeps {
+ public:
+  // Before the first part of a step: there are other contacts now.
+  void begin() { is_new_ = true; }
+
+  // Makes a part of a step of an island without joints. Sweeps end when the last has moved nothing
+  // by more than `enough`, or after `most`. They go always the same way: what one leaves undone
+  // then lies where the next one finds it, and warm starting does the rest.
+  void make(SubStep<D>& step, double enough, int most) {
+    step.find_motion();
+    if (std::exchange(is_new_, false)) arrange(step.island);
+    gather(step);
+    sweep(step, enough / step.h, most);
+    bring_back(step);
+    step.move_bodies();
+  }
+
+ private:
+  using Body = QuickBody<D>;
+  static constexpr std::size_t kTangents = D - 1;
+  struct Row {
+    Spin<D> turn_a{0.0}, turn_b{0.0}, gained_a{0.0}, gained_b{0.0};
+  };
+
+  static const double& at(const double& spin, std::size_t) { return spin; }
+  static const double& at(const Vec<3>& spin, std::size_t i) { return spin[static_cast<int>(i)]; }
+  static double& at(double& spin, std::size_t) { return spin; }
+  static double& at(Vec<3>& spin, std::size_t i) { return spin[static_cast<int>(i)]; }
+
+  static void add(Body& body, std::size_t from, const Vec<D>& velocity, const Spin<D>& spin) {
+    for (std::size_t i = 0; i < D; ++i) body.motion[from + i] += velocity[static_cast<int>(i)];
+    for (std::size_t i = 0; i < Body::kSpin; ++i) body.motion[from + D + i] += at(spin, i);
+  }
+  static Motion<D> motion_of(const Body& body, std::size_t from) {
+    Motion<D> motion;
+    for (std::size_t i = 0; i < D; ++i)
+      motion.velocity[static_cast<int>(i)] = body.motion[from + i];
+    for (std::size_t i = 0; i < Body::kSpin; ++i) at(motion.spin, i) = body.motion[from + D + i];
+    return motion;
+  }
+
+  void arrange(const Island<D>& island) {
+    const Vec<D>& gravity = island.forces.gravity;
+    const auto moving = [&](std::uint32_t i) {
+      const SolverBody<D>& body = island.solver_bodies[i];
+      const bool moves = body.inverse_mass != 0 || body.inverse_inertia != Inertia<D>(0.0);
+      return moves ? i : QuickOrder::kFixed;
+    };
+    const double none = -std::numeric_limits<double>::infinity();
+    const auto height = [&](std::uint32_t i) {
+      return i == QuickOrder::kFixed ? none : -glm::dot(island.bodies[i].position, gravity);
+    };
+    order_.clear(island.bodies.size());
+    for (const IslandPair<D>& pair : island.pairs) {
+      if (pair.rows.count == 0) continue;
+      const std::uint32_t a = moving(pair.rows.a), b = moving(pair.rows.b);
+      order_.add(a, b, pair.rows.count, std::max(height(a), height(b)));
+    }
+    groups_.resize(order_.arrange(places_));
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+      QuickGroup<D>& group = groups_[i];
+      const std::size_t most = order_.most_points(i);
+      // What is not written anew for each contact is zero. Places of nobody have a body for
+      // themselves, behind the others.
+      if (order_.is_full(i)) {
+        for (std::size_t k = 0; k < most; ++k) group.room[k].push = {};
+      } else {
+        group = {};
+        group.a.fill(static_cast<std::uint32_t>(island.bodies.size()));
+        group.b = group.a;
+      }
+      group.points = most;
+      group.rubs = false;
+    }
+  }
+
+  void gather(SubStep<D>& step) {
+    Island<D>& island = step.island;
+    bodies_.assign(island.bodies.size() + 1, {});
+    for (std::size_t i = 0; i < island.kicked.size(); ++i)
+      add(bodies_[i], 0, island.kicked[i].velocity, island.kicked[i].spin);
+    normal_rows_ = 0;
+    auto place = places_.begin();
+    for (IslandPair<D>& pair : island.pairs) {
+      if (pair.rows.count == 0) continue;
+      stop_if_asked();
+      step.refresh(pair.rows);
+      gather(step, pair.rows, groups_[*place / kQuickLanes], *place % kQuickLanes);
+      ++place;
+    }
+  }
+
+  void gather(const SubStep<D>& step, const ContactRows<D>& rows, QuickGroup<D>& group,
+              std::size_t lane) {
+    const auto& a = step.island.solver_bodies[rows.a];
+    const auto& b = step.island.solver_bodies[rows.b];
+    group.a[lane] = rows.a;
+    group.b[lane] = rows.b;
+    group.rubs |= rows.friction > 0;
+    group.friction.lane[lane] = rows.friction;
+    group.inverse_mass_a.lane[lane] = a.inverse_mass;
+    group.inverse_mass_b.lane[lane] = b.inverse_mass;
+    const auto set = [&](std::array<Four, D>& to, const Vec<D>& direction) {
+      for (std::size_t i = 0; i < D; ++i) to[i].lane[lane] = direction[static_cast<int>(i)];
+    };
+    const std::array<Vec<D>, kTangents> across = tangents(rows.normal);
+    set(group.normal, rows.normal);
+    for (std::size_t k = 0; k < kTangents; ++k) set(group.across[k], across[k]);
+    // Adds a row, along which there is the impulse `begins`, and a push.
+    const auto add_row = [&](const ContactPoint<D>& p, const Vec<D>& direction, QuickRow<D>& to,
+                             double begins, double push) {
+      Row row{cross(p.arm_a, direction), cross(p.arm_b, direction)};
+      row.gained_a = a.inverse_inertia * row.turn_a;
+      row.gained_b = b.inverse_inertia * row.turn_b;
+      for (std::size_t i = 0; i < Body::kSpin; ++i) {
+        to.turn_a[i].lane[lane] = at(row.turn_a, i);
+        to.turn_b[i].lane[lane] = at(row.turn_b, i);
+        to.gained_a[i].lane[lane] = at(row.gained_a, i);
+        to.gained_b[i].lane[lane] = at(row.gained_b, i);
+      }
+      const auto begin = [&](std::size_t from, double impulse) {
+        if (impulse == 0) return;
+        add(bodies_[rows.a], from, -direction * (impulse * a.inverse_mass),
+            -row.gained_a * impulse);
+        add(bodies_[rows.b], from, direction * (impulse * b.inverse_mass), row.gained_b * impulse);
+      };
+      begin(0, begins);
+      begin(Body::kPushed, push);
+    };
+    for (std::size_t i = 0; i < rows.points().size(); ++i) {
+      const ContactPoint<D>& p = rows.room[i];
+      QuickPoint<D>& point = group.room[i];
+      const auto inverse = [](double x) { return x > 0 ? 1 / x : 0; };
+      point.normal_mass.lane[lane] = inverse(p.inverse_normal_mass);
+      normal_rows_ += p.inverse_normal_mass > 0;
+      point.bias.lane[lane] = p.bounce - p.gap / step.h;
+      point.wanted_push.lane[lane] = p.gap > 0 ? 0 : p.wanted_mean_speed(step.h);
+      double& push = point.push.lane[lane];
+      push = std::max(push * (1 - kRowSettings.pushed_out), -p.pn);
+      point.pn.now.lane[lane] = p.pn;
+      add_row(p, rows.normal, point.normal, p.pn, push);
+      point.tangent_mass.lane[lane] = inverse(p.inverse_tangent_mass);
+      for (std::size_t k = 0; k < kTangents; ++k) {
+        point.pt[k].now.lane[lane] = glm::dot(p.pt, across[k]);
+        add_row(p, across[k], point.tangent[k], point.pt[k].now.lane[lane], 0);
+      }
+    }
+  }
+
+  // Sweeps alone crawl towards the solution of a large pile. Each shows a way, though: going on
+  // along it before the next, farther each time, takes of the order of n sweeps where n^2 were
+  // needed (Mazhar et al., "Using Nesterov's method to accelerate multibody dynamics with friction
+  // and contact", 2015). What then pulls or slips is mended by that sweep. Where sweeps change more
+  // than before, it went too far, and begins anew (O'Donoghue and Candes, "Adaptive restart for
+  // accelerated gradient schemes", 2015).
+  void sweep(SubStep<D>& step, double enough, int most) {
+    constexpr double kTooFar = 1.5;  // squared changes, over those of the sweep before
+    constexpr std::size_t kAtATime = 64;
+    QuickSweep sweep;
+    ways_.assign(bodies_.size(), {});
+    double squared_before = 0, run = 0;
+    for (int i = 1;; ++i) {
+      old_ = bodies_;
+      sweep.largest = sweep.squared = {};
+      sweep.friction_rows = 0;
+      for (std::size_t from = 0; from < groups_.size(); from += kAtATime) {
+        stop_if_asked();
+        const std::size_t count = std::min(kAtATime, groups_.size() - from);
+        vectors_.sweep(std::span(groups_).subspan(from, count), bodies_.data(), sweep);
+      }
+      step.work.normal_rows += normal_rows_;
+      step.work.friction_rows += sweep.friction_rows;
+      if (std::ranges::max(sweep.largest.lane) <= enough || i == most) return;
+      const double squared = sweep.squared.sum();
+      sweep.goes_on = i == 1 || squared <= kTooFar * squared_before;
+      squared_before = squared;
+      run = sweep.goes_on ? run + 1 : 0;
+      sweep.beta = run / (run + 3);
+      go_on(sweep);
+    }
+  }
+
+  // Bodies do so at once, impulses when the next sweep comes to them.
+  void go_on(const QuickSweep& sweep) {
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+      for (std::size_t k = 0; k < Body::kPushed; ++k) {
+        double &now = bodies_[i].motion[k], &way = ways_[i].motion[k];
+        way = sweep.goes_on ? sweep.beta * (way + (now - old_[i].motion[k])) : 0;
+        now += way;
+      }
+  }
+
+  // Which part of the impulses does no work (see SubStep).
+  double share_without_work(const SubStep<D>& step) {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      old_[i] = {};
+      if (i < step.island.kicked.size())
+        add(old_[i], 0, step.island.kicked[i].velocity, step.island.kicked[i].spin);
+      const Motion<D> now = motion_of(bodies_[i], 0);
+      add(old_[i], Body::kPushed, now.velocity, now.spin);
+    }
+    QuickWork work;
+    vectors_.work(groups_, old_.data(), work);
+    return SubStep<D>::share_without_work(work.before.sum(), work.after.sum(), work.wanted.sum());
+  }
+
+  void bring_back(SubStep<D>& step) {
+    Island<D>& island = step.island;
+    const double share = share_without_work(step);
+    for (std::size_t i = 0; i < island.solver_bodies.size(); ++i) {
+      const Motion<D> now = motion_of(bodies_[i], 0), &kicked = island.kicked[i];
+      SolverBody<D>& body = island.solver_bodies[i];
+      body.velocity = kicked.velocity + (now.velocity - kicked.velocity) * share;
+      body.spin = kicked.spin + (now.spin - kicked.spin) * share;
+    }
+    auto place = places_.begin();
+    for (IslandPair<D>& pair : island.pairs) {
+      if (pair.rows.count == 0) continue;
+      stop_if_asked();
+      bring_back(pair.rows, groups_[*place / kQuickLanes], *place % kQuickLanes, share, island);
+      ++place;
+      step.note_touch(pair);
+    }
+    step.find_mean_velocities();
+    for (std::size_t i = 0; i < island.solver_bodies.size(); ++i) {
+      const Motion<D> pushed = motion_of(bodies_[i], Body::kPushed);
+      island.solver_bodies[i].mean.velocity += pushed.velocity;
+      island.solver_bodies[i].mean.spin += pushed.spin;
+    }
+  }
+
+  void bring_back(ContactRows<D>& rows, const QuickGroup<D>& group, std::size_t lane, double share,
+                  Island<D>& island) {
+    SolverBody<D>&a = island.solver_bodies[rows.a], &b = island.solver_bodies[rows.b];
+    const std::array<Vec<D>, kTangents> across = tangents(rows.normal);
+    for (std::size_t i = 0; i < rows.points().size(); ++i) {
+      ContactPoint<D>& p = rows.room[i];
+      const QuickPoint<D>& point = group.room[i];
+      p.pn = point.pn.now.lane[lane] * share;
+      p.pt = Vec<D>(0.0);
+      for (std::size_t k = 0; k < kTangents; ++k)
+        p.pt += across[k] * (point.pt[k].now.lane[lane] * share);
+      const Vec<D> impulse = rows.normal * p.pn + p.pt;
+      a.twist -= cross(p.arm_a, impulse);
+      b.twist += cross(p.arm_b, impulse);
+    }
+  }
+
+  const QuickVectors<D>& vectors_ = quick_vectors<D>().front();
+  bool is_new_ = true;
+  QuickOrder order_;
+  std::vector<std::uint32_t> places_;  // of the contacts: group and lane
+  std::vector<QuickGroup<D>> groups_;
+  std::vector<Body> bodies_;
+  std::vector<Body> old_;  // where the last sweep began
+  std::vector<Body> ways_;
+  std::uint64_t normal_rows_ = 0;  // of a sweep
+};
+
+}  // namespace lantern::physics
