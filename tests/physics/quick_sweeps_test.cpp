@@ -260,7 +260,7 @@ TEST(QuickOrder, LeadsEachBodyFromAboveDown) {
       const auto a = static_cast<std::uint32_t>(random() % bodies);
       const auto b = static_cast<std::uint32_t>((a + 1 + random() % (bodies - 1)) % bodies);
       contact = {moving(a), moving(b), static_cast<double>(random() % 8)};
-      order.add(contact.a, contact.b, 1 + static_cast<int>(random() % 4), contact.height);
+      order.add(contact.a, contact.b, 1 + static_cast<int>(random() % 4), contact.height, 0);
     }
     std::vector<std::uint32_t> places;
     const std::size_t groups = order.arrange(places);
@@ -279,6 +279,20 @@ TEST(QuickOrder, LeadsEachBodyFromAboveDown) {
       }
     }
   }
+}
+
+TEST(QuickOrder, KnowsTheHighestStack) {
+  QuickOrder order;
+  order.clear(6);
+  std::vector<std::uint32_t> places;
+  order.add(0, QuickOrder::kFixed, 2, 0.5, 1);  // 2 upon 1 upon 0
+  order.add(0, 1, 2, 1, -1);
+  order.add(2, 1, 2, 2, 0.9);
+  order.add(3, QuickOrder::kFixed, 2, 0.5, 1);  // 4 upon 3, beside them
+  order.add(4, 3, 2, 1, 1);
+  order.add(1, 4, 2, 1.5, 0.1);
+  order.arrange(places);
+  EXPECT_EQ(order.highest_stack(), 3u);
 }
 
 // Boxes in columns of twenty, each a little above the next, numbered from below or from above.

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -26,11 +28,13 @@ class QuickOrder {
 
   void clear(std::size_t bodies) {
     next_.assign(bodies, 0);
+    above_.assign(bodies, 0);
+    highest_ = 0;
     contacts_.clear();
   }
-  // Contacts that lie equally high are solved as they are told.
-  void add(std::uint32_t a, std::uint32_t b, int points, double height) {
-    contacts_.push_back({a, b, static_cast<std::uint32_t>(points), height});
+  // Contacts that lie equally high are solved as they are told. `down`: from a to b, as a cosine.
+  void add(std::uint32_t a, std::uint32_t b, int points, double height, double down) {
+    contacts_.push_back({a, b, static_cast<std::uint32_t>(points), height, down});
   }
   // Gives each contact its place, and returns how many groups there are; those that are not full
   // have places for nobody.
@@ -39,10 +43,11 @@ class QuickOrder {
     keys_.resize(contacts_.size());
     std::uint32_t last = 0;
     for (const std::uint32_t i : in_order(kHeights)) {
-      const auto& [a, b, points, height] = contacts_[i];
+      const auto& [a, b, points, height, down] = contacts_[i];
       const std::uint32_t layer = std::max(a != kFixed ? next_[a] : 0, b != kFixed ? next_[b] : 0);
       if (a != kFixed) next_[a] = layer + 1;
       if (b != kFixed) next_[b] = layer + 1;
+      if (std::abs(down) > kCarries) lay_upon(down > 0 ? a : b, down > 0 ? b : a);
       // Those with as many points come together.
       keys_[i] = (layer + 1) * kMostPoints - points;
       last = std::max(last, keys_[i]);
@@ -60,6 +65,8 @@ class QuickOrder {
     }
     return groups_.size();
   }
+  // How many bodies lie upon each other at most.
+  std::uint32_t highest_stack() const { return highest_; }
   // Of a group: how many points a contact has at most, and whether four have as many.
   std::size_t most_points(std::size_t group) const { return groups_[group].most; }
   bool is_full(std::size_t group) const {
@@ -69,13 +76,20 @@ class QuickOrder {
  private:
   static constexpr std::uint32_t kMostPoints = 4;
   static constexpr std::uint32_t kHeights = 4096;  // that are told apart
+  static constexpr double kCarries = 0.5;          // cosine: not a wall at its side
   struct Contact {
     std::uint32_t a, b, points;
-    double height;
+    double height, down;
   };
   struct Group {
     std::uint32_t points = 0, most = 0;
   };
+
+  void lay_upon(std::uint32_t upper, std::uint32_t lower) {
+    if (upper == kFixed) return;
+    highest_ = std::max(highest_, above_[upper] + 1);
+    if (lower != kFixed) above_[lower] = std::max(above_[lower], above_[upper] + 1);
+  }
 
   void find_heights() {
     keys_.clear();
@@ -104,7 +118,9 @@ class QuickOrder {
 
   std::vector<Contact> contacts_;
   std::vector<Group> groups_;
-  std::vector<std::uint32_t> next_;  // of each body: the layer behind its contacts
+  std::vector<std::uint32_t> next_;   // of each body: the layer behind its contacts
+  std::vector<std::uint32_t> above_;  // of each body: how many lie upon each other on it
+  std::uint32_t highest_ = 0;
   std::vector<std::uint32_t> keys_;  // of each contact: its height, then layer and points
   std::vector<std::uint32_t> begin_, sorted_;
 };
@@ -116,13 +132,15 @@ class QuickSweeps {
   void begin() { is_new_ = true; }
 
   // Makes a part of a step of an island without joints. Sweeps end when the last has moved nothing
-  // by more than `enough`, or after `most`. They go always the same way: what one leaves undone
-  // then lies where the next one finds it, and warm starting does the rest.
-  void make(SubStep<D>& step, double enough, int most) {
+  // by more than `enough`, or after as many as the highest stack needs, at an effort of 1 for an
+  // error of a hundredth. They go always the same way: what one leaves undone then lies where the
+  // next one finds it, and warm starting does the rest.
+  void make(SubStep<D>& step, double enough, double effort) {
     step.find_motion();
     if (std::exchange(is_new_, false)) arrange(step.island);
     gather(step);
-    sweep(step, enough / step.h, most);
+    const double most = effort * (kFewest + kEach * order_.highest_stack());
+    sweep(step, enough / step.h, static_cast<int>(std::lround(std::clamp(most, 6.0, 300.0))));
     bring_back(step);
     step.move_bodies();
   }
@@ -130,29 +148,29 @@ class QuickSweeps {
  private:
   using Body = QuickBody<D>;
   static constexpr std::size_t kTangents = D - 1;
-  struct Row {
-    Spin<D> turn_a{0.0}, turn_b{0.0}, gained_a{0.0}, gained_b{0.0};
-  };
+  static constexpr double kFewest = 10, kEach = 0.4;  // sweeps, and for each body of a stack
 
-  static const double& at(const double& spin, std::size_t) { return spin; }
-  static const double& at(const Vec<3>& spin, std::size_t i) { return spin[static_cast<int>(i)]; }
-  static double& at(double& spin, std::size_t) { return spin; }
-  static double& at(Vec<3>& spin, std::size_t i) { return spin[static_cast<int>(i)]; }
-
-  static void add(Body& body, std::size_t from, const Vec<D>& velocity, const Spin<D>& spin) {
-    for (std::size_t i = 0; i < D; ++i) body.motion[from + i] += velocity[static_cast<int>(i)];
-    for (std::size_t i = 0; i < Body::kSpin; ++i) body.motion[from + D + i] += at(spin, i);
+  // Of a vector, a spin or a motion.
+  template <class T>
+  static auto numbers_of(const T& x) {
+    return std::bit_cast<std::array<double, sizeof(T) / sizeof(double)>>(x);
+  }
+  static void set(auto& to, std::size_t lane, const auto& value) {
+    for (std::size_t i = 0; i < to.size(); ++i) to[i].lane[lane] = numbers_of(value)[i];
+  }
+  static void add(Body& body, std::size_t from, const Motion<D>& motion) {
+    for (const double number : numbers_of(motion)) body.motion[from++] += number;
   }
   static Motion<D> motion_of(const Body& body, std::size_t from) {
-    Motion<D> motion;
-    for (std::size_t i = 0; i < D; ++i)
-      motion.velocity[static_cast<int>(i)] = body.motion[from + i];
-    for (std::size_t i = 0; i < Body::kSpin; ++i) at(motion.spin, i) = body.motion[from + D + i];
-    return motion;
+    decltype(numbers_of(Motion<D>())) numbers;
+    std::copy_n(body.motion.begin() + static_cast<std::ptrdiff_t>(from), numbers.size(),
+                numbers.begin());
+    return std::bit_cast<Motion<D>>(numbers);
   }
 
   void arrange(const Island<D>& island) {
     const Vec<D>& gravity = island.forces.gravity;
+    const double pull = glm::length(gravity);
     const auto moving = [&](std::uint32_t i) {
       const SolverBody<D>& body = island.solver_bodies[i];
       const bool moves = body.inverse_mass != 0 || body.inverse_inertia != Inertia<D>(0.0);
@@ -166,7 +184,8 @@ class QuickSweeps {
     for (const IslandPair<D>& pair : island.pairs) {
       if (pair.rows.count == 0) continue;
       const std::uint32_t a = moving(pair.rows.a), b = moving(pair.rows.b);
-      order_.add(a, b, pair.rows.count, std::max(height(a), height(b)));
+      order_.add(a, b, pair.rows.count, std::max(height(a), height(b)),
+                 pull > 0 ? glm::dot(pair.rows.normal, gravity) / pull : 0);
     }
     groups_.resize(order_.arrange(places_));
     for (std::size_t i = 0; i < groups_.size(); ++i) {
@@ -189,8 +208,7 @@ class QuickSweeps {
   void gather(SubStep<D>& step) {
     Island<D>& island = step.island;
     bodies_.assign(island.bodies.size() + 1, {});
-    for (std::size_t i = 0; i < island.kicked.size(); ++i)
-      add(bodies_[i], 0, island.kicked[i].velocity, island.kicked[i].spin);
+    for (std::size_t i = 0; i < island.kicked.size(); ++i) add(bodies_[i], 0, island.kicked[i]);
     normal_rows_ = 0;
     auto place = places_.begin();
     for (IslandPair<D>& pair : island.pairs) {
@@ -212,29 +230,22 @@ class QuickSweeps {
     group.friction.lane[lane] = rows.friction;
     group.inverse_mass_a.lane[lane] = a.inverse_mass;
     group.inverse_mass_b.lane[lane] = b.inverse_mass;
-    const auto set = [&](std::array<Four, D>& to, const Vec<D>& direction) {
-      for (std::size_t i = 0; i < D; ++i) to[i].lane[lane] = direction[static_cast<int>(i)];
-    };
     const std::array<Vec<D>, kTangents> across = tangents(rows.normal);
-    set(group.normal, rows.normal);
-    for (std::size_t k = 0; k < kTangents; ++k) set(group.across[k], across[k]);
-    // Adds a row, along which there is the impulse `begins`, and a push.
-    const auto add_row = [&](const ContactPoint<D>& p, const Vec<D>& direction, QuickRow<D>& to,
+    set(group.normal, lane, rows.normal);
+    for (std::size_t k = 0; k < kTangents; ++k) set(group.across[k], lane, across[k]);
+    // Sets a row, along which there are an impulse and a push to begin with.
+    const auto set_row = [&](const ContactPoint<D>& p, const Vec<D>& direction, QuickRow<D>& to,
                              double begins, double push) {
-      Row row{cross(p.arm_a, direction), cross(p.arm_b, direction)};
-      row.gained_a = a.inverse_inertia * row.turn_a;
-      row.gained_b = b.inverse_inertia * row.turn_b;
-      for (std::size_t i = 0; i < Body::kSpin; ++i) {
-        to.turn_a[i].lane[lane] = at(row.turn_a, i);
-        to.turn_b[i].lane[lane] = at(row.turn_b, i);
-        to.gained_a[i].lane[lane] = at(row.gained_a, i);
-        to.gained_b[i].lane[lane] = at(row.gained_b, i);
-      }
-      const auto begin = [&](std::size_t from, double impulse) {
-        if (impulse == 0) return;
-        add(bodies_[rows.a], from, -direction * (impulse * a.inverse_mass),
-            -row.gained_a * impulse);
-        add(bodies_[rows.b], from, direction * (impulse * b.inverse_mass), row.gained_b * impulse);
+      const Spin<D> turn_a = cross(p.arm_a, direction), turn_b = cross(p.arm_b, direction);
+      const Spin<D> gained_a = a.inverse_inertia * turn_a, gained_b = b.inverse_inertia * turn_b;
+      set(to.turn_a, lane, turn_a);
+      set(to.turn_b, lane, turn_b);
+      set(to.gained_a, lane, gained_a);
+      set(to.gained_b, lane, gained_b);
+      const auto begin = [&](std::size_t from, double x) {
+        if (x == 0) return;
+        add(bodies_[rows.a], from, {-direction * (x * a.inverse_mass), -gained_a * x});
+        add(bodies_[rows.b], from, {direction * (x * b.inverse_mass), gained_b * x});
       };
       begin(0, begins);
       begin(Body::kPushed, push);
@@ -250,11 +261,11 @@ class QuickSweeps {
       double& push = point.push.lane[lane];
       push = std::max(push * (1 - kRowSettings.pushed_out), -p.pn);
       point.pn.now.lane[lane] = p.pn;
-      add_row(p, rows.normal, point.normal, p.pn, push);
+      set_row(p, rows.normal, point.normal, p.pn, push);
       point.tangent_mass.lane[lane] = inverse(p.inverse_tangent_mass);
       for (std::size_t k = 0; k < kTangents; ++k) {
         point.pt[k].now.lane[lane] = glm::dot(p.pt, across[k]);
-        add_row(p, across[k], point.tangent[k], point.pt[k].now.lane[lane], 0);
+        set_row(p, across[k], point.tangent[k], point.pt[k].now.lane[lane], 0);
       }
     }
   }
@@ -266,11 +277,10 @@ class QuickSweeps {
   // than before, it went too far, and begins anew (O'Donoghue and Candes, "Adaptive restart for
   // accelerated gradient schemes", 2015).
   void sweep(SubStep<D>& step, double enough, int most) {
-    constexpr double kTooFar = 1.5;  // squared changes, over those of the sweep before
     constexpr std::size_t kAtATime = 64;
     QuickSweep sweep;
     ways_.assign(bodies_.size(), {});
-    double squared_before = 0, run = 0;
+    double squared_before = std::numeric_limits<double>::infinity(), run = 0;
     for (int i = 1;; ++i) {
       old_ = bodies_;
       sweep.largest = sweep.squared = {};
@@ -284,7 +294,7 @@ class QuickSweeps {
       step.work.friction_rows += sweep.friction_rows;
       if (std::ranges::max(sweep.largest.lane) <= enough || i == most) return;
       const double squared = sweep.squared.sum();
-      sweep.goes_on = i == 1 || squared <= kTooFar * squared_before;
+      sweep.goes_on = squared <= squared_before;
       squared_before = squared;
       run = sweep.goes_on ? run + 1 : 0;
       sweep.beta = run / (run + 3);
@@ -306,10 +316,8 @@ class QuickSweeps {
   double share_without_work(const SubStep<D>& step) {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       old_[i] = {};
-      if (i < step.island.kicked.size())
-        add(old_[i], 0, step.island.kicked[i].velocity, step.island.kicked[i].spin);
-      const Motion<D> now = motion_of(bodies_[i], 0);
-      add(old_[i], Body::kPushed, now.velocity, now.spin);
+      if (i < step.island.kicked.size()) add(old_[i], 0, step.island.kicked[i]);
+      add(old_[i], Body::kPushed, motion_of(bodies_[i], 0));
     }
     QuickWork work;
     vectors_.work(groups_, old_.data(), work);

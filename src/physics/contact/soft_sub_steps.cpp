@@ -30,16 +30,13 @@ struct QuickSettings {
   // Pairs for each body: no more touch unless bodies lie in heaps inside each other. Those are
   // swept so, too: how fast they part is limited, and by what impulses exactly is of no account.
   std::size_t crowd = 16;
-  double usual_error = 0.01;  // at which a step is one part of at most sixteen sweeps
-  // How a step of a pile is best spent at an error: measured on piles of 300 to 2,000 boxes. What
+  double usual_error = 0.01;  // at which a step is one part
+  // How a step of a pile is best spent at an error: measured on piles of 300 to 5,000 boxes. What
   // surrounds the sweeps of a part costs as much as ten of them.
   int parts(double error) const {
     return std::max(1, static_cast<int>(std::lround(geometry::pow(usual_error / error, 0.3))));
   }
-  int most_sweeps(double error) const {
-    const double most = 16 * geometry::pow(usual_error / error, 0.4);
-    return static_cast<int>(std::lround(std::clamp(most, 6.0, 200.0)));
-  }
+  double effort(double error) const { return geometry::pow(usual_error / error, 0.4); }
 };
 constexpr QuickSettings kQuickSettings;
 
@@ -58,8 +55,8 @@ void soft_sub_steps(const IslandMove<D>& move) {
     quick.begin();
     const int parts = std::min(kQuickSettings.parts(error), config.sub_steps);
     const double enough = kQuickSettings.last_move * error;
-    const int most = kQuickSettings.most_sweeps(error);
-    made_in_sub_steps<D>(move, parts, [&](SubStep<D>& step) { quick.make(step, enough, most); });
+    const double effort = kQuickSettings.effort(error);
+    made_in_sub_steps<D>(move, parts, [&](SubStep<D>& step) { quick.make(step, enough, effort); });
   } else {
     in_sub_steps<D>(move, config.sub_steps, settle_directly<D>());
   }
