@@ -20,11 +20,16 @@ struct Store {
 };
 constinit thread_local Store store;
 
+void* from_system(std::size_t bytes) {
+  return ::operator new(bytes, std::align_val_t(kScratchAlignment));
+}
+void to_system(void* memory) { ::operator delete(memory, std::align_val_t(kScratchAlignment)); }
+
 struct Closer {  // when the thread ends
   ~Closer() {
     store.closed = true;
     for (Free*& first : store.free)
-      while (first != nullptr) ::operator delete(std::exchange(first, first->next));
+      while (first != nullptr) to_system(std::exchange(first, first->next));
   }
 };
 
@@ -36,7 +41,7 @@ int power_of(std::size_t bytes) {
 
 void* take_scratch(std::size_t bytes) {
   const int power = power_of(bytes);
-  if (power > kMost) return ::operator new(bytes);
+  if (power > kMost) return from_system(bytes);
   Free*& first = store.free[static_cast<std::size_t>(power)];
   if (first != nullptr) return std::exchange(first, first->next);
   return ::operator new (std::size_t{1} << power);
@@ -46,7 +51,7 @@ void give_scratch_back(void* memory, std::size_t bytes) noexcept {
   thread_local const Closer closer;
   static_cast<void>(closer);
   const int power = power_of(bytes);
-  if (power > kMost || store.closed) return ::operator delete(memory);
+  if (power > kMost || store.closed) return to_system(memory);
   Free*& first = store.free[static_cast<std::size_t>(power)];
   first = new (memory) Free{first};
 }

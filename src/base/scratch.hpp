@@ -9,15 +9,16 @@
 
 namespace lantern {
 
-// Of at least so many bytes, aligned as by operator new, which may throw. Whoever gives it back
-// says as many. Each thread has a store of its own, in sizes of powers of two; what is larger than
-// 64 MiB is not stored.
+// Of at least so many bytes, on a cache line of its own, from operator new, which may throw.
+// Whoever gives it back says as many. Each thread has a store of its own, in sizes of powers of
+// two; what is larger than 64 MiB is not stored.
+inline constexpr std::size_t kScratchAlignment = 64;
 void* take_scratch(std::size_t bytes);
 void give_scratch_back(void* memory, std::size_t bytes) noexcept;
 
 template <class T>
 struct ScratchAllocator {
-  static_assert(alignof(T) <= __STDCPP_DEFAULT_NEW_ALIGNMENT__);
+  static_assert(alignof(T) <= kScratchAlignment);
   using value_type = T;
   ScratchAllocator() = default;
   template <class Other>

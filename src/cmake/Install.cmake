@@ -55,7 +55,8 @@ function(lantern_install_development)
   set(here DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/lantern COMPONENT development)
   list(TRANSFORM lantern_public_rooms PREPEND ${PROJECT_SOURCE_DIR}/src/ OUTPUT_VARIABLE folders)
   # These are not for others: they would ask them for the headers of OpenGL and Highway.
-  install(DIRECTORY ${folders} ${here} FILES_MATCHING PATTERN *.hpp PATTERN gl.hpp EXCLUDE)
+  install(DIRECTORY ${folders} ${here} FILES_MATCHING PATTERN *.hpp
+    PATTERN gl.hpp EXCLUDE PATTERN vector_targets.hpp EXCLUDE)
   install(FILES ${PROJECT_SOURCE_DIR}/src/rooms.hpp ${PROJECT_BINARY_DIR}/include/lantern/version.hpp
     ${here})
   install(FILES ${PROJECT_SOURCE_DIR}/src/app/program.hpp

@@ -21,7 +21,7 @@ struct WorldConfig {
   int sub_steps = 8;  // of soft contacts, 1 ... 1000
   // How exactly soft contacts of many bodies are swept, in units of length. It says into how many
   // parts a step is cut (at most `sub_steps`), and that the sweeps of a part end when the last one
-  // moves no body by more than a two-hundredth of it. 0: all rows are solved at once. It is no
+  // moves no body by more than a thousandth of it. 0: all rows are solved at once. It is no
   // bound of penetration: what falls and turns reaches some hundredths of a unit at any value.
   double wanted_error = 0;
   int iterations = 10;        // of impulse contacts: sweeps a step, 1 ... 100000

@@ -1,4 +1,7 @@
 // An error that is wanted of contacts: what it costs, and what it gives.
+#include "physics/contact/quick_sweeps.hpp"
+
+#include <cstring>
 #include <limits>
 #include <random>
 
@@ -104,11 +107,12 @@ TEST(WantedError, WhatIsExactComesToRest) {
   EXPECT_LT(fastest(world), 1e-6);
 }
 
-TEST(WantedError, MakesNoEnergy) {
-  for (const double error : {0.3, 1e-2}) {
-    World<2> world = heap<2>(quick<2>(error), 28);
+template <int D>
+void no_energy_is_made(int boxes) {
+  for (const double error : {0.3, 1e-2, 1e-3}) {
+    World<D> world = heap<D>(quick<D>(error), boxes);
     const auto energy_of = [&] {
-      const Energy sum = energy<2>(world.bodies(), world.forces());
+      const Energy sum = energy<D>(world.bodies(), world.forces());
       return sum.linear + sum.rotational + sum.gravity;
     };
     const double before = energy_of();
@@ -117,6 +121,21 @@ TEST(WantedError, MakesNoEnergy) {
       EXPECT_LT(energy_of(), before * (1 + 1e-9));
     }
   }
+}
+
+TEST(WantedError, MakesNoEnergyIn2D) { no_energy_is_made<2>(28); }
+TEST(WantedError, MakesNoEnergyIn3D) { no_energy_is_made<3>(24); }
+
+// What is kept for its memory remembers nothing.
+TEST(WantedError, KnowsNothingOfOtherWorlds) {
+  World<2> alone = heap<2>(quick<2>(1e-2), 20);
+  run(alone, 1);
+  World<2> beside = heap<2>(quick<2>(1e-2), 20), larger = heap<2>(quick<2>(1e-3), 36);
+  for (int i = 0; i < 1 / kStep; ++i) {
+    beside.step(kStep);
+    larger.step(kStep);
+  }
+  EXPECT_EQ(beside.hash(), alone.hash());
 }
 
 TEST(WantedError, IsTheSameWhateverTheBroadPhase) {
@@ -142,6 +161,183 @@ TEST(WantedError, LeavesSmallIslandsToTheExactSolve) {
   };
   EXPECT_EQ(run_of(1e-2), run_of(0));
 }
+
+// Groups of contacts of four bodies each, with numbers by chance; the last lane is nobody's.
+template <int D>
+struct Swept {
+  std::vector<QuickGroup<D>> groups{3};
+  std::vector<QuickBody<D>> bodies{std::size_t{8 * 3 + 1}};
+  QuickSweep sweep{true, 0.3, {}, {}, 0};
+  QuickWork work{};
+
+  explicit Swept(unsigned seed) {
+    std::mt19937 random(seed);
+    const auto chance = [&](double lo, double hi) {
+      return std::uniform_real_distribution<double>(lo, hi)(random);
+    };
+    const auto fill = [&](auto&& fours, double lo, double hi) {
+      for (Four& four : fours)
+        for (std::size_t i = 0; i + 1 < kQuickLanes; ++i) four.lane[i] = chance(lo, hi);
+    };
+    const auto fill_one = [&](Four& four, double lo, double hi) {
+      fill(std::span(&four, 1), lo, hi);
+    };
+    const auto fill_row = [&](QuickRow<D>& row) {
+      for (auto* fours : {&row.turn_a, &row.turn_b, &row.gained_a, &row.gained_b})
+        fill(*fours, -1, 1);
+    };
+    const auto fill_impulse = [&](QuickImpulse& impulse, double lo) {
+      for (Four* four : {&impulse.now, &impulse.moved, &impulse.way}) fill_one(*four, lo, 1);
+    };
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+      QuickGroup<D>& group = groups[g];
+      group.points = 1 + random() % QuickGroup<D>::kMostPoints;
+      for (std::uint32_t i = 0; i < kQuickLanes; ++i) {
+        group.a[i] = i < 3 ? static_cast<std::uint32_t>(8 * g) + i : 24;
+        group.b[i] = i < 3 ? static_cast<std::uint32_t>(8 * g + 4) + i : 24;
+      }
+      fill_one(group.friction, 0, 1);
+      if (g == 0) group.friction = {};
+      fill_one(group.inverse_mass_a, 0.5, 2);
+      fill_one(group.inverse_mass_b, 0.5, 2);
+      fill(group.normal, -1, 1);
+      for (auto& across : group.across) fill(across, -1, 1);
+      for (QuickPoint<D>& point : group.room) {
+        fill_row(point.normal);
+        for (auto& row : point.tangent) fill_row(row);
+        fill_one(point.normal_mass, 0.2, 1);
+        fill_one(point.tangent_mass, 0.2, 1);
+        fill_one(point.bias, -1, 1);
+        fill_one(point.wanted_push, 0, 1);
+        fill_impulse(point.pn, 0);
+        for (auto& impulse : point.pt) fill_impulse(impulse, -1);
+      }
+    }
+    for (QuickBody<D>& body : bodies)
+      for (double& number : body.motion) number = chance(-1, 1);
+  }
+
+  bool has_bits_of(const Swept& other) const {
+    const auto alike = [](const auto& x, const auto& y) {
+      return std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0;
+    };
+    const auto alike_four = [&](const Four& x, const Four& y) { return alike(x.lane, y.lane); };
+    bool same = alike(bodies, other.bodies) && alike_four(sweep.largest, other.sweep.largest) &&
+                alike_four(sweep.squared, other.sweep.squared) &&
+                sweep.friction_rows == other.sweep.friction_rows &&
+                alike_four(work.before, other.work.before) &&
+                alike_four(work.after, other.work.after) &&
+                alike_four(work.wanted, other.work.wanted);
+    for (std::size_t g = 0; g < groups.size(); ++g)
+      for (std::size_t i = 0; i < groups[g].points; ++i) {
+        const QuickPoint<D>&x = groups[g].room[i], &y = other.groups[g].room[i];
+        same = same && alike_four(x.push, y.push) && alike_four(x.pn.now, y.pn.now) &&
+               alike_four(x.pn.way, y.pn.way) && alike_four(x.pt[0].now, y.pt[0].now);
+      }
+    return same;
+  }
+};
+
+template <int D>
+void same_on_every_processor() {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    std::vector<Swept<D>> swept;
+    for (const QuickVectors<D>& vectors : quick_vectors<D>()) {
+      swept.emplace_back(seed);
+      Swept<D>& now = swept.back();
+      vectors.sweep(now.groups, now.bodies.data(), now.sweep);
+      vectors.work(now.groups, now.bodies.data(), now.work);
+      EXPECT_FALSE(now.has_bits_of(Swept<D>(seed)));
+      EXPECT_TRUE(now.has_bits_of(swept.front())) << seed << ", " << swept.size();
+    }
+  }
+}
+
+TEST(QuickVectors, FindTheSameOnEveryProcessor) {
+  same_on_every_processor<2>();
+  same_on_every_processor<3>();
+}
+
+TEST(QuickOrder, LeadsEachBodyFromAboveDown) {
+  std::mt19937 random(3);
+  for (int trial = 0; trial < 50; ++trial) {
+    const auto bodies = static_cast<std::uint32_t>(2 + random() % 40);
+    struct Told {
+      std::uint32_t a, b;
+      double height;
+    };
+    std::vector<Told> contacts(random() % 200);
+    const auto moving = [](std::uint32_t body) {
+      return body % 5 != 0 ? body : QuickOrder::kFixed;
+    };
+    QuickOrder order;
+    order.clear(bodies);
+    for (Told& contact : contacts) {
+      const auto a = static_cast<std::uint32_t>(random() % bodies);
+      const auto b = static_cast<std::uint32_t>((a + 1 + random() % (bodies - 1)) % bodies);
+      contact = {moving(a), moving(b), static_cast<double>(random() % 8)};
+      order.add(contact.a, contact.b, 1 + static_cast<int>(random() % 4), contact.height, 0);
+    }
+    Scratch<std::uint32_t> places;
+    const std::size_t groups = order.arrange(places);
+    ASSERT_EQ(places.size(), contacts.size());
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+      EXPECT_LT(places[i], groups * kQuickLanes);
+      for (std::size_t j = 0; j < i; ++j) {
+        EXPECT_NE(places[i], places[j]);
+        const bool below = contacts[i].height <= contacts[j].height;  // else it comes first
+        for (const std::uint32_t body : {contacts[i].a, contacts[i].b}) {
+          if (body == QuickOrder::kFixed || (contacts[j].a != body && contacts[j].b != body))
+            continue;
+          const std::uint32_t first = places[below ? j : i], then = places[below ? i : j];
+          EXPECT_LT(first / kQuickLanes, then / kQuickLanes);
+        }
+      }
+    }
+  }
+}
+
+TEST(QuickOrder, KnowsTheHighestStack) {
+  QuickOrder order;
+  order.clear(6);
+  Scratch<std::uint32_t> places;
+  order.add(0, QuickOrder::kFixed, 2, 0.5, 1);  // 2 upon 1 upon 0
+  order.add(0, 1, 2, 1, -1);
+  order.add(2, 1, 2, 2, 0.9);
+  order.add(3, QuickOrder::kFixed, 2, 0.5, 1);  // 4 upon 3, beside them
+  order.add(4, 3, 2, 1, 1);
+  order.add(1, 4, 2, 1.5, 0.1);
+  order.arrange(places);
+  EXPECT_EQ(order.highest_stack(), 3u);
+}
+
+// Boxes in columns of twenty, each a little above the next, numbered from below or from above.
+template <int D>
+World<D> columns(bool from_above, double shift) {
+  constexpr int kHigh = 20, kWide = 3;
+  World<D> world(quick<D>(1e-2));
+  world.add(floor_at<D>());
+  for (int i = 0; i < kHigh * kWide; ++i) {
+    const int row = from_above ? kHigh - 1 - i / kWide : i / kWide;
+    world.add(
+        box_at<D>(along<D>(1.01 * (i % kWide) + shift * std::sin(7.0 * row), 0.52 + 1.02 * row)));
+  }
+  return world;
+}
+
+// Loads come down in one sweep, whatever the numbers of the bodies.
+template <int D>
+void columns_stand() {
+  for (const double shift : {0.0, 0.02, 0.05}) {
+    World<D> up = columns<D>(false, shift), down = columns<D>(true, shift);
+    const double depth = worst_mean_depth(up, 1);
+    EXPECT_LT(depth, 1.5e-3) << shift;
+    EXPECT_NEAR(worst_mean_depth(down, 1), depth, 0.03 * depth) << shift;
+  }
+}
+
+TEST(WantedError, HighColumnsStandWhateverTheirNumbersIn2D) { columns_stand<2>(); }
+TEST(WantedError, HighColumnsStandWhateverTheirNumbersIn3D) { columns_stand<3>(); }
 
 TEST(WantedError, IsRefusedIfItIsNone) {
   for (const double error :

@@ -110,11 +110,10 @@ TableDoc world_table() {
           range(1, 64)),
       key(&W::wanted_error, "wanted_error",
           "How exactly soft contacts of many bodies are swept, in units: sweeps end when the last "
-          "one moves no body by more than a two-hundredth of it, or after 4 to 200; the larger it "
-          "is, the fewer `sub_steps` are made. 0.01 is quick, 0.0001 is slow, 0 solves all rows at "
+          "one moves no body by more than a thousandth of it, or after 6 to 300; the larger it is, "
+          "the fewer `sub_steps` are made. 0.01 is quick, 0.0001 is slow, 0 solves all rows at "
           "once. It is no bound: what falls and turns may for a while lie some hundredths of a "
-          "unit "
-          "in another at any value.",
+          "unit in another at any value.",
           range(0, 1)),
       key(&W::iterations, "iterations",
           "Sweeps over the velocities in a world step, and as many over the positions. Ten hold a "

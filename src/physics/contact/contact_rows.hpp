@@ -117,7 +117,7 @@ struct ContactRows {
     for (int i = 0; i < manifold.count; ++i) {
       const auto at = static_cast<std::size_t>(i);
       const ManifoldPoint<D>& from = manifold.room[at];
-      ContactPoint<D> p;
+      ContactPoint<D>& p = room[at] = {};
       p.feature = from.feature;
       p.round_a = normal * roundness(body_a.shape);
       p.round_b = normal * -roundness(body_b.shape);
@@ -129,7 +129,6 @@ struct ContactRows {
       p.share = where_impulses_act(body_a, p.core_a, body_b, p.core_b);
       p.offset =
           from.separation - glm::dot(normal, (body_b.position - body_a.position) + to_b - to_a);
-      room[at] = p;
     }
     if (remembered != nullptr) take_over(manifold, *remembered, scale);
   }

@@ -37,32 +37,39 @@ class SubStep {
 
   // Forces act, rows are made where bodies are, and begin with the impulses that they have.
   void begin() {
-    stop_if_asked();
-    find_increments_if_any<D>(config, island.bodies, island.forces, h, island.increments, work);
-    take_half_way();
-    island.set_solver_bodies();
-    const auto& kicks = island.increments;
-    each_pair([&](ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b) {
-      const Vec<D> kick_a = kicks[rows.a].kick, kick_b = kicks[rows.b].kick;
-      const double way = h * std::max(glm::length(kick_a), glm::length(kick_b));
-      rows.refresh(island.bodies[rows.a], island.bodies[rows.b], island.axes[rows.a],
-                   island.axes[rows.b], a, b,
-                   kRowSettings.bounce_steps * glm::length(kick_b - kick_a),
-                   kRowSettings.touching_way * way);
-    });
+    find_motion();
+    each_pair([&](auto& rows, auto&, auto&) { refresh(rows); });
     each_joint([&](JointRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b) {
       rows.refresh(island.bodies[rows.a], island.bodies[rows.b], a, b);
     });
     touches_ = std::ranges::any_of(island.pairs, &IslandPair<D>::may_press);
     joints_at_once_ = island.joint_block.refresh(island.joints, island.solver_bodies);
-    for (std::size_t i = 0; i < island.solver_bodies.size(); ++i) {
-      SolverBody<D>& body = island.solver_bodies[i];
-      body.velocity += island.increments[i].kick;
-      body.spin += body.inverse_inertia * island.increments[i].twist;
-    }
-    island.kicked.assign(island.solver_bodies.begin(), island.solver_bodies.end());
+    for (std::size_t i = 0; i < island.kicked.size(); ++i)
+      static_cast<Motion<D>&>(island.solver_bodies[i]) = island.kicked[i];
     each_joint([](auto& rows, auto& a, auto& b) { rows.warm_start(a, b); });
     each_pair([](auto& rows, auto& a, auto& b) { rows.warm_start(a, b); });
+  }
+
+  // The bodies as constraints see them, and how forces kick them.
+  void find_motion() {
+    stop_if_asked();
+    find_increments_if_any<D>(config, island.bodies, island.forces, h, island.increments, work);
+    take_half_way();
+    island.set_solver_bodies();
+    island.kicked.assign(island.solver_bodies.begin(), island.solver_bodies.end());
+    for (std::size_t i = 0; i < island.kicked.size(); ++i) {
+      island.kicked[i].velocity += island.increments[i].kick;
+      island.kicked[i].spin += island.solver_bodies[i].inverse_inertia * island.increments[i].twist;
+    }
+  }
+
+  void refresh(ContactRows<D>& rows) {
+    const Vec<D> kick_a = island.increments[rows.a].kick, kick_b = island.increments[rows.b].kick;
+    const double way = h * std::max(glm::length(kick_a), glm::length(kick_b));
+    rows.refresh(island.bodies[rows.a], island.bodies[rows.b], island.axes[rows.a],
+                 island.axes[rows.b], island.solver_bodies[rows.a], island.solver_bodies[rows.b],
+                 kRowSettings.bounce_steps * glm::length(kick_b - kick_a),
+                 kRowSettings.touching_way * way);
   }
 
   // Once over all rows, joints last. Every other `turn` goes backwards, so that neither end of a
@@ -108,10 +115,8 @@ class SubStep {
         add(pair.rows, p, pair.rows.normal * p.pn + p.pt);
         wanted += p.pn * (p.bounce - p.gap / h);
       }
-    const double changed = after - before;
-    wanted = std::min(wanted, std::max(-before, 0.0));
-    if (!(after - wanted > kRowSettings.work_by_rounding * changed)) return;
-    const double share = std::clamp((wanted - before) / changed, 0.0, 1.0);
+    const double share = share_without_work(before, after, wanted);
+    if (share == 1) return;
     for (std::size_t i = 0; i < island.solver_bodies.size(); ++i) {
       SolverBody<D>& body = island.solver_bodies[i];
       const auto& [velocity, spin] = island.kicked[i];
@@ -125,6 +130,14 @@ class SubStep {
         p.pn *= share;
         p.pt *= share;
       }
+  }
+
+  // Of impulses whose work is in proportion to the sum of both.
+  static double share_without_work(double before, double after, double wanted) {
+    const double changed = after - before;
+    wanted = std::min(wanted, std::max(-before, 0.0));
+    if (!(after - wanted > kRowSettings.work_by_rounding * changed)) return 1;
+    return std::clamp((wanted - before) / changed, 0.0, 1.0);
   }
 
   void find_mean_velocities() {
@@ -173,6 +186,21 @@ class SubStep {
 
   // Moves the bodies, and notes what touched and how hard.
   void end() {
+    move_bodies();
+    if (joints_at_once_) hold_joints();
+    for (IslandPair<D>& pair : island.pairs) {
+      stop_if_asked();
+      note_touch(pair);
+    }
+  }
+
+  static void note_touch(IslandPair<D>& pair) {
+    pair.record_impulses();
+    for (const ContactPoint<D>& p : pair.rows.points())
+      if (p.pn > 0 || p.separation <= 0) pair.touched = true;
+  }
+
+  void move_bodies() {
     for (std::size_t i = 0; i < island.bodies.size(); ++i) {
       Body<D>& body = island.bodies[i];
       const SolverBody<D>& solved = island.solver_bodies[i];
@@ -191,13 +219,6 @@ class SubStep {
       turn_freely(body, h, body.rotation.value_or(config.rotation), solved.lag);
       if (pushed != Spin<D>(0.0)) turn_with_momentum(body, Spin<D>(pushed * h));
       ++work.rotations_integrated;
-    }
-    if (joints_at_once_) hold_joints();
-    for (IslandPair<D>& pair : island.pairs) {
-      stop_if_asked();
-      pair.record_impulses();
-      for (const ContactPoint<D>& p : pair.rows.points())
-        if (p.pn > 0 || p.separation <= 0) pair.touched = true;
     }
   }
 
@@ -286,8 +307,8 @@ inline double rescaled(double seconds, double old) { return std::min(seconds / o
 template <int D>
 class SubSteps {
  public:
-  SubSteps(const IslandMove<D>& move, FunctionRef<void(SubStep<D>&)> solve)
-      : move_(move), island_(move.island), solve_(solve) {}
+  SubSteps(const IslandMove<D>& move, FunctionRef<void(SubStep<D>&)> make)
+      : move_(move), island_(move.island), make_(make) {}
 
   void run(int sub_steps) {
     const double h = move_.h, whole = move_.whole;
@@ -312,9 +333,7 @@ class SubSteps {
  private:
   void make(double seconds) {
     SubStep<D> part(move_, seconds);
-    part.begin();
-    solve_(part);
-    part.end();
+    make_(part);
   }
 
   void fly_all() {
@@ -408,16 +427,26 @@ class SubSteps {
 
   const IslandMove<D>& move_;
   Island<D>& island_;
-  FunctionRef<void(SubStep<D>&)> solve_;
+  FunctionRef<void(SubStep<D>&)> make_;
 };
 
 // Moves the island in parts of which `sub_steps` make a whole step. Contacts are looked at once;
-// `solve` finds the impulses of a part and corrects positions, between its begin and its end. If
-// nothing touches, there are no parts: all fly, or move as their joints let them
-// (joint/constrained_motion.hpp).
+// `make` makes a part. If nothing touches, there are no parts: all fly, or move as their joints let
+// them (joint/constrained_motion.hpp).
+template <int D>
+void made_in_sub_steps(const IslandMove<D>& move, int sub_steps,
+                       FunctionRef<void(SubStep<D>&)> make) {
+  SubSteps<D>(move, make).run(sub_steps);
+}
+
+// `solve` finds the impulses of a part and corrects positions, between its begin and its end.
 template <int D>
 void in_sub_steps(const IslandMove<D>& move, int sub_steps, FunctionRef<void(SubStep<D>&)> solve) {
-  SubSteps<D>(move, solve).run(sub_steps);
+  made_in_sub_steps<D>(move, sub_steps, [&](SubStep<D>& part) {
+    part.begin();
+    solve(part);
+    part.end();
+  });
 }
 
 // The same, in which all rows of a part are solved at once (direct_solve.cpp).

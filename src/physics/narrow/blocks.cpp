@@ -43,18 +43,20 @@ constexpr std::uint32_t name_of(std::uint32_t line_in, std::uint32_t line_out) {
 }
 
 // A face has 4 corners and each of the 4 sides that cut it adds one. Rounding may fray a corner, so
-// there is room for more; beyond it corners are left out.
-constexpr std::size_t kMostCorners = 12;
+// there is room for more; beyond it corners are left out. An edge has 2, however it is cut.
+template <int D>
+constexpr std::size_t kMostCorners = D == 2 ? 2 : 12;
 
 template <int D>
 struct Outline {
-  std::array<Corner<D>, kMostCorners> room;  // not set beyond the count: thousands are made a step
+  std::array<Corner<D>, kMostCorners<D>>
+      room;  // not set beyond the count: thousands are made a step
   int count = 0;
 
   Corner<D>& operator[](int i) { return room[static_cast<std::size_t>(i)]; }
   const Corner<D>& operator[](int i) const { return room[static_cast<std::size_t>(i)]; }
   void add(const Corner<D>& corner) {
-    if (count < static_cast<int>(kMostCorners)) (*this)[count++] = corner;
+    if (count < static_cast<int>(kMostCorners<D>)) (*this)[count++] = corner;
   }
 };
 
@@ -131,8 +133,9 @@ double distance_to(const PlacedCore<D>& block, const Vec<D>& point) {
 // The deepest point, the one farthest from it, and on each side of the line through both the one
 // that spans the largest triangle; no more if the points lie on a line. So that rounding does not
 // swap equal ones, a later point must be deeper by `slack`, or wider by a part of 1e-6.
-Scratch<int> widest_four(const Outline<3>& outline, const std::array<double, kMostCorners>& heights,
-                         const Vec<3>& normal, double slack) {
+Scratch<int> widest_four(const Outline<3>& outline,
+                         const std::array<double, kMostCorners<3>>& heights, const Vec<3>& normal,
+                         double slack) {
   const auto height = [&](int i) { return heights[static_cast<std::size_t>(i)]; };
   int deepest = 0;
   for (int i = 1; i < outline.count; ++i)
@@ -176,7 +179,8 @@ Outline<D> clipped_face(const PlacedCore<D>& reference, int axis, const PlacedCo
   return outline;
 }
 
-// A contact of two blocks and how far its closest point really is from the other core.
+// A contact of two blocks, and, of cores that are apart, how far its closest point really is from
+// the other core.
 template <int D>
 struct FaceContact {
   Manifold<D> manifold;
@@ -189,7 +193,7 @@ struct FaceContact {
 // reference.
 template <int D>
 FaceContact<D> face_contact(const PlacedCore<D>& reference, const PlacedCore<D>& other, int axis,
-                            const Vec<D>& normal, double margin) {
+                            const Vec<D>& normal, double margin, bool apart) {
   const double slack = kSlack * smallest_half(reference, other);
   const double sign = glm::dot(reference.axes[axis], normal) < 0 ? -1 : 1;
   const Vec<D> outward = reference.axes[axis] * sign;
@@ -200,29 +204,31 @@ FaceContact<D> face_contact(const PlacedCore<D>& reference, const PlacedCore<D>&
   FaceContact<D> contact;
   contact.manifold.normal = normal;
   contact.least_distance = std::numeric_limits<double>::infinity();
-  std::array<double, kMostCorners> heights;
+  std::array<double, kMostCorners<D>> heights;
   Outline<D> close;
   const Outline<D> outline = clipped_face(reference, axis, other, face, slack);
   for (int i = 0; i < outline.count; ++i) {
     const Vec<D> p = outline[i].point;
-    contact.least_distance = std::min(contact.least_distance, distance_to(reference, p));
+    if (apart) contact.least_distance = std::min(contact.least_distance, distance_to(reference, p));
     const double height = (glm::dot(p - reference.center, outward) - reference.half[axis]) / cosine;
     if (height - radii > margin) continue;
     heights[static_cast<std::size_t>(close.count)] = height;
     close.add(outline[i]);
   }
 
-  Scratch<int> widest;
-  if constexpr (D == 3)
-    if (close.count > 4) widest = widest_four(close, heights, normal, slack);
   const std::uint32_t faces =
       static_cast<std::uint32_t>(axis * 2 + (sign > 0 ? 1 : 0)) << 3 | face.name();
-  for (int n = 0; n < (widest.empty() ? close.count : static_cast<int>(widest.size())); ++n) {
-    const int i = widest.empty() ? n : widest[static_cast<std::size_t>(n)];
+  const auto add = [&](int i) {
     const double separation = heights[static_cast<std::size_t>(i)] - radii;
     contact.manifold.add({close[i].point - normal * (other.radius + separation / 2), separation,
                           faces << 6 | close[i].name});
-  }
+  };
+  if constexpr (D == 3)
+    if (close.count > 4) {
+      for (const int i : widest_four(close, heights, normal, slack)) add(i);
+      return contact;
+    }
+  for (int i = 0; i < close.count; ++i) add(i);
   return contact;
 }
 
@@ -241,10 +247,11 @@ void mark(Manifold<D>& manifold, std::uint32_t kind) {
 // `normal` is the face's or leans a little.
 template <int D>
 FaceContact<D> contact_on_face(const SeparatingAxis<D>& face, const PlacedCore<D>& a,
-                               const PlacedCore<D>& b, const Vec<D>& normal, double margin) {
+                               const PlacedCore<D>& b, const Vec<D>& normal, double margin,
+                               bool apart) {
   const bool of_a = face.across == AxisAcross::face_of_a;
-  FaceContact<D> contact = of_a ? face_contact(a, b, face.axis_a, normal, margin)
-                                : face_contact(b, a, face.axis_b, -normal, margin);
+  FaceContact<D> contact = of_a ? face_contact(a, b, face.axis_a, normal, margin, apart)
+                                : face_contact(b, a, face.axis_b, -normal, margin, apart);
   contact.manifold.normal = normal;
   mark(contact.manifold, of_a ? kFaceOfA : kFaceOfB);
   return contact;
@@ -287,10 +294,10 @@ FaceContact<3> contact_of_edges(const PlacedCore<3>& a, const PlacedCore<3>& b,
 
 template <int D>
 FaceContact<D> contact_on(const SeparatingAxis<D>& axis, const PlacedCore<D>& a,
-                          const PlacedCore<D>& b, double margin) {
+                          const PlacedCore<D>& b, double margin, bool apart) {
   if constexpr (D == 3)
     if (axis.across == AxisAcross::edges) return contact_of_edges(a, b, axis);
-  return contact_on_face(axis, a, b, axis.normal, margin);
+  return contact_on_face(axis, a, b, axis.normal, margin, apart);
 }
 
 template <int D>
@@ -321,7 +328,7 @@ Manifold<D> contact_of_closest(const PlacedCore<D>& a, const PlacedCore<D>& b,
   const double radii = a.radius + b.radius, exact = normal.length - radii;
   const double size = radii + smallest_half(a, b);
   const double near = std::min(margin, exact + 0.1 * size);
-  Manifold<D> many = contact_on_face(face, a, b, normal.unit, near).manifold;
+  Manifold<D> many = contact_on_face(face, a, b, normal.unit, near, false).manifold;
   // Heights along the leaning normal are nearly distances, or the face is not what is closest.
   if (many.count < 2 || std::abs(least_separation(many) - exact) > 1e-3 * size) return single;
   set_least_separation(many, exact);
@@ -336,7 +343,7 @@ Contact<D> contact_if_exact(const SeparatingAxis<D>& axis, const PlacedCore<D>& 
   const bool apart = bound > rounding;
   if (apart && (axis.across == AxisAcross::edges || axis.separation < bound - rounding))
     return std::nullopt;  // they may still have a face's points, along another normal
-  FaceContact<D> contact = contact_on(axis, a, b, margin);
+  FaceContact<D> contact = contact_on(axis, a, b, margin, apart);
   if (contact.manifold.count == 0) return std::nullopt;
   const double allowed = apart ? rounding : kAxisBias * smallest_half(a, b) + rounding;
   const double exact = axis.separation - a.radius - b.radius;

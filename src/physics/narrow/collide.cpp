@@ -243,15 +243,17 @@ template <int D>
 std::optional<Manifold<D>> collide(const Placed<D>& a, const Placed<D>& b, double margin,
                                    NarrowTrace<D>& trace) {
   const Vec<D> offset = b.position - a.position;
-  const auto at_origin = narrow::placing_of(a, Vec<D>(0.0));
-  const auto at_offset = narrow::placing_of(b, offset);
-  const bool in_order = narrow::is_in_order<D>(at_origin, at_offset, offset);
+  auto placed_a = narrow::placing_of(a, Vec<D>(0.0));
+  auto placed_b = narrow::placing_of(b, offset);
+  const bool in_order = narrow::is_in_order<D>(placed_a, placed_b, offset);
   const Placed<D>& first = in_order ? a : b;
   const std::size_t told = trace.axes ? trace.axes->size() : 0;
-  auto contact = in_order ? narrow::touch_in_order<D>(at_origin, at_offset, margin, trace)
-                          : narrow::touch_in_order<D>(
-                                narrow::placing_of(b, Vec<D>(0.0)),
-                                narrow::placing_of(a, a.position - b.position), margin, trace);
+  if (!in_order) {
+    narrow::place(placed_a, a.position - b.position);
+    narrow::place(placed_b, Vec<D>(0.0));
+  }
+  auto contact = in_order ? narrow::touch_in_order<D>(placed_a, placed_b, margin, trace)
+                          : narrow::touch_in_order<D>(placed_b, placed_a, margin, trace);
   if (!in_order && trace.axes) narrow::turn_over<D>(std::span(*trace.axes).subspan(told));
   if (!contact) return contact;
   if (!in_order) contact->normal = -contact->normal;

@@ -94,6 +94,12 @@ Placing<D> placing_of(const Placed<D>& placed, const Vec<D>& center) {
                     placed.shape);
 }
 
+template <int D>
+void place(Placing<D>& placing, const Vec<D>& center) {
+  if (auto* core = std::get_if<PlacedCore<D>>(&placing)) core->center = center;
+  if (auto* wall = std::get_if<Wall<D>>(&placing)) wall->point = center;
+}
+
 // Calls f(corner, name) for each corner of a core; those that coincide, for want of thickness,
 // once.
 template <int D, class F>
