@@ -8,12 +8,9 @@
 // error is wanted are swept for as long as that takes, and in fewer parts (QuickSweeps); so are
 // heaps of bodies inside each other.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <vector>
 
-#include "base/stop.hpp"
 #include "geometry/elementary.hpp"
 #include "physics/contact/contact_solver.hpp"
 #include "physics/contact/quick_sweeps.hpp"
