@@ -4,6 +4,10 @@
 // go, and the rest is solved again (an active set, as in Dantzig's method: Baraff, "Fast Contact
 // Force Computation for Nonpenetrating Rigid Bodies", 1994).
 //
+// That is quick, and may find no end, or friction that is not mu times what presses in the end.
+// Where the sweeps after it still change impulses, and this matters, all is found from anywhere by
+// Newton's method on the cone of friction (cone_newton.hpp).
+//
 //   K dp = wanted - u     K = J M^-1 J^T: how relative velocities u answer to impulses dp
 //
 // K links only rows that share a body. Rows lie in order of their pairs' ids.
@@ -18,6 +22,7 @@
 #include <span>
 #include <vector>
 
+#include "physics/contact/cone_newton.hpp"
 #include "physics/contact/contact_solver.hpp"
 #include "physics/contact/sub_step.hpp"
 #include "physics/integrate/block_system.hpp"
@@ -34,8 +39,9 @@ struct DirectSettings {
   // less than this part of the largest impulse is good; and what presses less counts for nothing.
   double good_guess = 0.05;
   double presses = 0.01;
-  int most_guesses = 6;    // each lets go of what the last one found to pull or to slip
-  double most_work = 4e6;  // products, for one factor: a few milliseconds
+  double unsettled_joints = 1e-4;  // of the largest impulse, where what joints hold moves
+  int most_guesses = 6;            // each lets go of what the last one found to pull or to slip
+  double most_work = 4e6;          // products, for one factor: a few milliseconds
   // Rows that say the same twice have no factor without a little compliance. What it leaves undone
   // is so small a part of the impulses.
   double compliance = 1e-10;
@@ -46,6 +52,9 @@ constexpr DirectSettings kDirectSettings;
 template <int D>
 class DirectSolve {
  public:
+  // `unsettled`: of the largest impulse; sweeps whose last change is larger are not left alone.
+  explicit DirectSolve(double unsettled) : unsettled_(unsettled) {}
+
   // Finds the impulses of a sub-step that has begun, and corrects its positions.
   void settle(SubStep<D>& step) {
     const auto pairs = static_cast<int>(step.island.pairs.size() + step.island.joints.size());
@@ -59,8 +68,13 @@ class DirectSolve {
       if (sweep.change <= enough * sweep.largest) break;
       if (is_due(step, i + 1, most, sweep)) settled = solve_velocities(step);
     }
+    bool factored = settled;
+    if (is_unsettled(step, sweep) && newton_.solve(step)) {
+      settled = true;
+      factored = solve_velocities(step);  // to rounding, if what holds is certain
+    }
     step.begin_position_correction();
-    if (settled && correct_positions(step, true)) return;
+    if (settled && correct_positions(step, factored)) return;
     for (int i = 0; i < most; ++i) {
       if (step.is_corrected(step.sweep_positions(), sweep.largest)) return;
       // Two did not do: all at once. What slips is done with already and does not matter here.
@@ -161,6 +175,24 @@ class DirectSolve {
         slips |= rows.friction > 0 && p.pn > kDirectSettings.presses * last.largest && !p.sticks;
     });
     return !slips || last.change > kDirectSettings.good_guess * last.largest;
+  }
+
+  // After the last sweep. Where none moved faster than forces make them in a sub-step, and less so
+  // where joints hold bodies, all hangs on what sweeps leave undone. Elsewhere the next ones mend
+  // it.
+  bool is_unsettled(const SubStep<D>& step, const Sweep& last) const {
+    const Island<D>& island = step.island;
+    double fastest = 0, kick = 0;
+    for (std::size_t i = 0; i < island.bodies.size(); ++i) {
+      fastest = std::max(fastest, glm::length(velocity_of(island.bodies[i])));
+      kick = std::max(kick, glm::length(island.increments[i].kick));
+    }
+    const bool hangs = !island.joints.empty(), rests = fastest <= kick;
+    if (!hangs && !rests) return false;
+    const double enough = !hangs  ? unsettled_
+                          : rests ? kRowSettings.no_matter
+                                  : kDirectSettings.unsettled_joints;
+    return last.change > enough * last.largest;
   }
 
   void list_rows(Island<D>& island) {
@@ -318,7 +350,7 @@ class DirectSolve {
         p.pn = 0;
         p.pt = Vec<D>(0.0);
         any = true;
-      } else if (most >= 0 && glm::length(pt) > most) {
+      } else if (most >= 0 && glm::length(pt) > most * (1 + kRowSettings.slip_by_rounding)) {
         p.sticks = false;
         any = true;
       }
@@ -341,6 +373,8 @@ class DirectSolve {
       for (ContactPoint<D>& p : pair.rows.points()) p = *kept++;
   }
 
+  double unsettled_;
+  ConeNewton<D> newton_;
   std::vector<ConstraintRow<D>> rows_;
   std::vector<RowPart> parts_;
   EnvelopeSystem system_;
@@ -352,17 +386,17 @@ class DirectSolve {
 }  // namespace
 
 template <int D>
-std::function<void(SubStep<D>&)> settle_directly() {
-  return [direct = DirectSolve<D>()](SubStep<D>& step) mutable { direct.settle(step); };
+std::function<void(SubStep<D>&)> settle_directly(double unsettled) {
+  return [direct = DirectSolve<D>(unsettled)](SubStep<D>& step) mutable { direct.settle(step); };
 }
 
 template <int D>
 void direct_solve(const IslandMove<D>& move) {
-  in_sub_steps<D>(move, 1, settle_directly<D>());
+  in_sub_steps<D>(move, 1, settle_directly<D>(kRowSettings.no_matter));
 }
 
-template std::function<void(SubStep<2>&)> settle_directly();
-template std::function<void(SubStep<3>&)> settle_directly();
+template std::function<void(SubStep<2>&)> settle_directly(double);
+template std::function<void(SubStep<3>&)> settle_directly(double);
 
 extern const ContactSolver kDirectSolve = {"direct", {direct_solve<2>, direct_solve<3>}};
 

@@ -41,6 +41,9 @@ struct QuickSettings {
 };
 constexpr QuickSettings kQuickSettings;
 
+// Of the largest impulse: where sweeps end with no larger change, the next sub-step mends it.
+constexpr double kUnsettled = 1e-4;
+
 template <int D, class Row>
 inline __attribute__((always_inline)) double speed_along(const Motion<D>& a, const Motion<D>& b,
                                                          const Vec<D>& direction, const Row& row) {
@@ -336,7 +339,7 @@ void soft_sub_steps(const IslandMove<D>& move) {
     const int parts = std::min(kQuickSettings.parts(error), config.sub_steps);
     in_sub_steps<D>(move, parts, [&](SubStep<D>& step) { quick.settle(step, error); });
   } else {
-    in_sub_steps<D>(move, config.sub_steps, settle_directly<D>());
+    in_sub_steps<D>(move, config.sub_steps, settle_directly<D>(kUnsettled));
   }
 }
 

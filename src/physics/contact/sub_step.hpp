@@ -420,8 +420,9 @@ void in_sub_steps(const IslandMove<D>& move, int sub_steps,
   SubSteps<D>(move, solve).run(sub_steps);
 }
 
-// Solves one part after another, all rows at once (direct_solve.cpp).
+// Solves one part after another, all rows at once (direct_solve.cpp). `unsettled`: of the largest
+// impulse; where sweeps still change more in the end, what they began is solved to its end.
 template <int D>
-std::function<void(SubStep<D>&)> settle_directly();
+std::function<void(SubStep<D>&)> settle_directly(double unsettled);
 
 }  // namespace lantern::physics
