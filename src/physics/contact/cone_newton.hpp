@@ -33,9 +33,10 @@ struct ConeNewtonSettings {
   // Of springs, against the mass that each moves: at first and at most, by how much they are made
   // stiffer when Newton's method came to its end, and softer when it did not.
   double softest = 1e2, stiffest = 1e6, stiffer = 10, softer = 100;
-  int most_rounds = 150;  // of Newton's method, each with a factor
-  int some_rounds = 30;   // for the same springs
-  double flat = 0.1;      // of the slope at its start: where a search along a line ends
+  // Rounds of Newton's method, each with a factor: where joints hold bodies, which slip together,
+  // and elsewhere; and for the same springs.
+  int most_rounds_jointed = 150, most_rounds = 60, some_rounds = 30;
+  double flat = 0.1;  // of the slope at its start: where a search along a line ends
   double shortest = 1e-6;
   // How much may be missing. Velocity, squared: of what is missing at first, and of the largest
   // that an impulse gives.
@@ -59,7 +60,9 @@ class ConeNewton {
     stiffness_ = kConeNewtonSettings.softest;
     double& k = stiffness_;
     double share = 1, last_missing = std::numeric_limits<double>::infinity();
-    for (int left = kConeNewtonSettings.most_rounds; left > 0;) {
+    int left = island.joints.empty() ? kConeNewtonSettings.most_rounds
+                                     : kConeNewtonSettings.most_rounds_jointed;
+    while (left > 0) {
       const int rounds = descend(step.work);
       left -= rounds > 0 ? rounds : kConeNewtonSettings.some_rounds;
       if (rounds == 0) {

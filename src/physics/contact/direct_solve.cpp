@@ -69,9 +69,11 @@ class DirectSolve {
       if (is_due(step, i + 1, most, sweep)) settled = solve_velocities(step);
     }
     bool factored = settled;
-    if (is_unsettled(step, sweep) && newton_.solve(step)) {
-      settled = true;
-      factored = solve_velocities(step);  // to rounding, if what holds is certain
+    if (!gave_up_ && is_unsettled(step, sweep)) {
+      gave_up_ = !newton_.solve(step);
+      settled |= !gave_up_;
+      // To rounding, if what holds is certain.
+      if (!gave_up_) factored = solve_velocities(step);
     }
     step.begin_position_correction();
     if (settled && correct_positions(step, factored)) return;
@@ -375,6 +377,7 @@ class DirectSolve {
 
   double unsettled_;
   ConeNewton<D> newton_;
+  bool gave_up_ = false;  // in a sub-step before of the same step
   std::vector<ConstraintRow<D>> rows_;
   std::vector<RowPart> parts_;
   EnvelopeSystem system_;
