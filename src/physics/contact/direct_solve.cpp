@@ -40,8 +40,10 @@ struct DirectSettings {
   double good_guess = 0.05;
   double presses = 0.01;
   double unsettled_joints = 1e-4;  // of the largest impulse, where what joints hold moves
-  int most_guesses = 6;            // each lets go of what the last one found to pull or to slip
-  double most_work = 4e6;          // products, for one factor: a few milliseconds
+  // Of the largest impulse, see `is_unsettled`: in whole steps, where no set of rows held.
+  double unsettled = 2e-3;
+  int most_guesses = 6;    // each lets go of what the last one found to pull or to slip
+  double most_work = 4e6;  // products, for one factor: a few milliseconds
   // Rows that say the same twice have no factor without a little compliance. What it leaves undone
   // is so small a part of the impulses.
   double compliance = 1e-10;
@@ -69,7 +71,7 @@ class DirectSolve {
       if (is_due(step, i + 1, most, sweep)) settled = solve_velocities(step);
     }
     bool factored = settled;
-    if (!gave_up_ && is_unsettled(step, sweep)) {
+    if (!gave_up_ && is_unsettled(step, sweep, settled)) {
       gave_up_ = !newton_.solve(step);
       settled |= !gave_up_;
       // To rounding, if what holds is certain.
@@ -182,7 +184,7 @@ class DirectSolve {
   // After the last sweep. Where none moved faster than forces make them in a sub-step, and less so
   // where joints hold bodies, all hangs on what sweeps leave undone. Elsewhere the next ones mend
   // it.
-  bool is_unsettled(const SubStep<D>& step, const Sweep& last) const {
+  bool is_unsettled(const SubStep<D>& step, const Sweep& last, bool settled) const {
     const Island<D>& island = step.island;
     double fastest = 0, kick = 0;
     for (std::size_t i = 0; i < island.bodies.size(); ++i) {
@@ -191,9 +193,10 @@ class DirectSolve {
     }
     const bool hangs = !island.joints.empty(), rests = fastest <= kick;
     if (!hangs && !rests) return false;
-    const double enough = !hangs  ? unsettled_
-                          : rests ? kRowSettings.no_matter
-                                  : kDirectSettings.unsettled_joints;
+    const bool exact = hangs || (settled && unsettled_ == kDirectSettings.unsettled);
+    const double enough = hangs && !rests ? kDirectSettings.unsettled_joints
+                          : exact         ? kRowSettings.no_matter
+                                          : unsettled_;
     return last.change > enough * last.largest;
   }
 
@@ -395,7 +398,7 @@ std::function<void(SubStep<D>&)> settle_directly(double unsettled) {
 
 template <int D>
 void direct_solve(const IslandMove<D>& move) {
-  in_sub_steps<D>(move, 1, settle_directly<D>(kRowSettings.no_matter));
+  in_sub_steps<D>(move, 1, settle_directly<D>(kDirectSettings.unsettled));
 }
 
 template std::function<void(SubStep<2>&)> settle_directly(double);
