@@ -93,7 +93,8 @@ TableDoc world_table() {
       key(&W::contacts, "contacts",
           "How touching bodies are kept apart: by sequential `impulse`s; by `soft` contacts in "
           "small steps; by the same in whole steps, `direct`ly, which holds pyramids of up to "
-          "3,240 boxes (of more than some thousands, whose equations take more than 8 MB, sweeps "
+          "3,240 boxes, while heaps of hundreds that fell creep, 3e-6 a second (of more than some "
+          "thousands, whose equations take more than 8 MB, sweeps "
           "alone are left, and they creep); by one impulse a pair, as the `lecture` does it; or "
           "not at all. Without a [structure], every pair is tested for it."),
       key(&W::integrator, "integrator",
