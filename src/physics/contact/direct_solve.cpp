@@ -4,6 +4,10 @@
 // go, and the rest is solved again (an active set, as in Dantzig's method: Baraff, "Fast Contact
 // Force Computation for Nonpenetrating Rigid Bodies", 1994).
 //
+// That is quick, and may find no end, or friction that is not mu times what presses in the end.
+// Where the sweeps after it still change impulses, and this matters, all is found from anywhere by
+// Newton's method on the cone of friction (cone_newton.hpp).
+//
 //   K dp = wanted - u     K = J M^-1 J^T: how relative velocities u answer to impulses dp
 //
 // K links only rows that share a body. Rows lie in order of their pairs' ids.
@@ -18,6 +22,7 @@
 #include <span>
 
 #include "base/scratch.hpp"
+#include "physics/contact/cone_newton.hpp"
 #include "physics/contact/contact_solver.hpp"
 #include "physics/contact/sub_step.hpp"
 #include "physics/integrate/block_system.hpp"
@@ -34,6 +39,9 @@ struct DirectSettings {
   // less than this part of the largest impulse is good; and what presses less counts for nothing.
   double good_guess = 0.05;
   double presses = 0.01;
+  double unsettled_joints = 1e-4;  // of the largest impulse, where what joints hold moves
+  // Of the largest impulse, see `is_unsettled`: in whole steps, where no set of rows held.
+  double unsettled = 2e-3;
   int most_guesses = 6;    // each lets go of what the last one found to pull or to slip
   double most_work = 4e6;  // products, for one factor: a few milliseconds
   // Rows that say the same twice have no factor without a little compliance. What it leaves undone
@@ -46,6 +54,9 @@ constexpr DirectSettings kDirectSettings;
 template <int D>
 class DirectSolve {
  public:
+  // `unsettled`: of the largest impulse; sweeps whose last change is larger are not left alone.
+  explicit DirectSolve(double unsettled) : unsettled_(unsettled) {}
+
   // Finds the impulses of a sub-step that has begun, and corrects its positions.
   void settle(SubStep<D>& step) {
     const auto pairs = static_cast<int>(step.island.pairs.size() + step.island.joints.size());
@@ -59,8 +70,15 @@ class DirectSolve {
       if (sweep.change <= enough * sweep.largest) break;
       if (is_due(step, i + 1, most, sweep)) settled = solve_velocities(step);
     }
+    bool factored = settled;
+    if (!gave_up_ && is_unsettled(step, sweep, settled)) {
+      gave_up_ = !newton_.solve(step);
+      settled |= !gave_up_;
+      // To rounding, if what holds is certain.
+      if (!gave_up_) factored = solve_velocities(step);
+    }
     step.begin_position_correction();
-    if (settled && correct_positions(step, true)) return;
+    if (settled && correct_positions(step, factored)) return;
     for (int i = 0; i < most; ++i) {
       if (step.is_corrected(step.sweep_positions(), sweep.largest)) return;
       // Two did not do: all at once. What slips is done with already and does not matter here.
@@ -161,6 +179,25 @@ class DirectSolve {
         slips |= rows.friction > 0 && p.pn > kDirectSettings.presses * last.largest && !p.sticks;
     });
     return !slips || last.change > kDirectSettings.good_guess * last.largest;
+  }
+
+  // After the last sweep. Where none moved faster than forces make them in a sub-step, and less so
+  // where joints hold bodies, all hangs on what sweeps leave undone. Elsewhere the next ones mend
+  // it.
+  bool is_unsettled(const SubStep<D>& step, const Sweep& last, bool settled) const {
+    const Island<D>& island = step.island;
+    double fastest = 0, kick = 0;
+    for (std::size_t i = 0; i < island.bodies.size(); ++i) {
+      fastest = std::max(fastest, glm::length(velocity_of(island.bodies[i])));
+      kick = std::max(kick, glm::length(island.increments[i].kick));
+    }
+    const bool hangs = !island.joints.empty(), rests = fastest <= kick;
+    if (!hangs && !rests) return false;
+    const bool exact = hangs || (settled && unsettled_ == kDirectSettings.unsettled);
+    const double enough = hangs && !rests ? kDirectSettings.unsettled_joints
+                          : exact         ? kRowSettings.no_matter
+                                          : unsettled_;
+    return last.change > enough * last.largest;
   }
 
   void list_rows(Island<D>& island) {
@@ -318,7 +355,7 @@ class DirectSolve {
         p.pn = 0;
         p.pt = Vec<D>(0.0);
         any = true;
-      } else if (most >= 0 && glm::length(pt) > most) {
+      } else if (most >= 0 && glm::length(pt) > most * (1 + kRowSettings.slip_by_rounding)) {
         p.sticks = false;
         any = true;
       }
@@ -341,6 +378,9 @@ class DirectSolve {
       for (ContactPoint<D>& p : pair.rows.points()) p = *kept++;
   }
 
+  double unsettled_;
+  ConeNewton<D> newton_;
+  bool gave_up_ = false;  // in a sub-step before of the same step
   Scratch<ConstraintRow<D>> rows_;
   Scratch<RowPart> parts_;
   EnvelopeSystem system_;
@@ -352,18 +392,18 @@ class DirectSolve {
 }  // namespace
 
 template <int D>
-void solve_directly(const IslandMove<D>& move, int sub_steps) {
-  DirectSolve<D> direct;
+void solve_directly(const IslandMove<D>& move, int sub_steps, double unsettled) {
+  DirectSolve<D> direct(unsettled);
   in_sub_steps<D>(move, sub_steps, [&](SubStep<D>& step) { direct.settle(step); });
 }
 
 template <int D>
 void direct_solve(const IslandMove<D>& move) {
-  solve_directly<D>(move, 1);
+  solve_directly<D>(move, 1, kDirectSettings.unsettled);
 }
 
-template void solve_directly(const IslandMove<2>&, int);
-template void solve_directly(const IslandMove<3>&, int);
+template void solve_directly(const IslandMove<2>&, int, double);
+template void solve_directly(const IslandMove<3>&, int, double);
 
 extern const ContactSolver kDirectSolve = {"direct", {direct_solve<2>, direct_solve<3>}};
 

@@ -449,8 +449,9 @@ void in_sub_steps(const IslandMove<D>& move, int sub_steps, FunctionRef<void(Sub
   });
 }
 
-// The same, in which all rows of a part are solved at once (direct_solve.cpp).
+// The same, in which all rows of a part are solved at once (direct_solve.cpp). `unsettled`: of the
+// largest impulse; where sweeps still change more in the end, what they began is solved to its end.
 template <int D>
-void solve_directly(const IslandMove<D>& move, int sub_steps);
+void solve_directly(const IslandMove<D>& move, int sub_steps, double unsettled);
 
 }  // namespace lantern::physics
