@@ -184,15 +184,13 @@ struct World<D>::Step : World<D>::StepIslands {
   // Whether all bodies were looked for where they have been; if not, `reach` has grown.
   bool stayed_within_reach() {
     if (!locates_impacts()) return true;
-    // What is pushed apart goes no farther than it is allowed to; only an impact does.
-    if (world.config_.wanted_error > 0 && !struck) return true;
+    // What is pushed apart goes no farther than it is allowed to; only an impact does, or a lever.
+    if (world.config_.wanted_error > 0.0 && !struck && !met_unforeseen()) return true;
     bool stayed = true;
     for (std::size_t i = 0; i < moved.size(); ++i) {
       if (!moved[i].is_pushed()) continue;
-      const double way = std::max(glm::length(moved[i].position - world.bodies_[i].position),
-                                  i < farthest.size() ? farthest[i] : 0);
-      if (way <= reach[i] * (1 + kStepSettings.rounding)) continue;
-      reach[i] = 2 * std::max(way, glm::length(moved[i].velocity) * h);
+      if (!strayed(i)) continue;
+      reach[i] = 2 * std::max(way_gone(i), glm::length(moved[i].velocity) * h);
       stayed = false;
     }
     return stayed;
@@ -268,6 +266,31 @@ struct World<D>::Step : World<D>::StepIslands {
     return false;
   }
 
+  // Whether one that went farther than it was looked for is where another one is.
+  bool met_unforeseen() const {
+    const auto known = [&](std::uint32_t i, std::uint32_t j) {
+      const std::pair<std::uint32_t, std::uint32_t> both = std::minmax(i, j);
+      return i == j || std::ranges::binary_search(near, both, {}, [](const NearPair& pair) {
+               return std::pair(pair.a, pair.b);
+             });
+    };
+    for (std::uint32_t i = 0; i < moved.size(); ++i) {
+      if (!moved[i].is_pushed() || !moved[i].collides || !strayed(i)) continue;
+      const Box<D> box = moved[i].box();
+      for (std::uint32_t j = 0; j < moved.size(); ++j)
+        if (moved[j].collides && overlap(box, moved[j].box()) && !known(i, j)) return true;
+    }
+    return false;
+  }
+
+  double way_gone(std::size_t i) const {
+    return std::max(glm::length(moved[i].position - world.bodies_[i].position),
+                    i < farthest.size() ? farthest[i] : 0);
+  }
+  bool strayed(std::size_t i) const {
+    return way_gone(i) > reach[i] * (1 + kStepSettings.rounding);
+  }
+
   void find_reach() {
     reach.resize(moved.size());
     for (std::size_t i = 0; i < moved.size(); ++i) {
@@ -319,7 +342,7 @@ struct World<D>::Step : World<D>::StepIslands {
     found.friction = std::sqrt(a.material.friction * b.material.friction);
     const double thin = thinner(a, b);
     const double fast =
-        world.config_.wanted_error > 0 ? kStepSettings.fast_quick : kStepSettings.fast;
+        world.config_.wanted_error > 0.0 ? kStepSettings.fast_quick : kStepSettings.fast;
     found.fast = !locates_impacts() ? HUGE_VAL : found.restitution > 0 ? -1 : fast * thin;
     found.located = way > found.fast;
     if (manifolds.size() < kStepSettings.most_manifolds) {
