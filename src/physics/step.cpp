@@ -341,8 +341,9 @@ struct World<D>::Step : World<D>::StepIslands {
     found.restitution = std::max(a.material.restitution, b.material.restitution);
     found.friction = std::sqrt(a.material.friction * b.material.friction);
     const double thin = thinner(a, b);
-    const double fast =
-        world.config_.wanted_error > 0.0 ? kStepSettings.fast_quick : kStepSettings.fast;
+    const bool held =
+        world.config_.wanted_error > 0.0 && world.config_.contacts == ContactMethod::soft;
+    const double fast = held ? kStepSettings.fast_quick : kStepSettings.fast;
     found.fast = !locates_impacts() ? HUGE_VAL : found.restitution > 0 ? -1 : fast * thin;
     found.located = way > found.fast;
     if (manifolds.size() < kStepSettings.most_manifolds) {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/error.hpp"
 #include "physics/world.hpp"
 #include "world_scene.hpp"
 
@@ -204,6 +205,19 @@ void counts_what_it_misses() {
 }
 TEST(DepthBound, CountsWhatItMissesIn2D) { counts_what_it_misses<2>(); }
 TEST(DepthBound, CountsWhatItMissesIn3D) { counts_what_it_misses<3>(); }
+
+TEST(DepthBound, IsNoMatterWhereThingsOverflow) {
+  for (const double speed : {1e150, 1e300, 1e308}) {
+    World<2> world = room<2>(wanting<2>(0), 3, 5);
+    world.set_velocity(world.bodies().back().id, up<2>(-speed));
+    try {
+      for (int i = 0; i < 3; ++i) world.step(kStep);
+    } catch (const Refused&) {
+    }
+    for (const Body<2>& body : world.bodies())
+      EXPECT_TRUE(std::isfinite(body.position.x + body.position.y)) << speed;
+  }
+}
 
 // Where bodies rest, next to nothing is measured.
 TEST(DepthBound, CostsNothingAtRest) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/stop.hpp"
+#include "geometry/not_finite.hpp"
 #include "physics/contact/contact_solver.hpp"
 
 namespace lantern::physics {
@@ -25,7 +26,7 @@ struct DepthSettings {
   int most_pushes = 24;             // each after a look at how all lie by then, and
   int most_vain = 3;                // of them, which bring less than a tenth
   std::size_t fewest_sweeps = 64;   // in each, or
-  std::size_t most_solved = 20000;  // pairs times sweeps, if that is more
+  std::size_t most_solved = 20000;  // pairs times sweeps, unless so few bring less than a hundredth
 };
 inline constexpr DepthSettings kDepthSettings;
 
@@ -45,8 +46,10 @@ class DepthBound {
 
   // Whether the island, which has been moved, keeps the bound, if need be after some pushes. If not
   // it is to be taken back to where it was, unless this was the `last` try: then what is missed is
-  // counted, and allowed for the rest of the step.
+  // left so for the rest of the step.
   bool keeps(bool last) {
+    for (const Body<D>& body : island_.bodies)
+      if (!is_finite(body.position)) return true;  // the step will be refused
     const State begun = now_;
     last |= tired_;
     follow();
@@ -63,13 +66,17 @@ class DepthBound {
     const bool missed = worst_beyond(promised_, false) > 0;
     if (missed && !last) now_ = begun;
     if (missed && !last) return false;
-    tired_ = true;
-    for (std::size_t i = 0; i < wanted_.size(); ++i) {
-      work_.errors_missed += -now_.gaps[i] > promised_[i];
-      promised_[i] = std::max(promised_[i], -now_.gaps[i]);
+    tired_ |= missed;
+    for (std::size_t i = 0; i < wanted_.size(); ++i)
       wanted_[i] = std::max(wanted_[i], -now_.gaps[i]);
-    }
     return true;
+  }
+
+  // Counts what is missed in the end.
+  void end() {
+    keeps(true);
+    for (std::size_t i = 0; i < promised_.size(); ++i)
+      work_.errors_missed += -now_.gaps[i] > promised_[i];
   }
 
  private:
@@ -142,13 +149,15 @@ class DepthBound {
     const bool closes = island_.joint_block.refresh(island_.joints, solved);
     std::vector<ContactRows<D>> all = rows();
     Sweep sweep{&work_};
-    for (std::size_t i = 0;
-         i < kDepthSettings.fewest_sweeps || i * all.size() < kDepthSettings.most_solved; ++i) {
+    const std::size_t few = kDepthSettings.fewest_sweeps;
+    double before = HUGE_VAL;
+    for (std::size_t i = 0; i < few || i * all.size() < kDepthSettings.most_solved; ++i) {
       for (JointRows<D>& joint : island_.joints)
         joint.correct_positions(solved[joint.a], solved[joint.b], sweep);
       double missing = 0;
       for (ContactRows<D>& rows : all) missing = std::max(missing, sweep_over(rows));
       if (missing <= kDepthSettings.spare / 2 * error_) break;
+      if (i % few == 0 && missing > 0.99 * std::exchange(before, missing)) break;
     }
     for (std::size_t i = 0; i < bodies.size(); ++i) {
       if (!bodies[i].is_pushed()) continue;

@@ -100,7 +100,7 @@ class ImpactMotion {
 
   void run() {
     move();
-    if (bound_) bound_->keeps(true);
+    if (bound_) bound_->end();
   }
 
  private:
