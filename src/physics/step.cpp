@@ -266,19 +266,24 @@ struct World<D>::Step : World<D>::StepIslands {
     return false;
   }
 
-  // Whether one that went farther than it was looked for is where another one is.
+  // Whether one that went farther than it was looked for touches what it was not tested against.
   bool met_unforeseen() const {
+    const std::vector<Pair> joined = joined_pairs();
     const auto known = [&](std::uint32_t i, std::uint32_t j) {
       const std::pair<std::uint32_t, std::uint32_t> both = std::minmax(i, j);
-      return i == j || std::ranges::binary_search(near, both, {}, [](const NearPair& pair) {
-               return std::pair(pair.a, pair.b);
-             });
+      const Pair ids{moved[both.first].id, moved[both.second].id};
+      const auto places = [](const NearPair& pair) { return std::pair(pair.a, pair.b); };
+      return i == j || std::ranges::binary_search(joined, ids) ||
+             std::ranges::binary_search(near, both, {}, places);
     };
     for (std::uint32_t i = 0; i < moved.size(); ++i) {
       if (!moved[i].is_pushed() || !moved[i].collides || !strayed(i)) continue;
       const Box<D> box = moved[i].box();
-      for (std::uint32_t j = 0; j < moved.size(); ++j)
-        if (moved[j].collides && overlap(box, moved[j].box()) && !known(i, j)) return true;
+      for (std::uint32_t j = 0; j < moved.size(); ++j) {
+        if (!moved[j].collides || !overlap(box, moved[j].box()) || known(i, j)) continue;
+        ++world.work_.narrow_tests;
+        if (collide(placed(moved[i]), placed(moved[j]), 0)) return true;
+      }
     }
     return false;
   }
