@@ -44,7 +44,7 @@ void* take_scratch(std::size_t bytes) {
   if (power > kMost) return from_system(bytes);
   Free*& first = store.free[static_cast<std::size_t>(power)];
   if (first != nullptr) return std::exchange(first, first->next);
-  return ::operator new (std::size_t{1} << power);
+  return from_system(std::size_t{1} << power);
 }
 
 void give_scratch_back(void* memory, std::size_t bytes) noexcept {

@@ -195,6 +195,8 @@ std::optional<IdleKeys::Reason> why_idle(const ScenarioSpec& s) {
 
 const IdleKeys::Reason kLectures{"contacts = \"lecture\" know neither friction nor times of impact",
                                  "give contacts = \"impulse\""};
+const IdleKeys::Reason kLecturesKeepNone{"contacts = \"lecture\" keep no error",
+                                         "give contacts = \"impulse\""};
 
 bool only_lectures(const ScenarioSpec& s) {
   return std::ranges::all_of(methods_of(s),
@@ -211,6 +213,7 @@ void notice_settings(const TableReader& file, Draft& draft) {
   const auto see_methods = [&](const TomlValue& table, ContactMethod used) {
     if (touches && !idle) {
       if (only_lectures(s)) keys.see(table, {"impact_budget"}, kLectures);
+      if (only_lectures(s)) keys.see(table, {"wanted_error"}, kLecturesKeepNone);
       return see_idle_efforts(table, used, s, keys);
     }
     // Joints are solved in as many sweeps or parts.

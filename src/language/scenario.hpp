@@ -121,9 +121,9 @@ struct SolveBy {
   static constexpr VerbTraits kTraits{
       .name = "solve_by", .basis = Basis::bodies, .changes_bodies = true};
   ContactMethod contacts = ContactMethod::soft;
-  int sub_steps = 0;         // 0: as it was
-  int iterations = 0;        // the same
-  double wanted_error = -1;  // below 0: as it was
+  int sub_steps = 0;                   // 0: as it was
+  int iterations = 0;                  // the same
+  std::optional<double> wanted_error;  // none: as it was
 };
 
 // All bodies anew, with these settings.

@@ -86,10 +86,10 @@ struct WorldSpec {
   ContactMethod contacts = ContactMethod::none;
   Integrator integrator = Integrator::semi_implicit_euler;
   RotationMethod rotation = RotationMethod::exact;
-  int sub_steps = 8;           // of the soft contacts
-  double wanted_error = 0;     // of the soft contacts, in units; 0: as little as they can
-  int iterations = 10;         // of the impulse contacts
-  int impact_budget = 10'000;  // impacts located in one step of the world
+  int sub_steps = 8;                   // of the soft contacts
+  std::optional<double> wanted_error;  // of contacts, in units; none: nothing is measured
+  int iterations = 10;                 // of the impulse contacts
+  int impact_budget = 10'000;          // impacts located in one step of the world
   bool may_sleep = false;
   Vec<3> camera_eye{0.0};  // of a 3D world
   Vec<3> camera_target{0.0};

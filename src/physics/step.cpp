@@ -186,15 +186,13 @@ struct World<D>::Step : World<D>::StepIslands {
   // Whether all bodies were looked for where they have been; if not, `reach` has grown.
   bool stayed_within_reach() {
     if (!locates_impacts()) return true;
-    // What is pushed apart goes no farther than it is allowed to; only an impact does.
-    if (world.config_.wanted_error > 0 && !struck) return true;
+    // What is pushed apart goes no farther than it is allowed to; only an impact does, or a lever.
+    if (world.config_.wanted_error > 0.0 && !struck && !met_unforeseen()) return true;
     bool stayed = true;
     for (std::size_t i = 0; i < moved.size(); ++i) {
       if (!moved[i].is_pushed()) continue;
-      const double way = std::max(glm::length(moved[i].position - world.bodies_[i].position),
-                                  i < farthest.size() ? farthest[i] : 0);
-      if (way <= reach[i] * (1 + kStepSettings.rounding)) continue;
-      reach[i] = 2 * std::max(way, glm::length(moved[i].velocity) * h);
+      if (!strayed(i)) continue;
+      reach[i] = 2 * std::max(way_gone(i), glm::length(moved[i].velocity) * h);
       stayed = false;
     }
     return stayed;
@@ -280,6 +278,36 @@ struct World<D>::Step : World<D>::StepIslands {
     return false;
   }
 
+  // Whether one that went farther than it was looked for touches what it was not tested against.
+  bool met_unforeseen() const {
+    const Scratch<Pair> joined = joined_pairs();
+    const auto known = [&](std::uint32_t i, std::uint32_t j) {
+      const std::pair<std::uint32_t, std::uint32_t> both = std::minmax(i, j);
+      const Pair ids{moved[both.first].id, moved[both.second].id};
+      const auto places = [](const NearPair& pair) { return std::pair(pair.a, pair.b); };
+      return i == j || std::ranges::binary_search(joined, ids) ||
+             std::ranges::binary_search(near, both, {}, places);
+    };
+    for (std::uint32_t i = 0; i < moved.size(); ++i) {
+      if (!moved[i].is_pushed() || !moved[i].collides || !strayed(i)) continue;
+      const Box<D> box = moved[i].box();
+      for (std::uint32_t j = 0; j < moved.size(); ++j) {
+        if (!moved[j].collides || !overlap(box, moved[j].box()) || known(i, j)) continue;
+        ++world.work_.narrow_tests;
+        if (collide(placed(moved[i]), placed(moved[j]), 0)) return true;
+      }
+    }
+    return false;
+  }
+
+  double way_gone(std::size_t i) const {
+    return std::max(glm::length(moved[i].position - world.bodies_[i].position),
+                    i < farthest.size() ? farthest[i] : 0);
+  }
+  bool strayed(std::size_t i) const {
+    return way_gone(i) > reach[i] * (1 + kStepSettings.rounding);
+  }
+
   void find_reach() {
     reach.resize(moved.size());
     for (std::size_t i = 0; i < moved.size(); ++i) {
@@ -330,8 +358,9 @@ struct World<D>::Step : World<D>::StepIslands {
     found.restitution = std::max(a.material.restitution, b.material.restitution);
     found.friction = std::sqrt(a.material.friction * b.material.friction);
     const double thin = thinner(a, b);
-    const double fast =
-        world.config_.wanted_error > 0 ? kStepSettings.fast_quick : kStepSettings.fast;
+    const bool held =
+        world.config_.wanted_error > 0.0 && world.config_.contacts == ContactMethod::soft;
+    const double fast = held ? kStepSettings.fast_quick : kStepSettings.fast;
     found.fast = !locates_impacts() ? HUGE_VAL : found.restitution > 0 ? -1 : fast * thin;
     found.located = way > found.fast;
     if (manifolds.size() < kStepSettings.most_manifolds) {

@@ -28,7 +28,7 @@ void check_config(const WorldConfig<D>& config) {
     throw Refused("world: gravitation is negative or not finite");
   require_count(config.sub_steps, 1000, "sub_steps");
   require_count(config.iterations, 100000, "iterations");
-  if (!std::isfinite(config.wanted_error) || config.wanted_error < 0)
+  if (const auto& e = config.wanted_error; e && (!std::isfinite(*e) || *e < 0))
     throw Refused("world: wanted_error is negative or not finite");
   if (config.impact_budget < 0) throw Refused("world: impact_budget is negative");
   for (const double value : {config.sleep_after, config.sleep_speed, config.sleep_spin})
@@ -288,7 +288,7 @@ void World<D>::sleep(BodyId id) {
 
 template <int D>
 void World<D>::switch_contacts(ContactMethod method, int sub_steps, int iterations,
-                               double wanted_error) {
+                               std::optional<double> wanted_error) {
   if (config_.contacts == ContactMethod::none || method == ContactMethod::none)
     throw Refused("world: contacts cannot be switched on or off, only be solved another way");
   WorldConfig<D> config = config_;

@@ -97,7 +97,7 @@ class World {
   // made: throws Refused if either method, the old or the new, is `none`, and for a number that is
   // out of its range. What presses goes on pressing: the next step begins with the old impulses.
   void switch_contacts(ContactMethod method, int sub_steps, int iterations,
-                       double wanted_error = 0);
+                       std::optional<double> wanted_error = std::nullopt);
 
   // The structure (broad phase) as it will be used: with contacts that of the next step, if it is
   // one of `h` seconds, in which boxes are enlarged by how far bodies may come in it; without

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "physics/methods.hpp"
@@ -19,11 +20,11 @@ struct WorldConfig {
   ContactMethod contacts = ContactMethod::soft;
   BroadPhaseConfig<D> broad_phase = {};
   int sub_steps = 8;  // of soft contacts, 1 ... 1000
-  // How exactly soft contacts of many bodies are swept, in units of length. It says into how many
-  // parts a step is cut (at most `sub_steps`), and that the sweeps of a part end when the last one
-  // moves no body by more than a thousandth of it. 0: all rows are solved at once. It is no
-  // bound of penetration: what falls and turns reaches some hundredths of a unit at any value.
-  double wanted_error = 0;
+  // How deep two bodies may lie in each other at the end of a step, in units of length, or as deep
+  // as before it if that is more (impact/depth_bound.hpp); 0 asks for the least that is tried,
+  // 1e-6. Soft contacts of many bodies are swept accordingly, by 0 all rows at once. What cannot be
+  // kept is counted (errors_missed). None: contacts do what they do, and nothing is measured.
+  std::optional<double> wanted_error = std::nullopt;
   int iterations = 10;        // of impulse contacts: sweeps a step, 1 ... 100000
   bool warm_start = true;     // begin with the impulses of the step before
   bool may_sleep = true;      // islands that rest are left out until something wakes them
@@ -57,6 +58,7 @@ struct WorldWork {
   std::uint64_t rotations_integrated = 0;
   std::uint64_t impact_looks = 0;     // at two bodies, to find the moment at which they meet
   std::uint64_t impacts_located = 0;  // and struck, in the steps as they were made in the end
+  std::uint64_t errors_missed = 0;    // pairs that a step left deeper than `wanted_error`
   std::uint64_t rest_checks = 0;      // bodies looked at whether they may fall asleep
   // Of the last step alone.
   std::uint64_t islands = 0;  // of awake bodies
@@ -89,6 +91,7 @@ inline constexpr auto kWorldCounters =
                                  {"rotations_integrated", &WorldWork::rotations_integrated},
                                  {"impact_looks", &WorldWork::impact_looks},
                                  {"impacts_located", &WorldWork::impacts_located},
+                                 {"errors_missed", &WorldWork::errors_missed},
                                  {"rest_checks", &WorldWork::rest_checks}});
 
 // What was done between two moments of one world; `islands` and `asleep` are those of the later.

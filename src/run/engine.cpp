@@ -111,7 +111,7 @@ class EngineOf : public Engine {
     world().switch_contacts(method.contacts,
                             method.sub_steps > 0 ? method.sub_steps : now.sub_steps,
                             method.iterations > 0 ? method.iterations : now.iterations,
-                            method.wanted_error >= 0 ? method.wanted_error : now.wanted_error);
+                            method.wanted_error ? method.wanted_error : now.wanted_error);
   }
 
   void step() override {

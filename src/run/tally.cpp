@@ -145,7 +145,8 @@ void Tally::list_contacts(const WorldWork& world, Stages& all) const {
                   amount(world.constraint_rows - world.direct_rows, "row swept", "rows swept"),
                   amount(world.direct_solves, "direct solve"),
                   amount(world.direct_rows, "row solved at once", "rows solved at once"),
-                  amount(world.sub_steps, "sub-step")},
+                  amount(world.sub_steps, "sub-step"),
+                  amount(world.errors_missed, "wanted error missed", "wanted errors missed")},
                  world.islands_solved > 0 ? methods : off});
   all.push_back({"friction", {amount(world.friction_rows, "row")}, off});
   all.push_back({"sleeping",

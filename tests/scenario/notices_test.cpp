@@ -193,6 +193,9 @@ TEST(Notices, OfSettingsOfContactsWhereNothingTouches) {
                 "'friction' changes nothing, here and 1 time more: ", "settings");
   expect_quiet(world(disc("eve", "restitution = 1\n") + insert("\"eve\"") + rest,
                      "contacts = \"impulse\"\n"));
+  expect_notice(world(rest, "contacts = \"lecture\"\n@wanted_error = 0.01\n"),
+                "'wanted_error' changes nothing: contacts = \"lecture\" keep no error", "settings");
+  expect_quiet(world(rest, "contacts = \"impulse\"\nwanted_error = 0.01\n"));
   // Each method has an effort of its own; a method may come in later.
   expect_notice(world(rest, "contacts = \"soft\"\n@iterations = 20\n"),
                 "'iterations' changes nothing: only contacts = \"impulse\" have iterations, and "

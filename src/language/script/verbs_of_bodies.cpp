@@ -288,7 +288,7 @@ std::vector<VerbDoc> verbs_of_time() {
                        "How many parts soft contacts divide a world step into.", range(1, 64),
                        or_else("as it was")),
                    key(&S::wanted_error, "wanted_error",
-                       "The error that is wanted of soft contacts, as [world] has it.", range(0, 1),
+                       "How deep two bodies may lie in each other, as [world] has it.", range(0, 1),
                        or_else("as it was")),
                    key(&S::iterations, "iterations",
                        "Sweeps over the velocities in a world step, and as many over the "

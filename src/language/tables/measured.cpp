@@ -207,7 +207,7 @@ Scenario moved_by(Scenario scenario, const Method& method, double h) {
   if (method.contacts)
     for (Step& step : scenario.steps)
       if (std::holds_alternative<SolveBy>(step.verb)) step.verb = Show{};
-  if (method.contacts) world.wanted_error = method.wanted_error.value_or(0);
+  if (method.contacts) world.wanted_error = method.wanted_error;
   if (method.effort)
     (world.contacts == ContactMethod::soft ? world.sub_steps : world.iterations) = *method.effort;
   return scenario;

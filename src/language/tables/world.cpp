@@ -110,12 +110,16 @@ TableDoc world_table() {
       key(&W::sub_steps, "sub_steps", "How many parts soft contacts divide a world step into.",
           range(1, 64)),
       key(&W::wanted_error, "wanted_error",
-          "How exactly soft contacts of many bodies are swept, in units: sweeps end when the last "
-          "one moves no body by more than a thousandth of it, or after 6 to 300; the larger it is, "
-          "the fewer `sub_steps` are made. 0.01 is quick, 0.0001 is slow, 0 solves all rows at "
-          "once. It is no bound: what falls and turns may for a while lie some hundredths of a "
-          "unit in another at any value.",
-          range(0, 1)),
+          "How deep two bodies may lie in each other at the end of a step, in units, or as deep "
+          "as before it, if that is more; 0 asks for 0.000001. What lies deeper is pushed out, "
+          "or its step made anew in up to 64 parts. What cannot be kept, between walls that close "
+          "or "
+          "at 0 by single ones of many bodies, is counted (`errors_missed`). Soft contacts of many "
+          "bodies are swept as exactly, too: 0.01 is quick, 0.0001 is slow, 0 solves all rows at "
+          "once. Without it, or by the lecture's contacts, what falls and turns may for a while "
+          "lie "
+          "some tenths of a unit in another.",
+          range(0, 1), or_else("any")),
       key(&W::iterations, "iterations",
           "Sweeps over the velocities in a world step, and as many over the positions. Ten hold a "
           "stack of 10 equal boxes of size 1 at 60 steps a second, and of 20 at 120; what is r "

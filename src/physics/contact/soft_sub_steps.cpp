@@ -47,8 +47,8 @@ void soft_sub_steps(const IslandMove<D>& move) {
   const Island<D>& island = move.island;
   const WorldConfig<D>& config = move.config;
   const bool crowded = island.pairs.size() > kQuickSettings.crowd * island.bodies.size();
-  const double error =
-      crowded ? std::max(config.wanted_error, kQuickSettings.usual_error) : config.wanted_error;
+  const double wanted = config.wanted_error.value_or(0);
+  const double error = crowded ? std::max(wanted, kQuickSettings.usual_error) : wanted;
   const auto pairs = static_cast<int>(island.pairs.size());
   if (error > 0 && island.joints.empty() && pairs >= kQuickSettings.fewest_pairs) {
     QuickSweeps<D> quick;

@@ -4,6 +4,7 @@
 
 #include "base/scratch.hpp"
 #include "base/stop.hpp"
+#include "physics/impact/depth_bound.hpp"
 #include "physics/impact/time_of_impact.hpp"
 
 namespace lantern::physics {
@@ -94,9 +95,17 @@ class ImpactMotion {
                ImpactLog<D>& log)
       : move_(move), island_(move.island), solver_(solver), budget_(budget), log_(log) {
     island_.farthest.assign(begun_.size(), 0.0);
+    if (move.config.wanted_error && !island_.pairs.empty())
+      bound_.emplace(island_, *move.config.wanted_error, move.work);
   }
 
   void run() {
+    move();
+    if (bound_) bound_->end();
+  }
+
+ private:
+  void move() {
     while (left_ > 0) {
       const auto next = next_event();
       const double until = next ? next->time : left_;
@@ -116,7 +125,6 @@ class ImpactMotion {
     }
   }
 
- private:
   void strike_at(const Impact<D>& next, bool moved) {
     const ContactRows<D>& met = next.pair->rows;
     log_.moments.push_back(
@@ -228,8 +236,8 @@ class ImpactMotion {
 
   // Moves the island on by so many seconds, or by less: what contacts hold, and joints, does not
   // fly as was foreseen. A part of the step after which a pair lies deeper in each other than a
-  // contact can hold is made anew, half as long. Returns how many seconds went by; 0 if the
-  // island has been moved often enough.
+  // contact can hold, or than is wanted, is made anew, half as long. Returns how many seconds went
+  // by; 0 if the island has been moved often enough.
   double advance(double seconds) {
     if (island_.joints.empty() && std::ranges::none_of(island_.pairs, &IslandPair<D>::pressed)) {
       solve(seconds);
@@ -239,12 +247,15 @@ class ImpactMotion {
     const Scratch<Watched> watched = watched_pairs(part);
     part = std::min(part, 2 * last_part_);
     const ContactSolver* solver = &solver_;
-    for (; parts_ > 0; part /= 2, solver = &contact_solver(ContactMethod::direct)) {
+    for (; parts_ > 0; part /= 2) {
       parts_ -= part < seconds;
-      const Island<D> kept = watched.empty() ? Island<D>{} : island_;
+      const Island<D> kept = watched.empty() && !bound_ ? Island<D>{} : island_;
       solve(part, *solver);
       last_part_ = part < seconds ? part : HUGE_VAL;
-      if (std::ranges::all_of(watched, [&](const Watched& p) { return kept_apart(p, part); }))
+      if (!std::ranges::all_of(watched, [&](const Watched& p) { return kept_apart(p, part); }))
+        solver = &contact_solver(ContactMethod::direct);
+      else if (!bound_ ||
+               bound_->keeps(parts_ <= 0 || part <= move_.whole * kDepthSettings.smallest_part))
         return part;
       island_ = kept;
       if (part == seconds) --parts_;
@@ -525,6 +536,7 @@ class ImpactMotion {
   double ways_begun_ = 0;
   int parts_ = kImpactSettings.most_parts;
   double last_part_ = HUGE_VAL;
+  std::optional<DepthBound<D>> bound_;
 };
 
 }  // namespace

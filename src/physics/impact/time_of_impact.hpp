@@ -57,12 +57,12 @@ struct Trajectory {
 template <int D>
 struct Encounter {
   const Trajectory<D>&a, &b;
-  double within;                       // seconds
-  double slow;                         // what approaches more slowly is said to rest
-  double reach;                        // farther apart they are not looked at
-  WorldWork& work;                     // counts each look at the two, by the narrow phase
+  double within;                           // seconds
+  double slow;                             // what approaches more slowly is said to rest
+  double reach;                            // farther apart they are not looked at
+  WorldWork& work;                         // counts each look at the two, by the narrow phase
   std::vector<ImpactLook<D>>* looks = {};  // is told each, if there is one,
-  double begun = 0;                    // so many seconds after its step began
+  double begun = 0;                        // so many seconds after its step began
 };
 
 // A body after so many seconds of it.
