@@ -49,6 +49,7 @@ constexpr double kRedraw = 0.1;     // seconds between two drawings on a termina
 constexpr double kPlainLine = 5.0;  // and between two plain lines elsewhere
 constexpr double kForecast = 0.5;   // seconds of work after which it is told what is to come,
 constexpr double kMoment = 2.0;     // unless it ends so soon
+constexpr double kLong = 10.0;      // more than this is worth to find out what would be quicker
 
 bool has_listener() { return ::fcntl(STDERR_FILENO, F_GETFD) != -1; }
 
@@ -182,8 +183,8 @@ void Progress::watch() try {
   while (!end_.wait_for(guard, std::chrono::duration<double>(kRedraw), [&] { return ended_; })) {
     RunState state;
     look(state);
+    const auto left = extent_ ? time_left(*extent_, state) : std::nullopt;
     if (extent_ && !forecast && state.seconds >= kForecast) {
-      const auto left = time_left(*extent_, state);
       // What waits may be drawn in a moment.
       const bool is_open =
           state.waiting > 0 && state.waiting == state.frames && state.seconds < kMoment;
@@ -192,6 +193,7 @@ void Progress::watch() try {
         forecast = true;
       }
     }
+    long_left_ = forecast && left && left->seconds > kLong ? left->seconds : 0;
     if (!on_terminal && state.seconds - last_line < kPlainLine) continue;
     last_line = state.seconds;
     const std::string line = extent_          ? progress_text(*extent_, state)

@@ -85,6 +85,9 @@ class Progress {
 
   // From any thread: how many frames or parts are done by now.
   void done(std::uint64_t count) { count_ = count; }
+  // Seconds that are left, if it was told what is to come and they are many, else 0. From any
+  // thread.
+  double long_left() const { return long_left_; }
   // In other words, for work whose parts are not equally long; `words` stay until the next ones.
   void tell(std::string words);
 
@@ -107,6 +110,7 @@ class Progress {
   std::uint64_t total_ = 0;
   std::string unit_;
   std::atomic<std::uint64_t> count_{0};
+  std::atomic<double> long_left_{0};
 
   // Of the thread alone.
   double last_change_ = 0;  // when something was finished

@@ -13,6 +13,7 @@
 #include "app/lab.hpp"
 #include "app/progress.hpp"
 #include "app/terminal.hpp"
+#include "app/trial.hpp"
 #include "base/memory.hpp"
 #include "base/printable.hpp"
 #include "base/stop.hpp"
@@ -279,7 +280,8 @@ RunResult run_scenario(const Scenario& scenario, Pace pace, FrameSink& sink, Wor
   extent.chosen = chosen;
   extent.in_betweens = in_betweens;
   Progress progress(scenario.name, extent, work, memory_budget(), [&] { return sink.waiting(); });
-  RunWatch watch(scenario, shows_a_body);
+  Trials trials([&] { return progress.long_left(); }, work);
+  RunWatch watch(scenario, shows_a_body, &trials);
   std::uint64_t frames = 0;
   RunResult result;
   result.report = direct(

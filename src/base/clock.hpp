@@ -17,17 +17,20 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// Of all threads of the process: what else the machine does is no part of it.
+// Of all threads of the process, or of the calling one alone: what else the machine does is no part
+// of it.
 class CpuStopwatch {
  public:
+  explicit CpuStopwatch(clockid_t clock = CLOCK_PROCESS_CPUTIME_ID) : clock_(clock) {}
   double seconds() const { return now() - start_; }
 
  private:
-  static double now() {
+  double now() const {
     timespec time{};
-    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    ::clock_gettime(clock_, &time);
     return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
   }
+  clockid_t clock_;
   double start_ = now();
 };
 

@@ -32,6 +32,9 @@ struct Work {
   std::atomic<std::uint64_t> bands_packed{0};  // of rows of a picture
   std::atomic<std::uint64_t> bands_kept{0};    // as they were packed for the picture before
 
+  // Beside the run, of which nothing of them is: to find out what would be quicker (app/trial.hpp).
+  std::atomic<std::uint64_t> trial_worlds{0};
+
   // How much of it stands on the disk, for whoever tells of a long run; not listed, since it
   // depends on what was there before.
   std::atomic<std::uint64_t> frames_written{0};

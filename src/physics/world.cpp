@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -84,6 +85,16 @@ World<D>::World(const WorldConfig<D>& config) : config_(config) {
   forces_.gravity = config.gravity;
   forces_.gravitation = config.gravitation;
   if (config.contacts != ContactMethod::none) BroadPhase<D>{config.broad_phase};  // refuses
+}
+
+template <int D>
+World<D>::World(const World& as, const WorldConfig<D>& config) : World(config) {
+  const auto state_of = [](auto& w) {
+    return std::tie(w.bodies_, w.rested_, w.may_rest_, w.islands_, w.roots_, w.forces_.springs,
+                    w.forces_.pushes, w.joints_, w.joint_memories_, w.next_id_, w.next_spring_,
+                    w.next_joint_, w.time_, w.touching_, w.outcome_);
+  };
+  state_of(*this) = state_of(as);
 }
 
 template <int D>

@@ -35,6 +35,9 @@ class World {
   World() : World(WorldConfig<D>{.contacts = ContactMethod::none}) {}
   // Throws Refused, naming the field, for a number that is out of its range.
   explicit World(const WorldConfig<D>& config);
+  // All that `as` is, bit for bit, and by these settings from here on; a step by the same settings
+  // does the same to both. Its structure is a new one, and its work its own.
+  World(const World& as, const WorldConfig<D>& config);
 
   const WorldConfig<D>& config() const { return config_; }
 

@@ -24,6 +24,7 @@ class Players {
   // A world by the scenario's rules, empty as yet.
   explicit Players(const Scenario& scenario);
 
+  const Scenario& scenario() const { return scenario_; }
   World<D>& world() { return world_; }
   const World<D>& world() const { return world_; }
 

@@ -145,9 +145,11 @@ std::vector<Diagnostic> warnings_of_file(const Scenario& scenario) {
   return all;
 }
 
-RunWatch::RunWatch(const Scenario& scenario, std::function<bool(const Frame&)> shows_a_body) {
+RunWatch::RunWatch(const Scenario& scenario, std::function<bool(const Frame&)> shows_a_body,
+                   WorldWatch* onlooker)
+    : onlooker_(onlooker) {
   for (const auto& side : scenario.sides)
-    sides_.emplace_back(side->side, std::make_unique<RunWatch>(*side, shows_a_body));
+    sides_.emplace_back(side->side, std::make_unique<RunWatch>(*side, shows_a_body, onlooker));
   if (!sides_.empty()) return;
   const auto add = [&](Warning kind, Watching watcher) {
     const bool is_quiet = scenario.is_quiet(kind);
@@ -164,6 +166,7 @@ RunWatch::RunWatch(const Scenario& scenario, std::function<bool(const Frame&)> s
   add(Warning::crush, watch_crush(scenario));
 }
 
+RunWatch::RunWatch(WorldWatch& onlooker) : onlooker_(&onlooker) {}
 RunWatch::~RunWatch() = default;
 
 void RunWatch::begin(const Step& step) {
@@ -172,6 +175,7 @@ void RunWatch::begin(const Step& step) {
 
 void RunWatch::passed(const Engine& engine) {
   for (const Watch& watch : watchers_) engine.show(*watch.watcher);
+  if (onlooker_ != nullptr) engine.show(*onlooker_);
 }
 
 void RunWatch::see(const Frame& frame) {

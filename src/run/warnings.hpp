@@ -20,8 +20,11 @@ std::vector<Diagnostic> warnings_of_file(const Scenario& scenario);
 class RunWatch {
  public:
   // `shows_a_body` says whether the picture of a frame shows any of its bodies. The scenario is
-  // the very one that runs, and must outlive the watch.
-  RunWatch(const Scenario& scenario, std::function<bool(const Frame&)> shows_a_body);
+  // the very one that runs, and must outlive the watch. The onlooker, if there is one, is shown the
+  // world of every side after each step.
+  RunWatch(const Scenario& scenario, std::function<bool(const Frame&)> shows_a_body,
+           WorldWatch* onlooker = nullptr);
+  explicit RunWatch(WorldWatch& onlooker);  // watches for nothing
   ~RunWatch();
 
   void begin(const Step& step);       // what follows belongs to this step
@@ -47,6 +50,7 @@ class RunWatch {
     bool quiet = false;  // it warns of nothing
   };
   std::vector<Watch> watchers_;
+  WorldWatch* onlooker_ = nullptr;
   std::vector<std::pair<std::string, std::unique_ptr<RunWatch>>> sides_;  // by their names
 };
 

@@ -11,6 +11,7 @@
 #include "app/progress.hpp"
 #include "app/run_scenario.hpp"
 #include "app/terminal.hpp"
+#include "app/trial.hpp"
 #include "base/child.hpp"
 #include "base/json_writer.hpp"
 #include "base/memory.hpp"
@@ -19,6 +20,7 @@
 #include "embedded/version.hpp"
 #include "render/context.hpp"
 #include "run/tally.hpp"
+#include "run/warnings.hpp"
 
 namespace lantern::app {
 namespace {
@@ -188,12 +190,15 @@ int explain_scenario(const ExplainOptions& options) {
   const Stopwatch watch;
   std::optional<Progress> progress;
   progress.emplace(scenario.name, extent_of(scenario, scenario.pace), work, memory_budget());
+  Trials trials([&] { return progress->long_left(); }, work);
+  RunWatch shown(trials);
   std::uint64_t frames = 0;
-  const DirectorReport report = direct(scenario, scenario.pace, work, [&](const Frame& frame) {
+  const auto see = [&](const Frame& frame) {
     tally.see(frame);
     progress->done(++frames);
     return true;
-  });
+  };
+  const DirectorReport report = direct(scenario, scenario.pace, work, see, &shown);
   progress.reset();
   const double seconds = watch.seconds();
   const std::vector<StageTally> stages = tally.stages(report);

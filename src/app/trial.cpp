@@ -1,0 +1,73 @@
+#include "app/trial.hpp"
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/terminal.hpp"
+
+namespace lantern::app {
+
+std::string SettingTrial::text() const {
+  if (quick.seconds >= 2.0 / 3 * as_is.seconds) return "";
+  return fmt::format(
+      "with wanted_error = 0.01 in [world] {} step{} from here took {:.2g} s instead of {:.2g} s; "
+      "bodies then lie up to 0.01 deep in each other, or as deep as before ({:.2g} here instead "
+      "of {:.2g})",
+      steps, steps == 1 ? "" : "s", quick.seconds, as_is.seconds, quick.deepest, as_is.deepest);
+}
+
+// By a clock of the thread alone: others may be drawing meanwhile.
+template <int D>
+SettingTrial try_out(const World<D>& world, double h, double most_seconds) {
+  WorldConfig<D> config = world.config();
+  World<D> as_is(world, config);
+  config.wanted_error = 0.01;
+  World<D> quick(world, config);
+  SettingTrial trial;
+  const auto step = [&](World<D>& tried, Tried& result) {
+    const CpuStopwatch watch(CLOCK_THREAD_CPUTIME_ID);
+    tried.step(h);
+    result.seconds += watch.seconds();
+    result.work = tried.work();
+    result.deepest = 0;
+    for (const Contact<D>& contact : tried.contacts())
+      for (const ManifoldPoint<D>& point : contact.manifold.points())
+        result.deepest = std::max(result.deepest, -point.separation);
+  };
+  const Stopwatch watch;
+  for (; trial.steps == 0 || (trial.steps < 10 && watch.seconds() < most_seconds); ++trial.steps) {
+    step(quick, trial.quick);
+    step(as_is, trial.as_is);
+  }
+  return trial;
+}
+
+// A structure that the program was given is not ours to make another of.
+template <int D>
+void Trials::see(const Players<D>& players) {
+  const double last = std::exchange(since_last_, {}).seconds(), most = 0.05 * left_();
+  const WorldConfig<D>& config = players.world().config();
+  if (done_ || 2 * last > most || config.contacts != ContactMethod::soft || config.wanted_error ||
+      traits_of(config.broad_phase.kind).is_own)
+    return;
+  done_ = true;
+  work_.trial_worlds += 2;
+  const Scenario& scenario = players.scenario();
+  try {
+    const SettingTrial trial =
+        try_out(players.world(), scenario.world.time_step, std::min(1.0, most));
+    if (const std::string text = trial.text(); !text.empty())
+      say(fmt::format("{}{}{}: {}", scenario.name, scenario.side.empty() ? "" : ", ", scenario.side,
+                      text));
+  } catch (const Refused&) {  // the run will say so itself, if it comes as far
+  } catch (const std::bad_alloc&) {
+  }
+}
+
+template SettingTrial try_out(const World<2>&, double, double);
+template SettingTrial try_out(const World<3>&, double, double);
+
+}  // namespace lantern::app
