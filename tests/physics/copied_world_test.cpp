@@ -7,11 +7,12 @@
 namespace lantern::physics {
 namespace {
 
-constexpr std::array kIntegrators = {Integrator::explicit_euler,    Integrator::semi_implicit_euler,
-                                     Integrator::velocity_verlet,   Integrator::runge_kutta_4,
-                                     Integrator::implicit_midpoint, Integrator::implicit_euler};
-constexpr std::array kMethods = {ContactMethod::none, ContactMethod::impulse, ContactMethod::soft,
-                                 ContactMethod::direct, ContactMethod::lecture};
+constexpr std::array kCopiedIntegrators = {
+    Integrator::explicit_euler, Integrator::semi_implicit_euler, Integrator::velocity_verlet,
+    Integrator::runge_kutta_4,  Integrator::implicit_midpoint,   Integrator::implicit_euler};
+constexpr std::array kCopiedMethods = {ContactMethod::none, ContactMethod::impulse,
+                                       ContactMethod::soft, ContactMethod::direct,
+                                       ContactMethod::lecture};
 
 // A random heap of boxes and balls that spin, one of them asleep; a spring, a pin, two pushes; some
 // have left, so that ids have gaps.
@@ -44,8 +45,8 @@ World<D> mixed(const WorldConfig<D>& config, Random& random) {
 template <int D>
 void goes_on_alike() {
   Random random(20);
-  for (const Integrator integrator : kIntegrators)
-    for (const ContactMethod method : kMethods) {
+  for (const Integrator integrator : kCopiedIntegrators)
+    for (const ContactMethod method : kCopiedMethods) {
       WorldConfig<D> config = falling<D>();
       config.integrator = integrator;
       config.contacts = method;
