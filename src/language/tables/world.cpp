@@ -113,12 +113,10 @@ TableDoc world_table() {
           "How deep two bodies may lie in each other at the end of a step, in units, or as deep "
           "as before it, if that is more; 0 asks for 0.000001. What lies deeper is pushed out, "
           "or its step made anew in up to 64 parts. What cannot be kept, between walls that close "
-          "or "
-          "at 0 by single ones of many bodies, is counted (`errors_missed`). Soft contacts of many "
-          "bodies are swept as exactly, too: 0.01 is quick, 0.0001 is slow, 0 solves all rows at "
-          "once. Without it, or by the lecture's contacts, what falls and turns may for a while "
-          "lie "
-          "some tenths of a unit in another.",
+          "or at 0 by single ones of many bodies, is counted (`errors_missed`). Soft contacts of "
+          "many bodies are swept as exactly, too: 0.01 is quick, 0.0001 is slow, 0 solves all "
+          "rows at once. Without it, or by the lecture's contacts, what falls and turns may for a "
+          "while lie some tenths of a unit in another.",
           range(0, 1), or_else("any")),
       key(&W::iterations, "iterations",
           "Sweeps over the velocities in a world step, and as many over the positions. Ten hold a "

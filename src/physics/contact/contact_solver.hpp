@@ -102,6 +102,11 @@ struct Island {
     for (const Body<D>& body : bodies) solver_bodies.push_back(solver_body_of(body));
   }
 
+  // As the narrow phase sees the body where `find_axes` was asked last.
+  Placed<D> placed(std::uint32_t i) const {
+    return {bodies[i].shape, bodies[i].position, bodies[i].orientation, axes[i]};
+  }
+
   // The pair's points where its bodies are now, with the impulses of `remembered` scaled; none, and
   // false, if they are farther apart than `margin`.
   bool find_points(IslandPair<D>& pair, double margin, const Contact<D>* remembered, double scale,
@@ -113,8 +118,7 @@ struct Island {
     std::optional<Manifold<D>> made;
     if (manifold == nullptr || margin != pair.reach) {
       ++work.narrow_tests;
-      made = collide<D>({a.shape, a.position, a.orientation, axes[pair.rows.a]},
-                        {b.shape, b.position, b.orientation, axes[pair.rows.b]}, margin);
+      made = collide<D>(placed(pair.rows.a), placed(pair.rows.b), margin);
       if (!made) return false;
       manifold = &*made;
     }

@@ -19,6 +19,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <optional>
 #include <span>
 
 #include "base/scratch.hpp"
@@ -40,8 +41,9 @@ struct DirectSettings {
   double good_guess = 0.05;
   double presses = 0.01;
   double unsettled_joints = 1e-4;  // of the largest impulse, where what joints hold moves
-  // Of the largest impulse, see `is_unsettled`: in whole steps, where no set of rows held.
-  double unsettled = 2e-3;
+  // The same, see `is_unsettled`: in whole steps, where no set of rows held; and in parts of a
+  // step, of which the next one mends what sweeps leave.
+  double unsettled = 2e-3, unsettled_parts = 1e-4;
   int most_guesses = 6;    // each lets go of what the last one found to pull or to slip
   double most_work = 4e6;  // products, for one factor: a few milliseconds
   // Rows that say the same twice have no factor without a little compliance. What it leaves undone
@@ -54,8 +56,7 @@ constexpr DirectSettings kDirectSettings;
 template <int D>
 class DirectSolve {
  public:
-  // `unsettled`: of the largest impulse; sweeps whose last change is larger are not left alone.
-  explicit DirectSolve(double unsettled) : unsettled_(unsettled) {}
+  explicit DirectSolve(bool whole_steps) : whole_steps_(whole_steps) {}
 
   // Finds the impulses of a sub-step that has begun, and corrects its positions.
   void settle(SubStep<D>& step) {
@@ -193,10 +194,11 @@ class DirectSolve {
     }
     const bool hangs = !island.joints.empty(), rests = fastest <= kick;
     if (!hangs && !rests) return false;
-    const bool exact = hangs || (settled && unsettled_ == kDirectSettings.unsettled);
+    const bool exact = hangs || (settled && whole_steps_);
     const double enough = hangs && !rests ? kDirectSettings.unsettled_joints
                           : exact         ? kRowSettings.no_matter
-                                          : unsettled_;
+                          : whole_steps_  ? kDirectSettings.unsettled
+                                          : kDirectSettings.unsettled_parts;
     return last.change > enough * last.largest;
   }
 
@@ -378,7 +380,7 @@ class DirectSolve {
       for (ContactPoint<D>& p : pair.rows.points()) p = *kept++;
   }
 
-  double unsettled_;
+  bool whole_steps_;
   ConeNewton<D> newton_;
   bool gave_up_ = false;  // in a sub-step before of the same step
   Scratch<ConstraintRow<D>> rows_;
@@ -392,18 +394,18 @@ class DirectSolve {
 }  // namespace
 
 template <int D>
-void solve_directly(const IslandMove<D>& move, int sub_steps, double unsettled) {
-  DirectSolve<D> direct(unsettled);
-  in_sub_steps<D>(move, sub_steps, [&](SubStep<D>& step) { direct.settle(step); });
+void solve_directly(const IslandMove<D>& move, std::optional<int> sub_steps) {
+  DirectSolve<D> direct(!sub_steps);
+  in_sub_steps<D>(move, sub_steps.value_or(1), [&](SubStep<D>& step) { direct.settle(step); });
 }
 
 template <int D>
 void direct_solve(const IslandMove<D>& move) {
-  solve_directly<D>(move, 1, kDirectSettings.unsettled);
+  solve_directly<D>(move, std::nullopt);
 }
 
-template void solve_directly(const IslandMove<2>&, int, double);
-template void solve_directly(const IslandMove<3>&, int, double);
+template void solve_directly(const IslandMove<2>&, std::optional<int>);
+template void solve_directly(const IslandMove<3>&, std::optional<int>);
 
 extern const ContactSolver kDirectSolve = {"direct", {direct_solve<2>, direct_solve<3>}};
 

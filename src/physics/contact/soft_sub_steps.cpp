@@ -37,9 +37,6 @@ struct QuickSettings {
 };
 constexpr QuickSettings kQuickSettings;
 
-// Of the largest impulse: where sweeps end with no larger change, the next sub-step mends it.
-constexpr double kUnsettled = 1e-4;
-
 }  // namespace
 
 template <int D>
@@ -57,7 +54,7 @@ void soft_sub_steps(const IslandMove<D>& move) {
     const double effort = kQuickSettings.effort(error);
     made_in_sub_steps<D>(move, parts, [&](SubStep<D>& step) { quick.make(step, enough, effort); });
   } else {
-    solve_directly<D>(move, config.sub_steps, kUnsettled);
+    solve_directly<D>(move, config.sub_steps);
   }
 }
 

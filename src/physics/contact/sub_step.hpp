@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/function_ref.hpp"
 #include "base/scratch.hpp"
@@ -449,9 +450,9 @@ void in_sub_steps(const IslandMove<D>& move, int sub_steps, FunctionRef<void(Sub
   });
 }
 
-// The same, in which all rows of a part are solved at once (direct_solve.cpp). `unsettled`: of the
-// largest impulse; where sweeps still change more in the end, what they began is solved to its end.
+// The same, in which all rows of a part are solved at once (direct_solve.cpp); without `sub_steps`
+// those of the whole step.
 template <int D>
-void solve_directly(const IslandMove<D>& move, int sub_steps, double unsettled);
+void solve_directly(const IslandMove<D>& move, std::optional<int> sub_steps);
 
 }  // namespace lantern::physics

@@ -96,11 +96,7 @@ class DepthBound {
   Seen look(const IslandPair<D>& pair, double margin) {
     stop_if_asked();
     ++work_.narrow_tests;
-    const auto at = [&](std::uint32_t i) -> Placed<D> {
-      const Body<D>& body = island_.bodies[i];
-      return {body.shape, body.position, body.orientation, island_.axes[i]};
-    };
-    return collide<D>(at(pair.rows.a), at(pair.rows.b), margin);
+    return collide<D>(island_.placed(pair.rows.a), island_.placed(pair.rows.b), margin);
   }
   double shallow(const IslandPair<D>& pair) const {
     return kDepthSettings.shallow *
