@@ -10,13 +10,16 @@
 
 namespace lantern::app {
 
+constexpr double kTriedError = 0.01;
+
 std::string SettingTrial::text() const {
   if (quick.seconds >= 2.0 / 3 * as_is.seconds) return "";
   return fmt::format(
-      "with wanted_error = 0.01 in [world] {} step{} from here took {:.2g} s instead of {:.2g} s; "
-      "bodies then lie up to 0.01 deep in each other, or as deep as before ({:.2g} here instead "
-      "of {:.2g})",
-      steps, steps == 1 ? "" : "s", quick.seconds, as_is.seconds, quick.deepest, as_is.deepest);
+      "with wanted_error = {0} in [world] {1} step{2} from here took {3:.2g} s instead of "
+      "{4:.2g} s; bodies then lie up to {0} deep in each other, or as deep as before ({5:.2g} here "
+      "instead of {6:.2g})",
+      kTriedError, steps, steps == 1 ? "" : "s", quick.seconds, as_is.seconds, quick.deepest,
+      as_is.deepest);
 }
 
 // By a clock of the thread alone: others may be drawing meanwhile.
@@ -24,7 +27,7 @@ template <int D>
 SettingTrial try_out(const World<D>& world, double h, double most_seconds) {
   WorldConfig<D> config = world.config();
   World<D> as_is(world, config);
-  config.wanted_error = 0.01;
+  config.wanted_error = kTriedError;
   World<D> quick(world, config);
   SettingTrial trial;
   const auto step = [&](World<D>& tried, Tried& result) {
