@@ -41,6 +41,9 @@ struct RowSettings {
   double corner = 1e-3;  // of a body's size: so near to a corner of it is at the corner
   // Of full friction: what stops a body within so little of it does not slip in the end.
   double slip_by_rounding = 1e-6;
+  // Full friction of a point that slips answers to its normal impulse: by so much of what that
+  // itself does, and more, each would overshoot what the other has found.
+  double coupled = 0.8;
   // Of the firmest point's impulse: one that presses less presses by rounding only.
   double presses_by_rounding = 1e-9;
   // When sweeps have done enough. Of the largest impulse: so small a change of any ends the sweeps.
@@ -68,6 +71,7 @@ struct ContactPoint {
   double gap = 0;                   // the same while they do not touch, else 0
   double inverse_normal_mass = 0;   // effective
   double inverse_tangent_mass = 0;  // in the direction in which it is largest
+  Vec<D> coupling{0.0};             // slip by a normal impulse of 1, where that is much
   double pn = 0;                    // normal impulse of this sub-step, N s
   Vec<D> pt{0.0};                   // friction impulse of this sub-step
   double bounce = 0;                // wanted speed of parting
@@ -147,7 +151,10 @@ struct ContactRows {
       p.arm_a = to_a + gap * p.share;
       p.arm_b = to_b - gap * (1 - p.share);
       p.inverse_normal_mass = inverse_effective_mass(solver_a, p.arm_a, solver_b, p.arm_b, normal);
-      if (friction > 0) p.inverse_tangent_mass = softest(solver_a, solver_b, p);
+      if (friction > 0) {
+        p.inverse_tangent_mass = softest(solver_a, solver_b, p);
+        p.coupling = coupling(solver_a, solver_b, p);
+      }
       const Vec<D> velocity = relative_velocity(solver_a, p.arm_a, solver_b, p.arm_b);
       const double parting = glm::dot(velocity, normal);
       p.bounce = p.gap == 0 && parting < -threshold ? -restitution * parting : 0;
@@ -171,11 +178,11 @@ struct ContactRows {
     for (int i = 0; i < count; ++i) {
       ContactPoint<D>& p = room[static_cast<std::size_t>(backwards ? count - 1 - i : i)];
       if (p.inverse_normal_mass == 0) continue;
-      const double parting =
-          glm::dot(relative_velocity(body_a, p.arm_a, body_b, p.arm_b), normal) - p.bounce;
+      const Vec<D> velocity = relative_velocity(body_a, p.arm_a, body_b, p.arm_b);
+      const double parting = glm::dot(velocity, normal) - p.bounce;
       // Bodies that are still apart may come as close as to touch.
       const double before = p.pn;
-      p.pn = std::max(before - (parting + p.gap / h) / p.inverse_normal_mass, 0.0);
+      p.pn = std::max(before - (parting + p.gap / h) / answer_to_normal(p, velocity), 0.0);
       apply(p, normal * (p.pn - before), body_a, body_b);
       sweep.change = std::max(sweep.change, std::abs(p.pn - before));
       sweep.largest = std::max(sweep.largest, p.pn);
@@ -359,6 +366,29 @@ struct ContactRows {
       const double mean = (ss + tt) / 2, half = (ss - tt) / 2;
       return body_a.inverse_mass + body_b.inverse_mass + mean + std::sqrt(half * half + st * st);
     }
+  }
+
+  // Velocity across by an impulse of 1 along the normal, if full friction could make of it as much
+  // as `coupled` says; c^2 <= (K_nn - 1/m) (K_tt - 1/m) rules out nearly all points.
+  Vec<D> coupling(const SolverBody<D>& body_a, const SolverBody<D>& body_b,
+                  const ContactPoint<D>& p) const {
+    const double mass = body_a.inverse_mass + body_b.inverse_mass,
+                 least = kRowSettings.coupled * p.inverse_normal_mass / friction;
+    if ((p.inverse_normal_mass - mass) * (p.inverse_tangent_mass - mass) < least * least)
+      return Vec<D>(0.0);
+    const Vec<D> c = across(cross(body_a.inverse_inertia * cross(p.arm_a, normal), p.arm_a) +
+                            cross(body_b.inverse_inertia * cross(p.arm_b, normal), p.arm_b));
+    return glm::dot(c, c) < least * least ? Vec<D>(0.0) : c;
+  }
+
+  // Velocity along the normal by an impulse of 1 along it; with what friction adds to it, which
+  // follows in the same sweep, where the point slips and both would else overshoot in turns.
+  double answer_to_normal(const ContactPoint<D>& p, const Vec<D>& velocity) const {
+    if (p.coupling == Vec<D>(0.0) || p.sticks) return p.inverse_normal_mass;
+    const Vec<D> way = p.pt != Vec<D>(0.0) ? p.pt : -across(velocity);
+    const double length = glm::length(way);
+    if (!(length > 0)) return p.inverse_normal_mass;
+    return p.inverse_normal_mass + std::max(friction * glm::dot(way, p.coupling) / length, 0.0);
   }
 
   // Slips through the whole sub-step. The part of friction that slows it does so evenly: the mean

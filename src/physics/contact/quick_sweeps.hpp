@@ -251,7 +251,8 @@ class QuickSweeps {
       const ContactPoint<D>& p = rows.room[i];
       QuickPoint<D>& point = group.room[i];
       const auto inverse = [](double x) { return x > 0 ? 1 / x : 0; };
-      point.normal_mass.lane[lane] = inverse(p.inverse_normal_mass);
+      point.normal_mass.lane[lane] =
+          inverse(p.inverse_normal_mass + rows.friction * glm::length(p.coupling));
       normal_rows_ += p.inverse_normal_mass > 0;
       point.bias.lane[lane] = p.bounce - p.gap / step.h;
       point.wanted_push.lane[lane] = p.gap > 0 ? 0 : p.wanted_mean_speed(step.h);
