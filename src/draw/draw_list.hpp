@@ -3,7 +3,6 @@
 // order.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <numeric>

@@ -1,7 +1,6 @@
 // The module build/lantern_lab.so: what the program asks of it.
 #include "app/lab.hpp"
 
-#include <algorithm>
 #include <iterator>
 #include <utility>
 

@@ -2,7 +2,6 @@
 // of equations that it must keep.
 #pragma once
 
-#include <algorithm>
 #include <optional>
 #include <vector>
 

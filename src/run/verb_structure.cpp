@@ -1,7 +1,6 @@
 // What the verbs about the structure and what it finds do: `rebuild`, `sweep` and `compare`; `ray`,
 // `cull` and `query`; `test_shapes`, `separate` and `gjk`. Then those of a level and of an atlas.
 #include <algorithm>
-#include <set>
 #include <vector>
 
 #include <fmt/format.h>

@@ -3,7 +3,6 @@
 #include "base/clock.hpp"
 #include "base/json_writer.hpp"
 #include "base/random.hpp"
-#include "geometry/random_vec.hpp"
 #include "spatial/box_worlds.hpp"
 #include "spatial/broad_phase.hpp"
 #include "spatial/own_structure.hpp"

@@ -2,7 +2,6 @@
 // here and not when the scenario runs.
 #include "language/script/script_reading.hpp"
 
-#include <algorithm>
 #include <iterator>
 
 #include <fmt/format.h>

@@ -6,7 +6,6 @@
 #include "base/number.hpp"
 #include "base/random.hpp"
 #include "base/stop.hpp"
-#include "base/suggest.hpp"
 #include "geometry/flat.hpp"
 #include "geometry/random_vec.hpp"
 #include "measure/boxes/worlds.hpp"
