@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-#include "draw/role.hpp"
+#include "draw/theme.hpp"
 #include "geometry/box.hpp"
 
 namespace lantern::draw {

@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "base/number.hpp"
-#include "draw/legend.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 

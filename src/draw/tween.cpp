@@ -14,7 +14,6 @@
 #include <variant>
 
 #include "base/stop.hpp"
-#include "draw/tween_shapes.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -16,8 +16,8 @@
 #include "base/stop.hpp"
 #include "embedded/version.hpp"
 #include "lab/commands.hpp"
-#include "measure/peers.hpp"
 #include "measure/row.hpp"
+#include "measure/solvers.hpp"
 #include "report/benches.hpp"
 
 namespace lantern::lab {

@@ -7,7 +7,7 @@
 #include "base/number.hpp"
 #include "base/random.hpp"
 #include "measure/csv_file.hpp"
-#include "measure/peers.hpp"
+#include "measure/solvers.hpp"
 
 namespace lantern::measure {
 namespace {

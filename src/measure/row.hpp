@@ -3,8 +3,8 @@
 
 #include <deque>
 
+#include "base/clock.hpp"
 #include "base/suggest.hpp"
-#include "base/timing.hpp"
 #include "measure/simulation.hpp"
 
 namespace lantern::measure {

@@ -5,7 +5,6 @@
 #include "base/number.hpp"
 #include "base/random.hpp"
 #include "geometry/not_finite.hpp"
-#include "measure/peers.hpp"
 #include "measure/solvers.hpp"
 
 namespace lantern::measure {

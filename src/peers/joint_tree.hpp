@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "measure/peer.hpp"
+#include "measure/simulation.hpp"
 
 namespace lantern::peers {
 

@@ -8,7 +8,6 @@
 
 #include "draw/font.hpp"
 #include "draw/panel.hpp"
-#include "draw/tree/tidy_tree.hpp"
 
 namespace lantern::draw {
 namespace {

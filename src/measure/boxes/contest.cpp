@@ -6,7 +6,7 @@
 #include "base/stop.hpp"
 #include "measure/boxes/bench.hpp"
 #include "measure/broad_phase_cost.hpp"
-#include "measure/peers.hpp"
+#include "measure/solvers.hpp"
 #include "spatial/box_table.hpp"
 #include "spatial/query.hpp"
 
