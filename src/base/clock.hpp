@@ -40,8 +40,6 @@ class CpuStopwatch {
   double start_ = now();
 };
 
-// How long something takes, by repeats after a warm-up.
-
 // Seconds of what was timed, over repeats. Zero repeats: not timed.
 struct Timing {
   int repeats = 0;

@@ -147,8 +147,6 @@ std::vector<std::string> wrapped(std::string_view text, double width, const Text
 // Two lines at most, the second one shortened.
 std::vector<std::string> two_lines(std::string_view text, double width, const TextStyle& style);
 
-// Who carries a name on a frame, and on which side of it the name stands.
-
 // Is the body's name written beside it? As the frame's display has it; of a story: among few bodies
 // all have theirs; among many those that the frame is about: lit ones, and those that the caption
 // names.

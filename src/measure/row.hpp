@@ -208,8 +208,6 @@ struct Measurement {
   std::vector<Row> rows;          // in order of problems, methods and steps
 };
 
-// What all benches have in common: who takes part, what was found, and who was asked for.
-
 // Who takes part in a bench.
 struct Contestant {
   std::string name, version;  // no version: ours

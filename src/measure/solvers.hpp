@@ -26,7 +26,6 @@ class LanternSolver : public Solver {
 std::vector<Method> methods_for(const Scenario& scenario);
 
 // Dormand and Prince's method as a solver: the reference for smooth problems, at its price.
-
 // For scenes of points: bodies that neither collide nor are turned, without rods. It chooses its
 // steps itself; what it is given as a step says how exact it is to be: 1e-3 of the scene's size and
 // speed at the problem's largest step, and 32 times better for each halving, down to 1e-14.
@@ -37,11 +36,8 @@ class DormandPrinceSolver : public Solver {
   std::unique_ptr<Simulation> start(const Scenario& scenario, double h) const override;
 };
 
-// The other engines that Lantern is measured beside. They are optional: what was not installed when
-// Lantern was built is missing, and all else is the same.
-
-// The modules of other libraries that Lantern is measured beside (src/peers), loaded when asked
-// for.
+// A module of another library that Lantern is measured beside (src/peers), loaded when asked for.
+// They are optional: what was not installed when Lantern was built is missing.
 
 struct PeerModule {
   const char* name;     // of the library
@@ -71,9 +67,7 @@ std::vector<Peer> peers_of(std::span<const PeerModule> modules, const char* entr
   return peers;
 }
 
-// Loads their modules from the folder "peers" beside the program, or beside the program's folder.
-// A line is added to `missing` for each engine that is not there: "Box2D: not built in; apt-get
-// install libbox2d-dev and build again: ...". A module once loaded stays.
+// The engines whose modules are there; lines are added to `missing` as above.
 std::vector<std::unique_ptr<Solver>> load_peers(std::vector<std::string>& missing);
 
 // The libraries of boxes that `bench pairs` measures beside: "CGAL 5.5.1 (double)". Lines are added

@@ -190,8 +190,6 @@ std::uint64_t derived_seed(const TableReader& table, const std::string& name, co
 // nothing happens.
 void choose_structures(Draft& draft);
 
-// The sides of a scenario while it is read, and the names by which they are quoted.
-
 // What a file says to one of its sides: a scenario file without sides.
 struct SideFile {
   std::string name;

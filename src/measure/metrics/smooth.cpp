@@ -6,8 +6,6 @@
 namespace lantern::measure {
 namespace {
 
-// --- bodies that never touch, each against its closed form ---
-
 MetricMaker projectile_metric(const Scenario& scenario) {
   struct Flight {
     std::size_t body = 0;
