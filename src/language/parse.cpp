@@ -76,15 +76,9 @@ void read_all(const TomlTable& table, const std::string& path, Draft& draft) {
   for (const Named& need : file.names("needs"))
     draft.scenario.needs_at.push_back(draft.position(need.where));
   read_name(file, path, draft);
-  read_world(file, draft);
-  read_display(file, draft);
-  read_bodies(file, draft);
-  read_links(file, draft);
-  read_level(file, draft);
-  read_chart(file, draft);
-  read_problem(file, draft);
-  read_atlas(file, draft);
-  read_script(file, draft);
+  for (ReadPart* const read : {read_world, read_display, read_bodies, read_links, read_level,
+                               read_chart, read_problem, read_atlas, read_script})
+    read(file, draft);
   if (draft.has_world) choose_structures(draft);
   check_panels(file, draft);
   check_structures(file, draft);

@@ -104,15 +104,9 @@ void for_each(const TableReader& from, std::string_view key, Draft& draft, F&& f
 }
 
 // Each reads its part of the file into the draft, in this order.
-void read_world(const TableReader& file, Draft& draft);
-void read_display(const TableReader& file, Draft& draft);
-void read_bodies(const TableReader& file, Draft& draft);
-void read_links(const TableReader& file, Draft& draft);
-void read_level(const TableReader& file, Draft& draft);
-void read_chart(const TableReader& file, Draft& draft);
-void read_problem(const TableReader& file, Draft& draft);
-void read_atlas(const TableReader& file, Draft& draft);
-void read_script(const TableReader& file, Draft& draft);
+using ReadPart = void(const TableReader& file, Draft& draft);
+ReadPart read_world, read_display, read_bodies, read_links, read_level, read_chart, read_problem,
+    read_atlas, read_script;
 
 // Notices what the file says for nothing. It must have been read without a mistake.
 void notice_idle(const TableReader& file, Draft& draft);
