@@ -128,7 +128,7 @@ std::string scenario_file(const std::string& words) {
 }
 
 std::vector<std::string> input_files(const std::vector<std::string>& words) {
-  if (std::count(words.begin(), words.end(), "-") > 1)
+  if (std::ranges::count(words, "-") > 1)
     throw UsageError("- is standard input, which can be read once only");
   std::vector<std::string> files;
   for (const std::string& word : words) {

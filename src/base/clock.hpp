@@ -61,7 +61,7 @@ struct TimingRule {
 // of an empty list a broken invariant.
 inline double quantile(std::vector<double> values, double share) {
   LANTERN_CHECK(values.empty(), ==, false);
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   const double at = share * static_cast<double>(values.size() - 1);
   const auto below = static_cast<std::size_t>(at);
   const std::size_t above = std::min(below + 1, values.size() - 1);

@@ -130,7 +130,7 @@ std::optional<std::uint64_t> memory_size(std::string_view words) {
   const char* const last = words.data() + words.size();
   const auto [end, error] = std::from_chars(words.data(), last, number);
   if (error != std::errc() || last - end != 1 || !std::isfinite(number)) return std::nullopt;
-  const auto unit = std::find(kUnits.begin(), kUnits.end(), *end);
+  const auto unit = std::ranges::find(kUnits, *end);
   if (unit == kUnits.end()) return std::nullopt;
   const double bytes = std::ldexp(number, 10 * static_cast<int>(unit - kUnits.begin() + 1));
   if (!(bytes >= static_cast<double>(kLeastBudget)) || bytes >= 0x1p60) return std::nullopt;

@@ -53,9 +53,7 @@ class Places {
 
 // Bodies stand in order of ids.
 const std::string& name_of(const Frame& frame, BodyId id) {
-  return std::lower_bound(frame.bodies.begin(), frame.bodies.end(), id,
-                          [](const FrameBody& body, BodyId wanted) { return body.id < wanted; })
-      ->name;
+  return std::ranges::lower_bound(frame.bodies, id, {}, &FrameBody::id)->name;
 }
 
 std::string listed(const std::set<NamePair>& pairs) {
@@ -122,8 +120,8 @@ Unmet unmet_hits(const Expectation& e, const Frame& frame, Places&) {
   std::vector<std::string> found, expected = e.names;
   for (const BodyId id : frame.get<FrameFinding>().hits) found.push_back(name_of(frame, id));
   if (frame.get<FrameFinding>().rays.empty()) {
-    std::sort(found.begin(), found.end());
-    std::sort(expected.begin(), expected.end());
+    std::ranges::sort(found);
+    std::ranges::sort(expected);
   }
   if (found == expected) return std::nullopt;
   return fmt::format("expected the hits {}, found {}", listed(expected), listed(found));

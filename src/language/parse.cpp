@@ -244,8 +244,8 @@ bool ScenarioSpec::has_forces() const {
 }
 
 bool ScenarioSpec::has_joints() const {
-  return std::any_of(links.begin(), links.end(),
-                     [](const LinkSpec& link) { return link.kind != LinkSpec::Kind::spring; });
+  return std::ranges::any_of(
+      links, [](const LinkSpec& link) { return link.kind != LinkSpec::Kind::spring; });
 }
 
 bool ScenarioSpec::tells_sleepers() const {

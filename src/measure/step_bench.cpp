@@ -286,9 +286,7 @@ std::vector<OwnPoint> own_front(const StepBenchResult& result, const std::string
   for (const StepRow& row : result.rows)
     if (row.pile == pile && !row.is_peer() && row.is_whole(result.config.seconds))
       points.push_back({std::max(row.end.deepest, kNoDepth), row.mean, row.solver});
-  std::ranges::sort(points, [](const OwnPoint& a, const OwnPoint& b) {
-    return std::pair(a.ms, a.deepest) < std::pair(b.ms, b.deepest);
-  });
+  std::ranges::sort(points, {}, [](const OwnPoint& p) { return std::pair(p.ms, p.deepest); });
   for (const OwnPoint& point : points)
     if (front.empty() || point.deepest < front.back().deepest) front.push_back(point);
   return front;

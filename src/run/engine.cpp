@@ -202,7 +202,7 @@ class EngineOf : public Engine {
 
   bool has_happened(Wait::Event event, const std::vector<std::size_t>& bodies) const override {
     if (event == Wait::Event::asleep)
-      return std::all_of(bodies.begin(), bodies.end(), [&](std::size_t i) {
+      return std::ranges::all_of(bodies, [&](std::size_t i) {
         const Body<D>* body = players_.body(i);
         return !body || body->asleep;
       });

@@ -130,7 +130,7 @@ void FrameMaker::begin(const Step& step, std::uint32_t index) {
 
 bool FrameMaker::wanted(std::string_view event) const {
   const auto& events = step_->events;
-  return events.empty() || std::find(events.begin(), events.end(), event) != events.end();
+  return events.empty() || std::ranges::find(events, event) != events.end();
 }
 
 void FrameMaker::note_refused(const std::string& name) {

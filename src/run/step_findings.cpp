@@ -60,10 +60,9 @@ FrameContact frame_contact(const Contact<D>& contact, std::span<const ContactEve
   c.pair = {contact.a, contact.b};
   c.normal = solid(contact.manifold.normal);
   // Events come in the order of their pairs, one a pair.
-  const auto event = std::lower_bound(events.begin(), events.end(), c.pair,
-                                      [](const ContactEvent& e, const Pair& pair) {
-                                        return Pair{e.a, e.b} < pair;
-                                      });
+  const auto event = std::ranges::lower_bound(events, c.pair, {}, [](const ContactEvent& e) {
+    return Pair{e.a, e.b};
+  });
   if (event != events.end() && Pair{event->a, event->b} == c.pair) {
     c.begins = event->kind == ContactEvent::Kind::begin;
     c.crushes = event->crushes;

@@ -16,7 +16,7 @@ struct CandidatePairs {
 
 // Millions of them take seconds: the wish to stop is heard.
 inline void sort_pairs(std::vector<Pair>& pairs) {
-  std::sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) {
+  std::ranges::sort(pairs, [](const Pair& x, const Pair& y) {
     stop_if_asked();
     return x < y;
   });

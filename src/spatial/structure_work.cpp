@@ -51,7 +51,7 @@ PairChain BroadPhase<D>::pair_chain(FunctionRef<bool(BodyId)> awake, std::uint64
     if (stirring[i]) chain.besides += of_static.near(dynamic_.items[i].box, near);
     for (const BodyId j : near) meet(i, static_, j);
   }
-  std::sort(met.begin(), met.end(), [](const Met& x, const Met& y) {
+  std::ranges::sort(met, [](const Met& x, const Met& y) {
     stop_if_asked();
     return x.pair < y.pair;
   });

@@ -96,8 +96,7 @@ std::vector<std::string> placeholders_of(std::string_view caption) {
   for_each_piece(caption, [&](const Piece& piece) {
     if (piece.kind != Piece::Kind::placeholder) return;
     std::string name(parts_of(piece.inside).name);
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      names.push_back(std::move(name));
+    if (std::ranges::find(names, name) == names.end()) names.push_back(std::move(name));
   });
   return names;
 }

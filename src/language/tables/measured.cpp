@@ -47,7 +47,7 @@ void read_lines(const TableReader& table, ChartSpec& chart, Draft& draft) {
   if (const auto bars = table.named("bars")) y = {*bars};
   for (const Named& number : y) {
     check_number(number, draft);
-    if (std::find(chart.y.begin(), chart.y.end(), number.name) != chart.y.end())
+    if (std::ranges::find(chart.y, number.name) != chart.y.end())
       draft.problems.add(number.where,
                          fmt::format("{} stands twice in 'y'", in_quotes(number.name)));
     chart.y.push_back(number.name);

@@ -40,7 +40,7 @@ Place place_of(std::string_view text, std::size_t offset) {
   const std::string_view before = text.substr(0, offset);
   const std::size_t line_break = before.rfind('\n');
   const std::size_t start = line_break == std::string_view::npos ? 0 : line_break + 1;
-  return {1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
+  return {1 + static_cast<int>(std::ranges::count(before, '\n')),
           1 + static_cast<int>(letters(before.substr(start)))};
 }
 
@@ -130,8 +130,7 @@ void Problems::add_readings(const std::vector<std::pair<std::string, const Probl
 
 // Keeps those that will be shown, and the one after them.
 void Problems::drop_the_latest() {
-  std::stable_sort(found_.begin(), found_.end(),
-                   [](const Found& a, const Found& b) { return a.where < b.where; });
+  std::ranges::stable_sort(found_, {}, &Found::where);
   dropped_ += found_.size() - (kMostShown + 1);
   found_.resize(kMostShown + 1);
 }
@@ -148,8 +147,7 @@ void Problems::tell_unknown_once() {
 
 void Problems::raise(const std::string& file, std::string_view text) {
   if (found_.empty()) return;
-  std::stable_sort(found_.begin(), found_.end(),
-                   [](const Found& a, const Found& b) { return a.where < b.where; });
+  std::ranges::stable_sort(found_, {}, &Found::where);
   // A mistake in a prototype is found again in each body that is like it.
   const auto repeats = std::ranges::unique(found_, [](const Found& a, const Found& b) {
     return a.where == b.where && a.message == b.message;

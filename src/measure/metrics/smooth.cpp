@@ -284,8 +284,8 @@ std::optional<LongVec> follow(const Scenario& scenario, std::vector<Bond>& bonds
     if (bond != first && !bond->tie.b) return bond->tie.anchor;
     if (bond != first) at = bond->tie.a == at ? *bond->tie.b : bond->tie.a;
     row.bodies.push_back(at);
-    bond = std::find_if(bonds.begin(), bonds.end(),
-                        [&](const Bond& b) { return !b.used && (b.tie.a == at || b.tie.b == at); });
+    bond = std::ranges::find_if(
+        bonds, [&](const Bond& b) { return !b.used && (b.tie.a == at || b.tie.b == at); });
   }
   return std::nullopt;
 }

@@ -342,8 +342,7 @@ class Orthtree final : public StructureOf<Orthtree<D>, D>, CountsAllocations {
       view.first = node.contents.count == 0 ? kNone : node.contents.first;
       view.room = contents_.room(node.contents);
     }
-    if (!std::is_sorted(tour.ids.begin(), tour.ids.end()))
-      std::sort(tour.ids.begin(), tour.ids.end());
+    if (!std::ranges::is_sorted(tour.ids)) std::ranges::sort(tour.ids);
     view.bodies = tour.ids;
     if (!f(std::as_const(view)) || view.leaf) return;
     const Vec<D> mid = Halves::middle(at.bounds);
