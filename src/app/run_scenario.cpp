@@ -77,7 +77,7 @@ std::string nearest_of(const std::string& name, const std::vector<std::string>& 
 void add_folder(const fs::path& folder, std::vector<std::string>& files) {
   std::error_code error, unknown;
   std::vector<fs::path> there = toml_files(folder, error);
-  if (error) throw IoError(fmt::format("cannot list '{}': {}", folder.string(), error.message()));
+  if (error) throw IoError("cannot list '{}': {}", folder.string(), error.message());
   std::erase_if(there, [&](const fs::path& path) { return fs::is_directory(path, unknown); });
   std::ranges::sort(there);
   std::vector<std::pair<std::uint64_t, std::string>> lessons;
@@ -91,9 +91,9 @@ void add_folder(const fs::path& folder, std::vector<std::string>& files) {
   }
   if (lessons.empty())
     throw UsageError(
-        fmt::format("there is no scenario in the folder '{}'; a scenario is a .toml "
-                    "file right in it",
-                    folder.string()));
+        "there is no scenario in the folder '{}'; a scenario is a .toml "
+        "file right in it",
+        folder.string());
   std::ranges::sort(lessons);
   for (auto& [place, file] : lessons) files.push_back(std::move(file));
 }
@@ -123,8 +123,8 @@ std::string scenario_file(const std::string& words) {
       for (const fs::path& file : toml_files(folder / sub, error))
         names.push_back(file.stem().string());
   std::ranges::sort(names);
-  throw IoError(fmt::format("there is no file '{}' and no scenario of that name; {}", words,
-                            nearest_of(words, names)));
+  throw IoError("there is no file '{}' and no scenario of that name; {}", words,
+                nearest_of(words, names));
 }
 
 std::vector<std::string> input_files(const std::vector<std::string>& words) {

@@ -2,8 +2,6 @@
 
 #include <numeric>
 
-#include <fmt/format.h>
-
 #include "base/check.hpp"
 #include "base/error.hpp"
 
@@ -16,15 +14,13 @@ constexpr int kLargest = 65536;  // pixels on one side
 
 Atlas::Atlas(int width, int height) {
   if (width < 1 || width > kLargest || height < 1 || height > kLargest)
-    throw Refused(fmt::format("an atlas of {} x {} pixels: both must be from 1 to {}", width,
-                              height, kLargest));
+    throw Refused("an atlas of {} x {} pixels: both must be from 1 to {}", width, height, kLargest);
   add_leaf({0, 0, width, height}, kNoNode);
 }
 
 void Atlas::require_size(TextureId id, int width, int height) {
   if (width < 1 || height < 1)
-    throw Refused(
-        fmt::format("texture {} of {} x {} pixels: both must be at least 1", id, width, height));
+    throw Refused("texture {} of {} x {} pixels: both must be at least 1", id, width, height);
 }
 
 bool Atlas::is_second(std::uint32_t node) const {

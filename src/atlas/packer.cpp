@@ -4,8 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "base/check.hpp"
 #include "base/error.hpp"
 #include "base/stop.hpp"
@@ -191,8 +189,8 @@ Packer::Packer(std::span<const TextureSize> textures, bool turn)
   for (std::size_t i = 0; i < textures.size(); ++i) {
     const auto [width, height] = textures[i];
     if (std::min(width, height) < 1 || std::max(width, height) > kLargestTexture)
-      throw Refused(fmt::format("texture {} of {} x {} pixels: both must be from 1 to {}", i, width,
-                                height, kLargestTexture));
+      throw Refused("texture {} of {} x {} pixels: both must be from 1 to {}", i, width, height,
+                    kLargestTexture);
     area_ += std::int64_t{width} * height;
     higher += height - width;
   }

@@ -153,10 +153,9 @@ void refuse_memory(std::uint64_t bytes, std::string_view what, std::string_view 
   // Some room for all else, in whole numbers of the largest unit.
   const double wanted = 1.2 * static_cast<double>(bytes);
   const bool gigabytes = wanted > 0x1p30;
-  throw Refused(fmt::format("{} need about {}, the budget is {}; {}, or --memory {:.0f}{}", what,
-                            memory_text(bytes), memory_text(memory_budget()), advice,
-                            std::ceil(std::ldexp(wanted, gigabytes ? -30 : -20)),
-                            gigabytes ? 'G' : 'M'));
+  throw Refused("{} need about {}, the budget is {}; {}, or --memory {:.0f}{}", what,
+                memory_text(bytes), memory_text(memory_budget()), advice,
+                std::ceil(std::ldexp(wanted, gigabytes ? -30 : -20)), gigabytes ? 'G' : 'M');
 }
 
 }  // namespace lantern

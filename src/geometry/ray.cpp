@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "base/error.hpp"
@@ -84,8 +83,7 @@ void require_valid(const Ray<D>& ray) {
   require_finite(ray.origin, "ray", "origin");
   require_finite(ray.direction, "ray", "direction");
   if (ray.direction == Vec<D>(0.0)) throw Refused("ray: direction has no length");
-  if (!(ray.length >= 0))
-    throw Refused(fmt::format("ray: length is {}, must not be negative", ray.length));
+  if (!(ray.length >= 0)) throw Refused("ray: length is {}, must not be negative", ray.length);
 }
 
 template <int D>
@@ -127,19 +125,18 @@ namespace {
 
 void require_view(double angle, double near, double far) {
   if (!(angle > 0 && angle < std::numbers::pi))
-    throw Refused(fmt::format("view: the opening angle is {}, must lie between 0 and pi", angle));
+    throw Refused("view: the opening angle is {}, must lie between 0 and pi", angle);
   if (!(near >= 0) || !(near < far) || !std::isfinite(far))
-    throw Refused(fmt::format(
+    throw Refused(
         "view: near is {}, far is {}; must be finite, near not negative and less than far", near,
-        far));
+        far);
 }
 
 template <int D>
 Vec<D> direction(const Vec<D>& v, const char* field) {
   require_finite(v, "view", field);
   const double length = glm::length(v);
-  if (!(length > 0) || !std::isfinite(length))
-    throw Refused(fmt::format("view: {} has no length", field));
+  if (!(length > 0) || !std::isfinite(length)) throw Refused("view: {} has no length", field);
   return v / length;
 }
 
@@ -231,7 +228,7 @@ Frustum<3> view_frustum(const Vec<3>& eye, const Vec<3>& target, const Vec<3>& u
   require_finite(eye, "view", "eye");
   require_finite(target, "view", "target");
   if (!(aspect > 0) || !std::isfinite(aspect))
-    throw Refused(fmt::format("view: aspect is {}, must be above 0", aspect));
+    throw Refused("view: aspect is {}, must be above 0", aspect);
   const Vec<3> forward = direction<3>(target - eye, "the way from eye to target");
   const Vec<3> right =
       direction<3>(glm::cross(forward, direction<3>(up, "up")), "up, seen from the eye,");

@@ -226,8 +226,7 @@ std::optional<std::string> DormandPrinceSolver::cannot(const Scenario& scenario)
 }
 
 std::unique_ptr<Simulation> DormandPrinceSolver::start(const Scenario& scenario, double h) const {
-  if (const auto reason = cannot(scenario))
-    throw Refused(fmt::format("dormand_prince: {}", *reason));
+  if (const auto reason = cannot(scenario)) throw Refused("dormand_prince: {}", *reason);
   if (scenario.world.dimension == 3) return std::make_unique<PointSimulation<3>>(scenario, h);
   return std::make_unique<PointSimulation<2>>(scenario, h);
 }
@@ -338,8 +337,8 @@ class PeerSolver : public Solver {
   }
 
   std::unique_ptr<Simulation> start(const Scenario& scenario, double h) const override {
-    if (!(h > 0)) throw Refused(fmt::format("{}: a step of {}", name(), h));
-    if (auto reason = cannot(scenario)) throw Refused(fmt::format("{}: {}", name(), *reason));
+    if (!(h > 0)) throw Refused("{}: a step of {}", name(), h);
+    if (auto reason = cannot(scenario)) throw Refused("{}: {}", name(), *reason);
     return peer_.start(peer_scene(scenario), h);
   }
 

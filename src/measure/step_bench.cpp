@@ -138,7 +138,7 @@ std::vector<std::unique_ptr<Solver>> contestants(StepBenchResult& result) {
   for (const std::string& name : config.only)
     if (std::ranges::none_of(
             all, [&](const auto& solver) { return is_asked_for({name}, solver->name()); }))
-      throw Refused(fmt::format("there is no method of contacts and no engine '{}'", name));
+      throw Refused("there is no method of contacts and no engine '{}'", name);
   for (const auto& solver : all)
     result.contestants.push_back({solver->name(), solver->version(), ""});
   return all;

@@ -174,7 +174,7 @@ Frame FrameMaker::picture(const Touched& now, std::string_view event, bool midst
   if (stage_.engine) narrow.add_to(frame, *stage_.engine);
   // Speeds that numbers still hold may have squares that they do not.
   for (const auto& [name, number] : frame.measures)
-    if (!std::isfinite(number)) throw Refused(fmt::format("the measure '{}' overflows", name));
+    if (!std::isfinite(number)) throw Refused("the measure '{}' overflows", name);
   if (stage_.level)
     stage_.level->picture(stage_.engine && stage_.engine->structure().of_level, frame);
   if (stage_.atlas) stage_.atlas->picture(now, frame);

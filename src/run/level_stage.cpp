@@ -158,8 +158,7 @@ void LevelStage::see(const std::optional<Vec<2>>& eye, const Watch& watch) {
   }
   if (!eye) return;
   locate(*eye);
-  if (!place_)
-    throw Refused(fmt::format("the eye [{}, {}] lies outside of the world", eye->x, eye->y));
+  if (!place_) throw Refused("the eye [{}, {}] lies outside of the world", eye->x, eye->y);
   shown_ = Answer::sights;
 }
 

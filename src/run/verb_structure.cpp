@@ -360,8 +360,7 @@ void act(const DrawScreen& draw, ScriptRun& run) {
     const std::size_t texture = screen.texture_of(element);
     frames.texture = run.scenario.textures[texture].name;
     if (from_atlas && !run.stage.atlas->leaf_of(texture))
-      throw Refused(
-          fmt::format("the atlas has refused '{}', which its screen shows", frames.texture));
+      throw Refused("the atlas has refused '{}', which its screen shows", frames.texture);
     const std::string image = from_atlas ? "the atlas" : frames.texture;
     if (screen.bind(element))
       tell_draw(kBindEvent, texture, from_atlas, bind_text(image, bound, screen.bindings()), run);

@@ -203,7 +203,7 @@ int write_manual(const ManualOptions& options) {
       write_stdout(manual_page(path, all));
       return kGood;
     }
-  throw UsageError(fmt::format("there is no '{}'; 'lantern --help' names the commands", whole));
+  throw UsageError("there is no '{}'; 'lantern --help' names the commands", whole);
 }
 
 struct CompletionsOptions {

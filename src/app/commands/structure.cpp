@@ -52,8 +52,8 @@ std::vector<StructureKind> structures_called(const std::vector<std::string>& nam
     if (!kind || *kind == StructureKind::none)
       throw UsageError(with_suggestion(fmt::format("no structure '{}'", name), name, known));
     if (std::ranges::find(kinds, *kind) == kinds.end())
-      throw UsageError(fmt::format("{}: random flat worlds are not for it; take one of {}", name,
-                                   fmt::join(known, ", ")));
+      throw UsageError("{}: random flat worlds are not for it; take one of {}", name,
+                       fmt::join(known, ", "));
     chosen.push_back(*kind);
   }
   return chosen;

@@ -86,9 +86,9 @@ constexpr double kPoints = 72;
 
 publish::SheetGrid grid_of(const std::string& words) {
   if (const auto grid = publish::sheet_grid(words)) return *grid;
-  throw UsageError(fmt::format(
+  throw UsageError(
       "--sheet {}: write how many pictures across and down a page, each from 1 to {}: 3x2", words,
-      publish::SheetGrid::kMost));
+      publish::SheetGrid::kMost);
 }
 
 // A4 across, unless a size is asked for; in millimetres.
@@ -156,9 +156,9 @@ class SheetSink : public FileSink {
     const int height = static_cast<int>(std::lround(pixels.y));
     if (std::max(width, height) > Renderer::kMostPixels)
       throw UsageError(
-          fmt::format("a sheet of {} x {} pixels is more than {}; ask for fewer dots "
-                      "(--dpi), or make it a .pdf",
-                      width, height, Renderer::kMostPixels));
+          "a sheet of {} x {} pixels is more than {}; ask for fewer dots "
+          "(--dpi), or make it a .pdf",
+          width, height, Renderer::kMostPixels);
     renderer_ = of_.job.make_renderer(width, height, of_.work);
   }
   // The panels alone: what is said of them stands on the sheet.
@@ -310,9 +310,8 @@ class PageSink : public FileSink {
 
   void require_few(std::uint64_t frames) const {
     if (frames <= kMostPageFrames) return;
-    throw UsageError(fmt::format("{}: up to {} frames; a lesson page holds at most {}: {}",
-                                 of_.scenario.name, lantern::grouped(frames, " "),
-                                 lantern::grouped(kMostPageFrames, " "), kFewer));
+    throw UsageError("{}: up to {} frames; a lesson page holds at most {}: {}", of_.scenario.name,
+                     lantern::grouped(frames, " "), lantern::grouped(kMostPageFrames, " "), kFewer);
   }
 
   // Of those to come each is taken for as large as those so far.
@@ -323,11 +322,11 @@ class PageSink : public FileSink {
     const double bytes = static_cast<double>(lesson_.bytes()) / static_cast<double>(frames) *
                          static_cast<double>(std::max(all, frames));
     if (bytes <= static_cast<double>(kMostPageBytes)) return;
-    throw UsageError(fmt::format(
+    throw UsageError(
         "{}: a page of {} frames would hold about {}, before it is compressed; at most {} can be "
         "stepped through: {}",
         of_.scenario.name, lantern::grouped(std::max(all, frames), " "),
-        memory_text(static_cast<std::uint64_t>(bytes)), memory_text(kMostPageBytes), kFewer));
+        memory_text(static_cast<std::uint64_t>(bytes)), memory_text(kMostPageBytes), kFewer);
   }
 
   RenderOptions options_;

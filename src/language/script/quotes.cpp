@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include "base/number.hpp"
-#include "base/printable.hpp"
 #include "language/script/script_reading.hpp"
 
 namespace lantern::language {

@@ -27,8 +27,8 @@ Vec<3> nearest_axis(const Vec<3>& along) {
 }  // namespace
 
 void refuse_problem(const Scenario& scenario, std::string_view why) {
-  throw Refused(fmt::format("'{}' is no problem of kind {}: {}", scenario.name,
-                            to_string(scenario.problem->solution), why));
+  throw Refused("'{}' is no problem of kind {}: {}", scenario.name,
+                to_string(scenario.problem->solution), why);
 }
 
 std::vector<std::size_t> dynamic_bodies(const Scenario& scenario) {

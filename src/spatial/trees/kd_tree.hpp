@@ -168,8 +168,7 @@ class KdTree final : public StructureOf<KdTree<D>, D>, CountsAllocations {
   explicit KdTree(const StructureConfig<D>& config) : config_(config) {
     if (config.capacity == 0) throw Refused("kD-tree: capacity is 0, must be at least 1");
     if (config.max_depth > kDeepest)
-      throw Refused(
-          fmt::format("kD-tree: max_depth is {}, the limit is {}", config.max_depth, kDeepest));
+      throw Refused("kD-tree: max_depth is {}, the limit is {}", config.max_depth, kDeepest);
     clear();
   }
 
