@@ -1,6 +1,5 @@
 #include "draw/plot_parts.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -8,7 +7,6 @@
 
 #include "draw/font.hpp"
 #include "draw/pen.hpp"
-#include "draw/plot.hpp"
 #include "geometry/elementary.hpp"
 #include "geometry/not_finite.hpp"
 

@@ -8,9 +8,7 @@
 #include <functional>
 #include <map>
 #include <set>
-#include <string>
 #include <string_view>
-#include <utility>
 #include <variant>
 
 #include "base/stop.hpp"

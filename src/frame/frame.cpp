@@ -1,8 +1,5 @@
 #include "frame/frame.hpp"
 
-#include <algorithm>
-#include <utility>
-
 #include <fmt/format.h>
 
 #include "frame/pair_state.hpp"

@@ -5,7 +5,6 @@
 #include <tuple>
 
 #include "base/memory.hpp"
-#include "spatial/pairs.hpp"
 
 namespace lantern::measure {
 namespace {

@@ -6,7 +6,6 @@
 
 #include "measure/boxes/bench.hpp"
 #include "measure/forms/dormand_prince.hpp"
-#include "measure/simulation.hpp"
 #include "physics/body.hpp"
 #include "physics/integrate/smooth_system.hpp"
 #include "run/engine.hpp"

@@ -16,7 +16,6 @@
 
 #include "base/child.hpp"
 #include "base/error.hpp"
-#include "base/file.hpp"
 #include "base/memory.hpp"
 #include "base/printable.hpp"
 

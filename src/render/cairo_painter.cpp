@@ -9,8 +9,6 @@
 #include "base/error.hpp"
 #include "base/printable.hpp"
 #include "base/stop.hpp"
-#include "draw/font.hpp"
-#include "render/canvas.hpp"
 
 namespace lantern::render {
 namespace {

@@ -7,9 +7,7 @@
 
 #include "base/check.hpp"
 #include "base/error.hpp"
-#include "base/file.hpp"
 #include "base/memory.hpp"
-#include "render/png.hpp"
 
 namespace lantern::render {
 

@@ -12,7 +12,6 @@
 #include "base/memory.hpp"
 #include "base/stop.hpp"
 #include "embedded/shaders.hpp"
-#include "render/context.hpp"
 #include "render/damage.hpp"
 #include "render/gl.hpp"
 #include "render/instances.hpp"

@@ -13,7 +13,6 @@
 #include "language/code_text.hpp"
 #include "language/counts.hpp"
 #include "run/counters.hpp"
-#include "run/shown.hpp"
 
 namespace lantern::run {
 

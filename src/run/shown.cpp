@@ -7,7 +7,6 @@
 #include "geometry/elementary.hpp"
 #include "geometry/flat.hpp"
 #include "language/counts.hpp"
-#include "run/engine.hpp"
 
 namespace lantern::run {
 

@@ -1,9 +1,7 @@
 #include "spatial/structure_trial.hpp"
 
-#include "base/clock.hpp"
 #include "base/json_writer.hpp"
 #include "base/random.hpp"
-#include "spatial/box_worlds.hpp"
 #include "spatial/broad_phase.hpp"
 #include "spatial/own_structure.hpp"
 #include "spatial/pairs.hpp"

@@ -1,6 +1,5 @@
 #include "app/folders/frame_folder.hpp"
 
-#include <algorithm>
 #include <limits>
 
 #include <fmt/format.h>

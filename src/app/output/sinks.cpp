@@ -10,7 +10,6 @@
 #include "base/json_writer.hpp"
 #include "base/stop.hpp"
 #include "draw/page.hpp"
-#include "draw/staging.hpp"
 #include "render/pipeline.hpp"
 
 namespace lantern::app {

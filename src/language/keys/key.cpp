@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
-
-#include <fmt/format.h>
 
 #include "base/check.hpp"
 #include "geometry/vec.hpp"

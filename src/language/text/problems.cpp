@@ -3,10 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <optional>
 #include <set>
-#include <string>
-#include <utility>
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
