@@ -10,6 +10,20 @@ namespace {
 
 constexpr int kLargest = 65536;  // pixels on one side
 
+// Do they share a pixel?
+bool share_pixels(const Rect& a, const Rect& b) {
+  return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
+}
+
+std::vector<std::size_t> layers_of(const std::vector<ScreenElement>& elements) {
+  std::vector<std::size_t> layers(elements.size());
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    for (std::size_t under = 0; under < i; ++under)
+      if (share_pixels(elements[i].place, elements[under].place))
+        layers[i] = std::max(layers[i], layers[under] + 1);
+  return layers;
+}
+
 }  // namespace
 
 Atlas::Atlas(int width, int height) {
@@ -81,24 +95,6 @@ std::vector<std::uint32_t> Atlas::free_leaves() const {
   }
   return leaves;
 }
-
-namespace {
-
-// Do they share a pixel?
-bool share_pixels(const Rect& a, const Rect& b) {
-  return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
-}
-
-std::vector<std::size_t> layers_of(const std::vector<ScreenElement>& elements) {
-  std::vector<std::size_t> layers(elements.size());
-  for (std::size_t i = 0; i < elements.size(); ++i)
-    for (std::size_t under = 0; under < i; ++under)
-      if (share_pixels(elements[i].place, elements[under].place))
-        layers[i] = std::max(layers[i], layers[under] + 1);
-  return layers;
-}
-
-}  // namespace
 
 std::vector<std::size_t> sorted_by_image(const std::vector<ScreenElement>& elements) {
   const std::vector<std::size_t> layers = layers_of(elements);

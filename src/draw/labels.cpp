@@ -33,6 +33,41 @@ std::size_t prefix(std::string_view text, double width, const TextStyle& style) 
   return too_long == ends.begin() ? 0 : *std::prev(too_long);
 }
 
+constexpr std::ptrdiff_t kFewBodies = 8;  // with names
+constexpr double kNameSpare = 1;          // that a name's side has to the room's rim and to bodies
+constexpr std::uint32_t kFewLeaves = 9;
+constexpr std::size_t kMostLookedAt = 120;  // frames of a group, here and there
+
+// As a word of its own.
+bool names(const std::string& text, const std::string& name) {
+  const auto is_part = [&](std::size_t at) {
+    return at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) != 0);
+  };
+  for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1))
+    if ((at == 0 || !is_part(at - 1)) && !is_part(at + name.size())) return true;
+  return false;
+}
+
+using Free = std::map<std::string, std::array<int, 8>, std::less<>>;  // by body: on how many frames
+
+void count_free(const Frame& frame, const Box<2>& panel, Free& free) {
+  const View2D map(flat(frame.bounds), panel);
+  const std::vector<Stand> stands = stands_of(frame, map);
+  const Box<2> room = shrunk(map.picture(), 5);
+  std::vector<Box<2>> covered;
+  for (const Stand& stand : stands) covered.push_back(stand.box);
+  for (const Stand& stand : stands) {
+    const FrameBody& body = *stand.bodies.front();
+    if (stand.bodies.size() > 1 || !shows_name(frame, body)) continue;
+    const auto anchors = anchors_around(stand.box, kNameGap + kNameSpare, {});
+    std::array<int, 8>& counts = free[body.name];
+    for (std::size_t k = 0; k < anchors.size(); ++k) {
+      const Box<2> extent = Labels::extent(body.name, anchors[k], {});
+      counts[k] += holds(room, extent) && !touches(covered, extent);
+    }
+  }
+}
+
 }  // namespace
 
 double text_width(std::string_view text, const TextStyle& style) {
@@ -165,45 +200,6 @@ std::vector<std::string> two_lines(std::string_view text, double width, const Te
   const std::size_t rest = text.find(lines[1], lines[0].size());
   return {lines[0], shortened(text.substr(rest), width, style)};
 }
-
-namespace {
-
-constexpr std::ptrdiff_t kFewBodies = 8;  // with names
-constexpr double kNameSpare = 1;          // that a name's side has to the room's rim and to bodies
-constexpr std::uint32_t kFewLeaves = 9;
-constexpr std::size_t kMostLookedAt = 120;  // frames of a group, here and there
-
-// As a word of its own.
-bool names(const std::string& text, const std::string& name) {
-  const auto is_part = [&](std::size_t at) {
-    return at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) != 0);
-  };
-  for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1))
-    if ((at == 0 || !is_part(at - 1)) && !is_part(at + name.size())) return true;
-  return false;
-}
-
-using Free = std::map<std::string, std::array<int, 8>, std::less<>>;  // by body: on how many frames
-
-void count_free(const Frame& frame, const Box<2>& panel, Free& free) {
-  const View2D map(flat(frame.bounds), panel);
-  const std::vector<Stand> stands = stands_of(frame, map);
-  const Box<2> room = shrunk(map.picture(), 5);
-  std::vector<Box<2>> covered;
-  for (const Stand& stand : stands) covered.push_back(stand.box);
-  for (const Stand& stand : stands) {
-    const FrameBody& body = *stand.bodies.front();
-    if (stand.bodies.size() > 1 || !shows_name(frame, body)) continue;
-    const auto anchors = anchors_around(stand.box, kNameGap + kNameSpare, {});
-    std::array<int, 8>& counts = free[body.name];
-    for (std::size_t k = 0; k < anchors.size(); ++k) {
-      const Box<2> extent = Labels::extent(body.name, anchors[k], {});
-      counts[k] += holds(room, extent) && !touches(covered, extent);
-    }
-  }
-}
-
-}  // namespace
 
 bool shows_name(const Frame& frame, const FrameBody& body) {
   if (body.name.empty() || frame.display.names == ShownNames::none) return false;

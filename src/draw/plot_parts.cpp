@@ -53,6 +53,77 @@ double least_height_between(const std::vector<Vec<2>>& ends) {
   return least;
 }
 
+constexpr double kQuarter = 0.785398163397448, kUp = -1.570796326794897;
+
+// A star of `tips` with its valleys at `inner` of the radius.
+std::vector<Vec<2>> star(const Vec<2>& at, double radius, int tips, double inner, double turn) {
+  const std::vector<Vec<2>> ring = ring_of({0, 0}, 1, 2 * tips, turn);
+  std::vector<Vec<2>> points;
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    points.push_back(at + ring[i] * (i % 2 == 0 ? radius : inner * radius));
+  return points;
+}
+
+// A plus sign, its arms `half` of the radius to each side of the middle.
+std::vector<Vec<2>> plus(const Vec<2>& at, double radius, double half, double turn) {
+  std::vector<Vec<2>> points;
+  for (int arm = 0; arm < 4; ++arm) {
+    const auto [s, c] = geometry::sin_cos(turn + 2 * kQuarter * arm);
+    for (const Vec<2>& p : {Vec<2>{half, -half}, Vec<2>{1, -half}, Vec<2>{1, half}})
+      points.push_back(at + radius * Vec<2>{c * p.x - s * p.y, s * p.x + c * p.y});
+  }
+  return points;
+}
+
+std::vector<Vec<2>> bar(const Vec<2>& at, const Vec<2>& half) {
+  return {at - half, at + Vec<2>{half.x, -half.y}, at + half, at + Vec<2>{-half.x, half.y}};
+}
+
+// Those that are regular polygons, by how far their corners lie from the middle.
+struct Ring {
+  int corners;
+  double reach, turn;
+};
+constexpr Ring kRings[] = {{4, 1.22, kQuarter}, {3, 1.4, kUp}, {4, 1.35, 0},      {3, 1.4, -kUp},
+                           {5, 1.2, kUp},       {3, 1.35, 0},  {3, 1.35, 2 * kUp}};
+
+std::vector<Vec<2>> outline(int mark, const Vec<2>& at, double r) {
+  if (mark == 6) return bar(at, {0.6 * r, 1.3 * r});
+  if (mark == 7) return bar(at, {1.35 * r, 0.6 * r});
+  if (mark == 8) return plus(at, 1.4 * r, 0.3, 0);
+  if (mark == 9) return plus(at, 1.4 * r, 0.3, kQuarter);
+  if (mark == 10) return star(at, 1.55 * r, 5, 0.42, kUp);
+  if (mark == 11) return star(at, 1.6 * r, 4, 0.38, kUp);
+  const Ring& ring = kRings[mark < 6 ? mark - 1 : mark - 7];
+  return ring_of(at, ring.reach * r, ring.corners, ring.turn);
+}
+
+// Colours whose lines are lost on white, or as greys in print.
+bool is_pale(Role role) {
+  return role == body_role(2) || role == body_role(3) || role == body_role(6);
+}
+
+constexpr double kColumnGap = 26;
+
+struct Columns {
+  std::size_t count = 1, rows = 1;
+  double width = 0, sample = 0, line = 0;
+};
+
+Columns columns_of(const std::vector<LegendEntry>& entries, double width, double size) {
+  Columns c;
+  c.sample = 2.1 * size;
+  c.line = 1.42 * size;
+  for (const LegendEntry& entry : entries)
+    c.width = std::max(c.width, c.sample + 8 + text_width(entry.name, size, Weight::regular) + 1);
+  c.width = std::min(c.width, width);
+  const double fit = (width + kColumnGap) / (c.width + kColumnGap);
+  const std::size_t most = std::max<std::size_t>(1, static_cast<std::size_t>(fit));
+  c.rows = (entries.size() + most - 1) / most;
+  c.count = c.rows == 0 ? 0 : (entries.size() + c.rows - 1) / c.rows;
+  return c;
+}
+
 }  // namespace
 
 void PlotPaper::heading(const std::string& text, const TextStyle& style) {
@@ -300,81 +371,6 @@ void draw_slope_fan(const std::vector<PlotSlope>& slopes, const Vec<2>& decade, 
     return;
   }
 }
-
-namespace {
-
-constexpr double kQuarter = 0.785398163397448, kUp = -1.570796326794897;
-
-// A star of `tips` with its valleys at `inner` of the radius.
-std::vector<Vec<2>> star(const Vec<2>& at, double radius, int tips, double inner, double turn) {
-  const std::vector<Vec<2>> ring = ring_of({0, 0}, 1, 2 * tips, turn);
-  std::vector<Vec<2>> points;
-  for (std::size_t i = 0; i < ring.size(); ++i)
-    points.push_back(at + ring[i] * (i % 2 == 0 ? radius : inner * radius));
-  return points;
-}
-
-// A plus sign, its arms `half` of the radius to each side of the middle.
-std::vector<Vec<2>> plus(const Vec<2>& at, double radius, double half, double turn) {
-  std::vector<Vec<2>> points;
-  for (int arm = 0; arm < 4; ++arm) {
-    const auto [s, c] = geometry::sin_cos(turn + 2 * kQuarter * arm);
-    for (const Vec<2>& p : {Vec<2>{half, -half}, Vec<2>{1, -half}, Vec<2>{1, half}})
-      points.push_back(at + radius * Vec<2>{c * p.x - s * p.y, s * p.x + c * p.y});
-  }
-  return points;
-}
-
-std::vector<Vec<2>> bar(const Vec<2>& at, const Vec<2>& half) {
-  return {at - half, at + Vec<2>{half.x, -half.y}, at + half, at + Vec<2>{-half.x, half.y}};
-}
-
-// Those that are regular polygons, by how far their corners lie from the middle.
-struct Ring {
-  int corners;
-  double reach, turn;
-};
-constexpr Ring kRings[] = {{4, 1.22, kQuarter}, {3, 1.4, kUp}, {4, 1.35, 0},      {3, 1.4, -kUp},
-                           {5, 1.2, kUp},       {3, 1.35, 0},  {3, 1.35, 2 * kUp}};
-
-std::vector<Vec<2>> outline(int mark, const Vec<2>& at, double r) {
-  if (mark == 6) return bar(at, {0.6 * r, 1.3 * r});
-  if (mark == 7) return bar(at, {1.35 * r, 0.6 * r});
-  if (mark == 8) return plus(at, 1.4 * r, 0.3, 0);
-  if (mark == 9) return plus(at, 1.4 * r, 0.3, kQuarter);
-  if (mark == 10) return star(at, 1.55 * r, 5, 0.42, kUp);
-  if (mark == 11) return star(at, 1.6 * r, 4, 0.38, kUp);
-  const Ring& ring = kRings[mark < 6 ? mark - 1 : mark - 7];
-  return ring_of(at, ring.reach * r, ring.corners, ring.turn);
-}
-
-// Colours whose lines are lost on white, or as greys in print.
-bool is_pale(Role role) {
-  return role == body_role(2) || role == body_role(3) || role == body_role(6);
-}
-
-constexpr double kColumnGap = 26;
-
-struct Columns {
-  std::size_t count = 1, rows = 1;
-  double width = 0, sample = 0, line = 0;
-};
-
-Columns columns_of(const std::vector<LegendEntry>& entries, double width, double size) {
-  Columns c;
-  c.sample = 2.1 * size;
-  c.line = 1.42 * size;
-  for (const LegendEntry& entry : entries)
-    c.width = std::max(c.width, c.sample + 8 + text_width(entry.name, size, Weight::regular) + 1);
-  c.width = std::min(c.width, width);
-  const double fit = (width + kColumnGap) / (c.width + kColumnGap);
-  const std::size_t most = std::max<std::size_t>(1, static_cast<std::size_t>(fit));
-  c.rows = (entries.size() + most - 1) / most;
-  c.count = c.rows == 0 ? 0 : (entries.size() + c.rows - 1) / c.rows;
-  return c;
-}
-
-}  // namespace
 
 Role plot_role(int look) {
   constexpr int kColors[] = {4, 1, 5, 8, 7, 2, 6, 3};

@@ -151,103 +151,12 @@ std::vector<const PartType*> types_of() {
   return {&part_type<P>()...};
 }
 
-}  // namespace
-
-const std::vector<const PartType*>& part_order() {
-  static const auto order =
-      types_of<FrameLinks, FrameIslands, FrameForces, FrameRulers, FrameLooks, FrameFinding,
-               FrameSeparation, FrameSearch, FrameDifference, FrameLevel, FrameMatrix,
-               FrameTextures, FrameComparison, FrameCode, FrameCollisions, FrameScreen>();
-  return order;
-}
-
-double FrameSeparation::gap() const {
-  if (axes.empty()) return 0;
-  return std::max(0.0, axes[answer.value_or(axes.size() - 1)].separation);
-}
-
-double FrameSeparation::overlap() const {
-  if (axes.empty() || gap() > 0) return 0;
-  if (answer) return -axes[*answer].separation;
-  return -std::ranges::max(axes, {}, &FrameAxis::separation).separation;
-}
-
-void FrameTextures::add_state(Hash& hash) const {
-  for (const FrameTexture& t : textures)
-    for (const int x : {int{t.packed}, int{t.refused}, t.x, t.y, t.width, t.height})
-      hash.add(static_cast<std::uint64_t>(x));
-}
-
-namespace {
-
 std::vector<PanelRun>& runs() {
   static std::vector<PanelRun> all;
   return all;
 }
 
-}  // namespace
-
-const PanelRun& run_of(Panel panel) { return runs().at(static_cast<std::size_t>(panel)); }
-
-void add_panel(PanelKind kind, PanelRun run) {
-  language::add_panel(std::move(kind));
-  language::add_counts(run.counts);
-  runs().push_back(std::move(run));
-}
-
-PairStates::PairStates(const Frame& frame)
-    : all_(all_pairs(frame.bodies.size())), has_contacts_(frame.count("contacts").has_value()) {
-  for (const FrameBody& body : frame.bodies)
-    if (body.is_static) statics_.push_back(body.id);
-  std::ranges::sort(statics_);
-  // Without contacts nobody compares boxes, and in the broad phase nobody has yet.
-  const bool compared = has_contacts_ && frame.phase != StepPhase::broad;
-  for (const FramePair& p : frame.pairs)
-    found_.push_back(
-        {p.pair, compared && !p.overlaps ? PairState::boxes_apart : PairState::candidate, p.lit});
-  std::ranges::sort(found_, {}, &Found::pair);
-  const auto raise = [&](const Pair& pair, PairState from, PairState to) {
-    const Found* found = find(pair);
-    if (found && found->state <= from)
-      found_[static_cast<std::size_t>(found - found_.data())].state = to;
-    return found != nullptr;
-  };
-  for (const Pair& pair : frame.tested) raise(pair, PairState::candidate, PairState::shapes_apart);
-  std::vector<Found> others;  // that touch, and are no candidates: both sleep, or they have parted
-  for (const FrameContact& contact : frame.contacts)
-    if (!raise(contact.pair, PairState::shapes_apart, PairState::contact))
-      others.push_back({contact.pair, PairState::contact, false});
-  found_.insert(found_.end(), others.begin(), others.end());
-  std::ranges::sort(found_, {}, &Found::pair);
-  const std::uint64_t untestable = all_pairs(statics_.size());
-  const auto count = [&](PairState state) -> std::uint64_t& {
-    return counts_[static_cast<std::size_t>(state)];
-  };
-  for (const Found& found : found_) ++count(found.state);
-  count(PairState::untestable) = untestable;
-  count(PairState::ruled_out) = all_ - std::min(all_, untestable + found_.size());
-}
-
-const PairStates::Found* PairStates::find(const Pair& pair) const {
-  const auto at = std::ranges::lower_bound(found_, pair, {}, &Found::pair);
-  return at != found_.end() && at->pair == pair ? &*at : nullptr;
-}
-
-PairState PairStates::state_of(const Pair& pair) const {
-  if (const Found* found = find(pair)) return found->state;
-  const bool both =
-      std::ranges::binary_search(statics_, pair.a) && std::ranges::binary_search(statics_, pair.b);
-  return both ? PairState::untestable : PairState::ruled_out;
-}
-
-bool PairStates::is_new(const Pair& pair) const {
-  const Found* found = find(pair);
-  return found && found->is_new;
-}
-
 // The frame as `lantern.frame/2`.
-namespace {
-
 class FrameWriter {
  public:
   explicit FrameWriter(const Frame& frame) : frame_(frame), facts_(json_, frame.dimension) {}
@@ -424,6 +333,89 @@ class FrameWriter {
 };
 
 }  // namespace
+
+const std::vector<const PartType*>& part_order() {
+  static const auto order =
+      types_of<FrameLinks, FrameIslands, FrameForces, FrameRulers, FrameLooks, FrameFinding,
+               FrameSeparation, FrameSearch, FrameDifference, FrameLevel, FrameMatrix,
+               FrameTextures, FrameComparison, FrameCode, FrameCollisions, FrameScreen>();
+  return order;
+}
+
+double FrameSeparation::gap() const {
+  if (axes.empty()) return 0;
+  return std::max(0.0, axes[answer.value_or(axes.size() - 1)].separation);
+}
+
+double FrameSeparation::overlap() const {
+  if (axes.empty() || gap() > 0) return 0;
+  if (answer) return -axes[*answer].separation;
+  return -std::ranges::max(axes, {}, &FrameAxis::separation).separation;
+}
+
+void FrameTextures::add_state(Hash& hash) const {
+  for (const FrameTexture& t : textures)
+    for (const int x : {int{t.packed}, int{t.refused}, t.x, t.y, t.width, t.height})
+      hash.add(static_cast<std::uint64_t>(x));
+}
+
+const PanelRun& run_of(Panel panel) { return runs().at(static_cast<std::size_t>(panel)); }
+
+void add_panel(PanelKind kind, PanelRun run) {
+  language::add_panel(std::move(kind));
+  language::add_counts(run.counts);
+  runs().push_back(std::move(run));
+}
+
+PairStates::PairStates(const Frame& frame)
+    : all_(all_pairs(frame.bodies.size())), has_contacts_(frame.count("contacts").has_value()) {
+  for (const FrameBody& body : frame.bodies)
+    if (body.is_static) statics_.push_back(body.id);
+  std::ranges::sort(statics_);
+  // Without contacts nobody compares boxes, and in the broad phase nobody has yet.
+  const bool compared = has_contacts_ && frame.phase != StepPhase::broad;
+  for (const FramePair& p : frame.pairs)
+    found_.push_back(
+        {p.pair, compared && !p.overlaps ? PairState::boxes_apart : PairState::candidate, p.lit});
+  std::ranges::sort(found_, {}, &Found::pair);
+  const auto raise = [&](const Pair& pair, PairState from, PairState to) {
+    const Found* found = find(pair);
+    if (found && found->state <= from)
+      found_[static_cast<std::size_t>(found - found_.data())].state = to;
+    return found != nullptr;
+  };
+  for (const Pair& pair : frame.tested) raise(pair, PairState::candidate, PairState::shapes_apart);
+  std::vector<Found> others;  // that touch, and are no candidates: both sleep, or they have parted
+  for (const FrameContact& contact : frame.contacts)
+    if (!raise(contact.pair, PairState::shapes_apart, PairState::contact))
+      others.push_back({contact.pair, PairState::contact, false});
+  found_.insert(found_.end(), others.begin(), others.end());
+  std::ranges::sort(found_, {}, &Found::pair);
+  const std::uint64_t untestable = all_pairs(statics_.size());
+  const auto count = [&](PairState state) -> std::uint64_t& {
+    return counts_[static_cast<std::size_t>(state)];
+  };
+  for (const Found& found : found_) ++count(found.state);
+  count(PairState::untestable) = untestable;
+  count(PairState::ruled_out) = all_ - std::min(all_, untestable + found_.size());
+}
+
+const PairStates::Found* PairStates::find(const Pair& pair) const {
+  const auto at = std::ranges::lower_bound(found_, pair, {}, &Found::pair);
+  return at != found_.end() && at->pair == pair ? &*at : nullptr;
+}
+
+PairState PairStates::state_of(const Pair& pair) const {
+  if (const Found* found = find(pair)) return found->state;
+  const bool both =
+      std::ranges::binary_search(statics_, pair.a) && std::ranges::binary_search(statics_, pair.b);
+  return both ? PairState::untestable : PairState::ruled_out;
+}
+
+bool PairStates::is_new(const Pair& pair) const {
+  const Found* found = find(pair);
+  return found && found->is_new;
+}
 
 std::string to_json(const Frame& frame) { return FrameWriter(frame).written(); }
 

@@ -76,53 +76,6 @@ std::optional<double> entry_of_half_space(const Ray<D>& ray, const Vec<D>& norma
   return t <= ray.length ? std::optional(t) : std::nullopt;
 }
 
-}  // namespace
-
-template <int D>
-void require_valid(const Ray<D>& ray) {
-  require_finite(ray.origin, "ray", "origin");
-  require_finite(ray.direction, "ray", "direction");
-  if (ray.direction == Vec<D>(0.0)) throw Refused("ray: direction has no length");
-  if (!(ray.length >= 0)) throw Refused("ray: length is {}, must not be negative", ray.length);
-}
-
-template <int D>
-std::optional<double> entry(const Ray<D>& ray, const Shape<D>& shape, const Vec<D>& position,
-                            const Rotation<D>& orientation) {
-  const auto from = [](const std::optional<RaySpan>& span) {
-    return span ? std::optional(span->from) : std::nullopt;
-  };
-  const RaySpan all{0, ray.length};
-  return std::visit(
-      EachShape{
-          [&](const Sphere& s) {
-            return from(
-                common(all, span_in_ball<D>(ray.origin - position, ray.direction, s.radius)));
-          },
-          [&](const AxisBox<D>& s) {
-            return from(span_in(ray, Box<D>::around(position, s.half_size)));
-          },
-          [&](const OrientedBox<D>& s) {
-            return from(span_in(seen_from(ray, position, orientation),
-                                Box<D>::around(Vec<D>(0.0), s.half_size)));
-          },
-          [&](const Capsule& s) {
-            return entry_of_capsule(seen_from(ray, position, orientation), s);
-          },
-          [&](const HalfSpace<D>& s) { return entry_of_half_space(ray, s.normal, position); },
-      },
-      shape);
-}
-
-template void require_valid(const Ray<2>&);
-template void require_valid(const Ray<3>&);
-template std::optional<double> entry(const Ray<2>&, const Shape<2>&, const Vec<2>&,
-                                     const Rotation<2>&);
-template std::optional<double> entry(const Ray<3>&, const Shape<3>&, const Vec<3>&,
-                                     const Rotation<3>&);
-
-namespace {
-
 void require_view(double angle, double near, double far) {
   if (!(angle > 0 && angle < std::numbers::pi))
     throw Refused("view: the opening angle is {}, must lie between 0 and pi", angle);
@@ -221,6 +174,49 @@ bool crossed_edges_part(const Frustum<3>& frustum, const Box<3>& box) {
 }
 
 }  // namespace
+
+template <int D>
+void require_valid(const Ray<D>& ray) {
+  require_finite(ray.origin, "ray", "origin");
+  require_finite(ray.direction, "ray", "direction");
+  if (ray.direction == Vec<D>(0.0)) throw Refused("ray: direction has no length");
+  if (!(ray.length >= 0)) throw Refused("ray: length is {}, must not be negative", ray.length);
+}
+
+template <int D>
+std::optional<double> entry(const Ray<D>& ray, const Shape<D>& shape, const Vec<D>& position,
+                            const Rotation<D>& orientation) {
+  const auto from = [](const std::optional<RaySpan>& span) {
+    return span ? std::optional(span->from) : std::nullopt;
+  };
+  const RaySpan all{0, ray.length};
+  return std::visit(
+      EachShape{
+          [&](const Sphere& s) {
+            return from(
+                common(all, span_in_ball<D>(ray.origin - position, ray.direction, s.radius)));
+          },
+          [&](const AxisBox<D>& s) {
+            return from(span_in(ray, Box<D>::around(position, s.half_size)));
+          },
+          [&](const OrientedBox<D>& s) {
+            return from(span_in(seen_from(ray, position, orientation),
+                                Box<D>::around(Vec<D>(0.0), s.half_size)));
+          },
+          [&](const Capsule& s) {
+            return entry_of_capsule(seen_from(ray, position, orientation), s);
+          },
+          [&](const HalfSpace<D>& s) { return entry_of_half_space(ray, s.normal, position); },
+      },
+      shape);
+}
+
+template void require_valid(const Ray<2>&);
+template void require_valid(const Ray<3>&);
+template std::optional<double> entry(const Ray<2>&, const Shape<2>&, const Vec<2>&,
+                                     const Rotation<2>&);
+template std::optional<double> entry(const Ray<3>&, const Shape<3>&, const Vec<3>&,
+                                     const Rotation<3>&);
 
 Frustum<3> view_frustum(const Vec<3>& eye, const Vec<3>& target, const Vec<3>& up, double fov,
                         double aspect, double near, double far) {

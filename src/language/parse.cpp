@@ -146,6 +146,40 @@ Scenario parse_sides(const TomlTable& table, std::string_view text, const std::s
   return Scenario(std::move(all.scenario));
 }
 
+// Every index that the spec holds.
+class Indices {
+ public:
+  explicit Indices(const ScenarioSpec& spec) : spec_(spec) {}
+
+  void check() const {
+    for (const BodySpec& b : spec_.bodies)
+      if (b.brain == Brain::follow) body(b.follows);
+    for (const LinkSpec& link : spec_.links) {
+      body(link.a);
+      if (link.b) body(*link.b);
+    }
+    for (const BodyMeasureSpec& measure : spec_.body_measures) body(measure.body);
+    for (const Step& step : spec_.steps)
+      std::visit([&](const auto& verb) { see(verb); }, step.verb);
+  }
+
+ private:
+  void body(std::size_t i) const { LANTERN_CHECK(i, <, spec_.bodies.size()); }
+
+  // Verbs name bodies, one body, textures, or none.
+  void see(const auto& verb) const {
+    if constexpr (requires { verb.bodies; })
+      for (const std::size_t i : verb.bodies) body(i);
+    if constexpr (requires { verb.body; }) body(verb.body);
+    if constexpr (requires { verb.textures; })
+      for (const std::size_t i : verb.textures) LANTERN_CHECK(i, <, spec_.textures.size());
+    if constexpr (std::is_same_v<std::decay_t<decltype(verb)>, Wait>)
+      if (verb.event != Wait::Event::asleep) LANTERN_CHECK(verb.bodies.size(), ==, std::size_t{2});
+  }
+
+  const ScenarioSpec& spec_;
+};
+
 }  // namespace
 
 Scenario parse_scenario(std::string_view text, const std::string& path) {
@@ -195,44 +229,6 @@ Glance glance_at(const std::string& path) try {
 } catch (const IoError&) {
   return {};
 }
-
-namespace {
-
-// Every index that the spec holds.
-class Indices {
- public:
-  explicit Indices(const ScenarioSpec& spec) : spec_(spec) {}
-
-  void check() const {
-    for (const BodySpec& b : spec_.bodies)
-      if (b.brain == Brain::follow) body(b.follows);
-    for (const LinkSpec& link : spec_.links) {
-      body(link.a);
-      if (link.b) body(*link.b);
-    }
-    for (const BodyMeasureSpec& measure : spec_.body_measures) body(measure.body);
-    for (const Step& step : spec_.steps)
-      std::visit([&](const auto& verb) { see(verb); }, step.verb);
-  }
-
- private:
-  void body(std::size_t i) const { LANTERN_CHECK(i, <, spec_.bodies.size()); }
-
-  // Verbs name bodies, one body, textures, or none.
-  void see(const auto& verb) const {
-    if constexpr (requires { verb.bodies; })
-      for (const std::size_t i : verb.bodies) body(i);
-    if constexpr (requires { verb.body; }) body(verb.body);
-    if constexpr (requires { verb.textures; })
-      for (const std::size_t i : verb.textures) LANTERN_CHECK(i, <, spec_.textures.size());
-    if constexpr (std::is_same_v<std::decay_t<decltype(verb)>, Wait>)
-      if (verb.event != Wait::Event::asleep) LANTERN_CHECK(verb.bodies.size(), ==, std::size_t{2});
-  }
-
-  const ScenarioSpec& spec_;
-};
-
-}  // namespace
 
 bool ScenarioSpec::is_quiet(Warning kind) const {
   const std::vector<Warning>& quiet = atlas ? atlas->quiet : world.quiet;

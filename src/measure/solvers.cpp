@@ -174,64 +174,6 @@ class PointSimulation : public Simulation {
   DormandPrince<double> method_;
 };
 
-}  // namespace
-
-std::optional<std::string> LanternSolver::cannot(const Scenario& scenario) const {
-  if (method_.contacts && scenario.world.contacts == ContactMethod::none)
-    return "its bodies do not collide";
-  const auto is_joint = [](const LinkSpec& link) { return link.kind != LinkSpec::Kind::spring; };
-  if (method_.contacts == ContactMethod::lecture && std::ranges::any_of(scenario.links, is_joint))
-    return "the lecture has no joints";
-  if (method_.rotation && scenario.world.dimension == 2) return "a flat body turns by its spin";
-  return std::nullopt;
-}
-
-std::unique_ptr<Simulation> LanternSolver::start(const Scenario& scenario, double h) const {
-  return std::make_unique<WorldSimulation>(moved_by(scenario, method_, h));
-}
-
-std::vector<Method> methods_for(const Scenario& scenario) {
-  if (scenario.problem && !scenario.problem->methods.empty())
-    return named(scenario.problem->methods);
-  if (scenario.world.contacts != ContactMethod::none)
-    return named({"lecture", "impulse", "impulse:100", "soft", "soft:16"});
-  if (has_forces(scenario))
-    return named({"explicit_euler", "semi_implicit_euler", "velocity_verlet", "runge_kutta_4",
-                  "implicit_midpoint", "implicit_euler"});
-  if (scenario.world.dimension == 3 && std::ranges::any_of(scenario.bodies, turns_in_space))
-    return named({"explicit_gyroscopic", "splitting_2", "splitting_4", "exact"});
-  Method as_written;
-  as_written.name = "as written";
-  return {as_written};
-}
-
-std::optional<std::string> DormandPrinceSolver::cannot(const Scenario& scenario) const {
-  if (!scenario.problem) return "it has no [problem]";
-  if (scenario.world.contacts != ContactMethod::none) return "its bodies collide";
-  bool moves = false;
-  for (const BodySpec& body : scenario.bodies) {
-    moves = moves || body.kind == BodyKind::dynamic_body;
-    if (body.kind == BodyKind::kinematic_body)
-      return fmt::format("body '{}' is kinematic", body.name);
-    if (body.spin != 0) return fmt::format("body '{}' turns", body.name);
-  }
-  if (!moves) return "nothing moves";
-  for (const LinkSpec& link : scenario.links) {
-    if (link.kind != LinkSpec::Kind::spring) return "it has joints";
-    if (link.at_a != Vec<3>(0.0) || (link.b && link.at_b != Vec<3>(0.0)))
-      return "its springs turn bodies";
-  }
-  return std::nullopt;
-}
-
-std::unique_ptr<Simulation> DormandPrinceSolver::start(const Scenario& scenario, double h) const {
-  if (const auto reason = cannot(scenario)) throw Refused("dormand_prince: {}", *reason);
-  if (scenario.world.dimension == 3) return std::make_unique<PointSimulation<3>>(scenario, h);
-  return std::make_unique<PointSimulation<2>>(scenario, h);
-}
-
-namespace {
-
 namespace fs = std::filesystem;
 
 // Where the module is; empty if it was not built. Beside the program, or above the tests' folder: a
@@ -352,6 +294,60 @@ constexpr PeerModule kModules[] = {
 };
 
 }  // namespace
+
+std::optional<std::string> LanternSolver::cannot(const Scenario& scenario) const {
+  if (method_.contacts && scenario.world.contacts == ContactMethod::none)
+    return "its bodies do not collide";
+  const auto is_joint = [](const LinkSpec& link) { return link.kind != LinkSpec::Kind::spring; };
+  if (method_.contacts == ContactMethod::lecture && std::ranges::any_of(scenario.links, is_joint))
+    return "the lecture has no joints";
+  if (method_.rotation && scenario.world.dimension == 2) return "a flat body turns by its spin";
+  return std::nullopt;
+}
+
+std::unique_ptr<Simulation> LanternSolver::start(const Scenario& scenario, double h) const {
+  return std::make_unique<WorldSimulation>(moved_by(scenario, method_, h));
+}
+
+std::vector<Method> methods_for(const Scenario& scenario) {
+  if (scenario.problem && !scenario.problem->methods.empty())
+    return named(scenario.problem->methods);
+  if (scenario.world.contacts != ContactMethod::none)
+    return named({"lecture", "impulse", "impulse:100", "soft", "soft:16"});
+  if (has_forces(scenario))
+    return named({"explicit_euler", "semi_implicit_euler", "velocity_verlet", "runge_kutta_4",
+                  "implicit_midpoint", "implicit_euler"});
+  if (scenario.world.dimension == 3 && std::ranges::any_of(scenario.bodies, turns_in_space))
+    return named({"explicit_gyroscopic", "splitting_2", "splitting_4", "exact"});
+  Method as_written;
+  as_written.name = "as written";
+  return {as_written};
+}
+
+std::optional<std::string> DormandPrinceSolver::cannot(const Scenario& scenario) const {
+  if (!scenario.problem) return "it has no [problem]";
+  if (scenario.world.contacts != ContactMethod::none) return "its bodies collide";
+  bool moves = false;
+  for (const BodySpec& body : scenario.bodies) {
+    moves = moves || body.kind == BodyKind::dynamic_body;
+    if (body.kind == BodyKind::kinematic_body)
+      return fmt::format("body '{}' is kinematic", body.name);
+    if (body.spin != 0) return fmt::format("body '{}' turns", body.name);
+  }
+  if (!moves) return "nothing moves";
+  for (const LinkSpec& link : scenario.links) {
+    if (link.kind != LinkSpec::Kind::spring) return "it has joints";
+    if (link.at_a != Vec<3>(0.0) || (link.b && link.at_b != Vec<3>(0.0)))
+      return "its springs turn bodies";
+  }
+  return std::nullopt;
+}
+
+std::unique_ptr<Simulation> DormandPrinceSolver::start(const Scenario& scenario, double h) const {
+  if (const auto reason = cannot(scenario)) throw Refused("dormand_prince: {}", *reason);
+  if (scenario.world.dimension == 3) return std::make_unique<PointSimulation<3>>(scenario, h);
+  return std::make_unique<PointSimulation<2>>(scenario, h);
+}
 
 std::optional<Library> load_module(const PeerModule& module, std::vector<std::string>& missing) {
   const fs::path path = place_of(module);

@@ -30,12 +30,6 @@ constexpr CountDoc kEngineCounts[] = {
     {"awake", when::sleep, "awake",
      "Bodies that can move and are not asleep, whether they move now or not.", Most::bodies}};
 
-}  // namespace
-
-std::span<const CountDoc> engine_counts() { return kEngineCounts; }
-
-namespace {
-
 template <int D>
 class EngineOf : public Engine {
  public:
@@ -423,6 +417,8 @@ class EngineOf : public Engine {
 };
 
 }  // namespace
+
+std::span<const CountDoc> engine_counts() { return kEngineCounts; }
 
 std::unique_ptr<Engine> make_engine(const Scenario& scenario, Work& work) {
   if (scenario.world.dimension == 3) return std::make_unique<EngineOf<3>>(scenario, work);

@@ -37,12 +37,6 @@ constexpr CountDoc kAnswerCounts[] = {
     {"least_work", when::compared, "comparison a step/comparisons a step",
      "Comparisons of the kind that needed fewest in its step, to make ready and to find pairs."}};
 
-}  // namespace
-
-std::span<const CountDoc> answer_counts() { return kAnswerCounts; }
-
-namespace {
-
 // Frames of one run, all paces together.
 constexpr std::uint32_t kMostFrames = 100'000;
 
@@ -75,6 +69,8 @@ std::string why_not_noted(const NoteSpec& note, const Frame& frame) {
 }
 
 }  // namespace
+
+std::span<const CountDoc> answer_counts() { return kAnswerCounts; }
 
 FrameMaker::FrameMaker(const Scenario& scenario, Pace pace, const Stage& stage,
                        const std::function<bool(const Frame&)>& sink)

@@ -35,13 +35,6 @@ constexpr CountDoc kNarrowMeasures[] = {
     {"distance", when::searched, "", "Of the bodies of the last `gjk`; 0 if they overlap.",
      Most::size, "units"}};
 
-}  // namespace
-
-std::span<const CountDoc> narrow_counts() { return kNarrowCounts; }
-std::span<const CountDoc> narrow_measures() { return kNarrowMeasures; }
-
-namespace {
-
 constexpr std::size_t kMostInFocus = 3;  // of more, nobody stands out
 
 // Of each node its way down from the root: a node that is made anew at the same place is the
@@ -113,6 +106,9 @@ Vec<3> turned_about(const Vec<3>& middle, const Vec<3>& p, double angle) {
 }
 
 }  // namespace
+
+std::span<const CountDoc> narrow_counts() { return kNarrowCounts; }
+std::span<const CountDoc> narrow_measures() { return kNarrowMeasures; }
 
 void Lighting::light(const Cause& cause, Frame& frame) const {
   if (frame.index == 0 && !cause.midst) return put_out(frame);

@@ -47,13 +47,6 @@ constexpr CountDoc kStepMeasures[] = {
      "none.",
      Most::part_of_step, "of a step"}};
 
-}  // namespace
-
-std::span<const CountDoc> step_counts() { return kStepCounts; }
-std::span<const CountDoc> step_measures() { return kStepMeasures; }
-
-namespace {
-
 template <int D>
 FrameContact frame_contact(const Contact<D>& contact, std::span<const ContactEvent> events) {
   FrameContact c;
@@ -100,6 +93,9 @@ void set(std::vector<std::pair<std::string, V>>& numbers, std::string_view name,
 }
 
 }  // namespace
+
+std::span<const CountDoc> step_counts() { return kStepCounts; }
+std::span<const CountDoc> step_measures() { return kStepMeasures; }
 
 StepFindings::Counts StepFindings::contact_counts() const {
   std::uint64_t points = 0, impulses = 0, crushes = 0;

@@ -21,6 +21,62 @@ bool same_movers(std::span<const Proxy<D>> before, std::span<const Proxy<D>> aft
   });
 }
 
+// What finding all pairs of a body costs, in ns, as measured: to compare it with another one,
+// sixteen at a time; to part it from the others in cells; and how much more a pair costs there,
+// since pairs of all with all come in order.
+template <int D>
+constexpr double kCompare = D == 2 ? 0.35 : 0.5;
+constexpr double kPart = 60, kPutInOrder = 4.5;
+
+// Of a sample of pairs: which share overlaps.
+template <int D>
+double share_of_overlaps(std::span<const Item<D>> items) {
+  constexpr std::size_t kSamples = 2000;
+  if (items.size() < 2) return 0;
+  std::size_t tested = 0, overlaps = 0;
+  std::uint64_t random = 1;  // Knuth's MMIX generator: any spread of numbers will do
+  const auto any = [&] {
+    random = random * 6364136223846793005u + 1442695040888963407u;
+    return static_cast<std::size_t>(random >> 33) % items.size();
+  };
+  while (tested < kSamples) {
+    const std::size_t a = any(), b = any();
+    if (a == b) continue;
+    ++tested;
+    overlaps += overlap(items[a].box, items[b].box);
+  }
+  return static_cast<double>(overlaps) / static_cast<double>(tested);
+}
+
+template <int D>
+bool reaches_without_end(const Box<D>& box) {
+  for (int i = 0; i < D; ++i)
+    if (box.lo[i] <= -kEndless || box.hi[i] >= kEndless) return true;
+  return false;
+}
+
+// The longest side of each body that has one, in order.
+template <int D>
+std::vector<double> sizes_of(std::span<const Item<D>> items) {
+  std::vector<double> sizes;
+  for (const Item<D>& item : items)
+    if (!reaches_without_end(item.box)) sizes.push_back(extent_of(item.box));
+  std::ranges::sort(sizes);
+  return sizes;
+}
+
+template <int D>
+Box<D> around_all(std::span<const Item<D>> items) {
+  std::optional<Box<D>> all;
+  for (const Item<D>& item : items)
+    if (!reaches_without_end(item.box)) all = all ? united(*all, item.box) : item.box;
+  return all.value_or(Box<D>{Vec<D>(-1.0), Vec<D>(1.0)});
+}
+
+std::string percent(double share) {
+  return share > 0 && share < 0.01 ? "less than 1%" : fmt::format("{:.0f}%", 100 * share);
+}
+
 }  // namespace
 
 template <int D>
@@ -100,66 +156,6 @@ template StructureWork structure_work(BroadPhaseConfig<2>, std::span<const Proxy
                                       std::span<const Proxy<2>>, std::uint64_t);
 template StructureWork structure_work(BroadPhaseConfig<3>, std::span<const Proxy<3>>,
                                       std::span<const Proxy<3>>, std::uint64_t);
-
-namespace {
-
-// What finding all pairs of a body costs, in ns, as measured: to compare it with another one,
-// sixteen at a time; to part it from the others in cells; and how much more a pair costs there,
-// since pairs of all with all come in order.
-template <int D>
-constexpr double kCompare = D == 2 ? 0.35 : 0.5;
-constexpr double kPart = 60, kPutInOrder = 4.5;
-
-// Of a sample of pairs: which share overlaps.
-template <int D>
-double share_of_overlaps(std::span<const Item<D>> items) {
-  constexpr std::size_t kSamples = 2000;
-  if (items.size() < 2) return 0;
-  std::size_t tested = 0, overlaps = 0;
-  std::uint64_t random = 1;  // Knuth's MMIX generator: any spread of numbers will do
-  const auto any = [&] {
-    random = random * 6364136223846793005u + 1442695040888963407u;
-    return static_cast<std::size_t>(random >> 33) % items.size();
-  };
-  while (tested < kSamples) {
-    const std::size_t a = any(), b = any();
-    if (a == b) continue;
-    ++tested;
-    overlaps += overlap(items[a].box, items[b].box);
-  }
-  return static_cast<double>(overlaps) / static_cast<double>(tested);
-}
-
-template <int D>
-bool reaches_without_end(const Box<D>& box) {
-  for (int i = 0; i < D; ++i)
-    if (box.lo[i] <= -kEndless || box.hi[i] >= kEndless) return true;
-  return false;
-}
-
-// The longest side of each body that has one, in order.
-template <int D>
-std::vector<double> sizes_of(std::span<const Item<D>> items) {
-  std::vector<double> sizes;
-  for (const Item<D>& item : items)
-    if (!reaches_without_end(item.box)) sizes.push_back(extent_of(item.box));
-  std::ranges::sort(sizes);
-  return sizes;
-}
-
-template <int D>
-Box<D> around_all(std::span<const Item<D>> items) {
-  std::optional<Box<D>> all;
-  for (const Item<D>& item : items)
-    if (!reaches_without_end(item.box)) all = all ? united(*all, item.box) : item.box;
-  return all.value_or(Box<D>{Vec<D>(-1.0), Vec<D>(1.0)});
-}
-
-std::string percent(double share) {
-  return share > 0 && share < 0.01 ? "less than 1%" : fmt::format("{:.0f}%", 100 * share);
-}
-
-}  // namespace
 
 template <int D>
 StructureChoice<D> choose_structure(std::span<const Item<D>> items,

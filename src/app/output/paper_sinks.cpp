@@ -223,18 +223,6 @@ class SheetSink : public FileSink {
   fs::path file_;  // of the document
 };
 
-}  // namespace
-
-std::unique_ptr<FileSink> make_document_sink(const Sequence& sequence) {
-  return std::make_unique<DocumentSink>(sequence);
-}
-
-std::unique_ptr<FileSink> make_sheet_sink(const Sequence& sequence) {
-  return std::make_unique<SheetSink>(sequence);
-}
-
-namespace {
-
 // A page is opened as a whole: what a browser unpacks at once, and steps through, has an end.
 constexpr std::uint64_t kMostPageFrames = 20'000;
 constexpr std::uint64_t kMostPageBytes = std::uint64_t{192} << 20;  // before they are compressed
@@ -338,6 +326,14 @@ class PageSink : public FileSink {
 };
 
 }  // namespace
+
+std::unique_ptr<FileSink> make_document_sink(const Sequence& sequence) {
+  return std::make_unique<DocumentSink>(sequence);
+}
+
+std::unique_ptr<FileSink> make_sheet_sink(const Sequence& sequence) {
+  return std::make_unique<SheetSink>(sequence);
+}
 
 std::unique_ptr<FileSink> make_page_sink(const Sequence& sequence) {
   return std::make_unique<PageSink>(sequence);

@@ -94,58 +94,6 @@ void mark_answer(const FrameSearch& search, const View2D& map, DrawList& list, L
                  style, map.panel());
 }
 
-}  // namespace
-
-void draw_shadow(const Vec<2>& from, const Vec<2>& to, Role role, Pen& pen) {
-  pen.polygon(strip(from, to, kShadow), role, {Role::body_line, 1.6});
-}
-
-void draw_gap(const Vec<2>& from, const Vec<2>& to, Pen& pen) {
-  const Vec<2> n = unit(to - from), tick = Vec<2>(-n.y, n.x) * kGapTick;
-  pen.line(from, to, {Role::lit, 5}, 2);
-  for (const Vec<2>& end : {from, to}) pen.line(end - tick, end + tick, {Role::lit, 3.4}, 1.5);
-}
-
-void draw_shared_shadow(const Vec<2>& from, const Vec<2>& to, Pen& pen) {
-  const std::vector<Vec<2>> frame = strip(from, to, kShared);
-  pen.path(frame, true, {Role::panel, 5.6});
-  pen.path(frame, true, {Role::pair, 3});
-}
-
-void draw_support(const Vec<2>& at, Pen& pen) { pen.dot(at, 9, Role::lit, {Role::panel, 2}); }
-
-void draw_simplex(const std::vector<Vec<2>>& points, Pen& pen) {
-  if (points.size() > 1) pen.path(points, points.size() > 2, {Role::ray, 4.6});
-  for (const Vec<2>& p : points) pen.dot(p, 8, Role::ray, {Role::panel, 2});
-}
-
-void draw_origin(const Vec<2>& at, Pen& pen) {
-  pen.dot(at, 10, Role::panel, {Role::ink, 2.8});
-  pen.dot(at, 3.4, Role::ink);
-}
-
-const std::vector<SupportPair>& simplex_of(const FrameSearch& search) {
-  static const std::vector<SupportPair> none;
-  const std::size_t n = search.steps.size();
-  if (search.taken || search.answer) return n == 0 ? none : search.steps[n - 1].simplex;
-  return n < 2 ? none : search.steps[n - 2].simplex;
-}
-
-std::string search_number(const FrameSearch& search, const Vec<2>& difference) {
-  const auto found = std::ranges::find(search.steps, difference,
-                                       [](const auto& step) { return step.found.difference(); });
-  return fmt::format("{}", found - search.steps.begin() + 1);
-}
-
-void mark_search(const Frame& frame, const View2D& map, DrawList& list, Labels& labels) {
-  const FrameSearch& search = frame.get<FrameSearch>();
-  if (search.steps.empty()) return;
-  mark_points(search, map, list, labels);
-  mark_newest(search, map, list, labels);
-  mark_answer(search, map, list, labels);
-  list.referents.insert({"gjk_steps", "distance"});
-}
-
 // Separating axes: lines beside two bodies, with the bodies' shadows on them.
 //
 //      a     b
@@ -155,8 +103,6 @@ void mark_search(const Frame& frame, const View2D& map, DrawList& list, Labels& 
 //    .   .  \/ .
 //    =====..====  gap
 //   ---------------> axis
-namespace {
-
 constexpr double kAxisBeside = 60;  // from the bodies to the axis
 constexpr double kTrack = 9;        // from the axis to the middle of a shadow
 constexpr double kBeyond = 26;      // of the axis, beyond the shadows
@@ -299,6 +245,56 @@ class SeparationMarks {
 };
 
 }  // namespace
+
+void draw_shadow(const Vec<2>& from, const Vec<2>& to, Role role, Pen& pen) {
+  pen.polygon(strip(from, to, kShadow), role, {Role::body_line, 1.6});
+}
+
+void draw_gap(const Vec<2>& from, const Vec<2>& to, Pen& pen) {
+  const Vec<2> n = unit(to - from), tick = Vec<2>(-n.y, n.x) * kGapTick;
+  pen.line(from, to, {Role::lit, 5}, 2);
+  for (const Vec<2>& end : {from, to}) pen.line(end - tick, end + tick, {Role::lit, 3.4}, 1.5);
+}
+
+void draw_shared_shadow(const Vec<2>& from, const Vec<2>& to, Pen& pen) {
+  const std::vector<Vec<2>> frame = strip(from, to, kShared);
+  pen.path(frame, true, {Role::panel, 5.6});
+  pen.path(frame, true, {Role::pair, 3});
+}
+
+void draw_support(const Vec<2>& at, Pen& pen) { pen.dot(at, 9, Role::lit, {Role::panel, 2}); }
+
+void draw_simplex(const std::vector<Vec<2>>& points, Pen& pen) {
+  if (points.size() > 1) pen.path(points, points.size() > 2, {Role::ray, 4.6});
+  for (const Vec<2>& p : points) pen.dot(p, 8, Role::ray, {Role::panel, 2});
+}
+
+void draw_origin(const Vec<2>& at, Pen& pen) {
+  pen.dot(at, 10, Role::panel, {Role::ink, 2.8});
+  pen.dot(at, 3.4, Role::ink);
+}
+
+const std::vector<SupportPair>& simplex_of(const FrameSearch& search) {
+  static const std::vector<SupportPair> none;
+  const std::size_t n = search.steps.size();
+  if (search.taken || search.answer) return n == 0 ? none : search.steps[n - 1].simplex;
+  return n < 2 ? none : search.steps[n - 2].simplex;
+}
+
+std::string search_number(const FrameSearch& search, const Vec<2>& difference) {
+  const auto found = std::ranges::find(search.steps, difference,
+                                       [](const auto& step) { return step.found.difference(); });
+  return fmt::format("{}", found - search.steps.begin() + 1);
+}
+
+void mark_search(const Frame& frame, const View2D& map, DrawList& list, Labels& labels) {
+  const FrameSearch& search = frame.get<FrameSearch>();
+  if (search.steps.empty()) return;
+  mark_points(search, map, list, labels);
+  mark_newest(search, map, list, labels);
+  mark_answer(search, map, list, labels);
+  list.referents.insert({"gjk_steps", "distance"});
+}
 
 void mark_separation(const Frame& frame, const View2D& map, DrawList& list, Labels& labels) {
   if (!frame.find<FrameSeparation>() || frame.find<FrameSeparation>()->axes.empty()) return;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/number.hpp"
+#include "base/printable.hpp"
 #include "language/script/script_reading.hpp"
 
 namespace lantern::language {
@@ -69,6 +70,46 @@ void for_each_piece(std::string_view caption, F&& f) {
   }
 }
 
+constexpr std::size_t kMostNoted = 64;  // each costs time on every frame
+
+// Names that can be counted or quoted here, for suggestions.
+std::vector<std::string_view> quotable(const ScriptPast& past) {
+  std::vector<std::string_view> names;
+  for (const auto docs : {known_counts(), known_texts(), known_measures()})
+    for (const CountDoc& doc : docs)
+      if (why_not_counted(doc, past).empty()) names.push_back(doc.name);
+  return names;
+}
+
+// The place of a byte of a text that is written on one line without escapes; otherwise the place of
+// the text.
+Place place_within(std::string_view file, Place where, std::string_view text, std::size_t offset) {
+  const std::string line = line_of(file, where.line);
+  std::size_t at = 0;
+  for (int column = 1; column < where.column && at < line.size(); ++column) do
+      ++at;
+    while (at < line.size() && (line[at] & 0xc0) == 0x80);
+  const std::string_view before = text.substr(0, offset);
+  if (at + 1 >= line.size() || !std::string_view(line).substr(at + 1).starts_with(before))
+    return where;
+  return {where.line, where.column + 1 + static_cast<int>(letters(before))};
+}
+
+bool is_of_other_side(std::string_view written, const Draft& draft) {
+  const std::string_view side = side_of(written, draft.sides);
+  return !side.empty() && side != draft.scenario.side;
+}
+
+// The row of a name that a caption may quote; null if there is none.
+const CountDoc* find_quotable(std::string_view name) {
+  const CountDoc* doc = find_count(name);
+  return doc ? doc : find_in(known_texts(), name);
+}
+
+void tell_not_counted(const Named& number, const std::string& why, Draft& draft) {
+  draft.problems.add(number.where, fmt::format("'{}' is not counted here: {}", number.name, why));
+}
+
 }  // namespace
 
 std::string fill_caption(std::string_view caption, const TextLookup& text,
@@ -126,50 +167,6 @@ std::vector<CaptionProblem> caption_problems(
   });
   return problems;
 }
-
-namespace {
-
-constexpr std::size_t kMostNoted = 64;  // each costs time on every frame
-
-// Names that can be counted or quoted here, for suggestions.
-std::vector<std::string_view> quotable(const ScriptPast& past) {
-  std::vector<std::string_view> names;
-  for (const auto docs : {known_counts(), known_texts(), known_measures()})
-    for (const CountDoc& doc : docs)
-      if (why_not_counted(doc, past).empty()) names.push_back(doc.name);
-  return names;
-}
-
-// The place of a byte of a text that is written on one line without escapes; otherwise the place of
-// the text.
-Place place_within(std::string_view file, Place where, std::string_view text, std::size_t offset) {
-  const std::string line = line_of(file, where.line);
-  std::size_t at = 0;
-  for (int column = 1; column < where.column && at < line.size(); ++column) do
-      ++at;
-    while (at < line.size() && (line[at] & 0xc0) == 0x80);
-  const std::string_view before = text.substr(0, offset);
-  if (at + 1 >= line.size() || !std::string_view(line).substr(at + 1).starts_with(before))
-    return where;
-  return {where.line, where.column + 1 + static_cast<int>(letters(before))};
-}
-
-bool is_of_other_side(std::string_view written, const Draft& draft) {
-  const std::string_view side = side_of(written, draft.sides);
-  return !side.empty() && side != draft.scenario.side;
-}
-
-// The row of a name that a caption may quote; null if there is none.
-const CountDoc* find_quotable(std::string_view name) {
-  const CountDoc* doc = find_count(name);
-  return doc ? doc : find_in(known_texts(), name);
-}
-
-void tell_not_counted(const Named& number, const std::string& why, Draft& draft) {
-  draft.problems.add(number.where, fmt::format("'{}' is not counted here: {}", number.name, why));
-}
-
-}  // namespace
 
 bool check_counted(const Named& written, Draft& draft, const ScriptState* state) {
   if (is_of_other_side(written.name, draft)) return true;

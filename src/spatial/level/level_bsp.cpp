@@ -52,6 +52,36 @@ namespace {
 
 enum class Side { back, front, cut, on };
 
+[[noreturn]] void refuse(const Wall& wall, std::size_t index, const std::string& why) {
+  const std::string name = wall.name.empty() ? "" : fmt::format(" ({})", wall.name);
+  throw Refused("wall {}{}: {}", index, name, why);
+}
+
+// Whether the ray from the point to the right meets the edge. Half open, so that a corner between
+// two edges counts once.
+bool ray_meets(const Vec<2>& p, const Vec<2>& a, const Vec<2>& b) {
+  if ((a.y > p.y) == (b.y > p.y)) return false;
+  return p.x < a.x + (b.x - a.x) * ((p.y - a.y) / (b.y - a.y));
+}
+
+bool is_floor(const Vec<2>& p, std::span<const std::vector<Vec<2>>> loops) {
+  bool odd = false;
+  for (const auto& loop : loops)
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      if (ray_meets(p, loop[i], loop[(i + 1) % loop.size()])) odd = !odd;
+  return odd;
+}
+
+void require_loop(const std::vector<Vec<2>>& loop, std::size_t index) {
+  if (loop.size() < 3) throw Refused("loop {}: it needs at least three corners", index);
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    if (!std::isfinite(loop[i].x) || !std::isfinite(loop[i].y))
+      throw Refused("loop {}: corner {} is not finite", index, i);
+    if (loop[i] == loop[(i + 1) % loop.size()])
+      throw Refused("loop {}: corner {} and the next one are equal", index, i);
+  }
+}
+
 }  // namespace
 
 // Builds a level from the root down, what lies behind a line before what lies in front.
@@ -289,40 +319,6 @@ LevelBsp compile_level(std::span<const Wall> walls, const Box<2>& bounds, const 
                        const LevelObserver& observer) {
   return LevelCompiler(walls, bounds, config, observer).run();
 }
-
-namespace {
-
-[[noreturn]] void refuse(const Wall& wall, std::size_t index, const std::string& why) {
-  const std::string name = wall.name.empty() ? "" : fmt::format(" ({})", wall.name);
-  throw Refused("wall {}{}: {}", index, name, why);
-}
-
-// Whether the ray from the point to the right meets the edge. Half open, so that a corner between
-// two edges counts once.
-bool ray_meets(const Vec<2>& p, const Vec<2>& a, const Vec<2>& b) {
-  if ((a.y > p.y) == (b.y > p.y)) return false;
-  return p.x < a.x + (b.x - a.x) * ((p.y - a.y) / (b.y - a.y));
-}
-
-bool is_floor(const Vec<2>& p, std::span<const std::vector<Vec<2>>> loops) {
-  bool odd = false;
-  for (const auto& loop : loops)
-    for (std::size_t i = 0; i < loop.size(); ++i)
-      if (ray_meets(p, loop[i], loop[(i + 1) % loop.size()])) odd = !odd;
-  return odd;
-}
-
-void require_loop(const std::vector<Vec<2>>& loop, std::size_t index) {
-  if (loop.size() < 3) throw Refused("loop {}: it needs at least three corners", index);
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    if (!std::isfinite(loop[i].x) || !std::isfinite(loop[i].y))
-      throw Refused("loop {}: corner {} is not finite", index, i);
-    if (loop[i] == loop[(i + 1) % loop.size()])
-      throw Refused("loop {}: corner {} and the next one are equal", index, i);
-  }
-}
-
-}  // namespace
 
 LevelGrid::LevelGrid(const Box<2>& bounds) {
   if (!is_valid(bounds)) throw Refused("level: its bounds are not finite or inverted");
