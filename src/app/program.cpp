@@ -98,33 +98,6 @@ void on_signal(int) {
   errno = kept;
 }
 
-}  // namespace
-
-void catch_interrupts() {
-  struct sigaction action {};
-  action.sa_handler = on_alarm;
-  ::sigaction(SIGALRM, &action, nullptr);
-  sigevent event{};
-  event.sigev_notify = SIGEV_SIGNAL;
-  event.sigev_signo = SIGALRM;
-  sigset_t alarm{};  // may have been blocked by whoever has started us
-  ::sigemptyset(&alarm);
-  ::sigaddset(&alarm, SIGALRM);
-  ::sigprocmask(SIG_UNBLOCK, &alarm, nullptr);
-  has_backstop = ::timer_create(CLOCK_MONOTONIC, &event, &backstop) == 0;
-  action.sa_handler = on_signal;
-  ::sigaction(SIGINT, &action, nullptr);
-  ::sigaction(SIGTERM, &action, nullptr);
-  std::signal(SIGPIPE, SIG_IGN);
-  std::signal(SIGXFSZ, SIG_IGN);
-}
-
-void give_time_to_save() {
-  if (stop_asked()) end_in(kTimeToSave);
-}
-
-namespace {
-
 // Made before it is needed, when there may be no room for it.
 std::string out_of_memory = "lantern: error: out of memory\n";
 
@@ -175,6 +148,29 @@ int run_words(int argc, char** argv) {
 }
 
 }  // namespace
+
+void catch_interrupts() {
+  struct sigaction action {};
+  action.sa_handler = on_alarm;
+  ::sigaction(SIGALRM, &action, nullptr);
+  sigevent event{};
+  event.sigev_notify = SIGEV_SIGNAL;
+  event.sigev_signo = SIGALRM;
+  sigset_t alarm{};  // may have been blocked by whoever has started us
+  ::sigemptyset(&alarm);
+  ::sigaddset(&alarm, SIGALRM);
+  ::sigprocmask(SIG_UNBLOCK, &alarm, nullptr);
+  has_backstop = ::timer_create(CLOCK_MONOTONIC, &event, &backstop) == 0;
+  action.sa_handler = on_signal;
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+void give_time_to_save() {
+  if (stop_asked()) end_in(kTimeToSave);
+}
 
 int run_program(int argc, char** argv, std::vector<OwnKind> own, std::vector<OwnPanel> panels) {
   hold_standard_streams();

@@ -65,8 +65,8 @@ std::optional<std::size_t> memory_in_use() {
 
 RunExtent extent_of(const Scenario& scenario, Pace pace) {
   const bool by_event =
-      pace == Pace::event || std::any_of(scenario.steps.begin(), scenario.steps.end(),
-                                         [](const Step& s) { return s.pace == Pace::event; });
+      pace == Pace::event ||
+      std::ranges::any_of(scenario.steps, [](const Step& s) { return s.pace == Pace::event; });
   return {by_event ? std::nullopt : std::optional(scenario.most_frames), scenario.world_steps};
 }
 

@@ -45,9 +45,8 @@ ReportFolder::ReportFolder(const std::string& path, std::string_view report)
   if (!wanted()) return;
   for (const char* ending : {".html", ".csv", ".json", ".txt"})
     if (const fs::path file = path_ / (report_ + ending); is_input(file))
-      throw UsageError(
-          fmt::format("'{}' is read by this run and would be written over; give another folder",
-                      file.string()));
+      throw UsageError("'{}' is read by this run and would be written over; give another folder",
+                       file.string());
   std::error_code ignored;
   for (fs::path folder = path_; !folder.empty() && !fs::exists(folder, ignored);
        folder = folder.parent_path())

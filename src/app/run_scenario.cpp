@@ -77,7 +77,7 @@ std::string nearest_of(const std::string& name, const std::vector<std::string>& 
 void add_folder(const fs::path& folder, std::vector<std::string>& files) {
   std::error_code error, unknown;
   std::vector<fs::path> there = toml_files(folder, error);
-  if (error) throw IoError(fmt::format("cannot list '{}': {}", folder.string(), error.message()));
+  if (error) throw IoError("cannot list '{}': {}", folder.string(), error.message());
   std::erase_if(there, [&](const fs::path& path) { return fs::is_directory(path, unknown); });
   std::ranges::sort(there);
   std::vector<std::pair<std::uint64_t, std::string>> lessons;
@@ -91,59 +91,12 @@ void add_folder(const fs::path& folder, std::vector<std::string>& files) {
   }
   if (lessons.empty())
     throw UsageError(
-        fmt::format("there is no scenario in the folder '{}'; a scenario is a .toml "
-                    "file right in it",
-                    folder.string()));
+        "there is no scenario in the folder '{}'; a scenario is a .toml "
+        "file right in it",
+        folder.string());
   std::ranges::sort(lessons);
   for (auto& [place, file] : lessons) files.push_back(std::move(file));
 }
-
-}  // namespace
-
-std::vector<fs::path> scenario_folders() {
-  std::vector<fs::path> there;
-  std::error_code error;
-  for (const fs::path& folder : places())
-    if (fs::is_directory(folder, error)) there.push_back(folder.lexically_normal());
-  return there;
-}
-
-std::string scenario_file(const std::string& words) {
-  std::error_code error;
-  const bool is_path = words.find('/') != std::string::npos || words.ends_with(".toml");
-  if (words.empty() || words == "-" || is_path || fs::exists(words, error)) return words;
-  const std::vector<fs::path> folders = scenario_folders();
-  if (const auto file = find_named(words, folders)) {
-    say(fmt::format("'{}' is {}", words, file->string()));
-    return file->string();
-  }
-  std::vector<std::string> names;
-  for (const fs::path& folder : folders)
-    for (const char* sub : kSubfolders)
-      for (const fs::path& file : toml_files(folder / sub, error))
-        names.push_back(file.stem().string());
-  std::ranges::sort(names);
-  throw IoError(fmt::format("there is no file '{}' and no scenario of that name; {}", words,
-                            nearest_of(words, names)));
-}
-
-std::vector<std::string> input_files(const std::vector<std::string>& words) {
-  if (std::count(words.begin(), words.end(), "-") > 1)
-    throw UsageError("- is standard input, which can be read once only");
-  std::vector<std::string> files;
-  for (const std::string& word : words) {
-    std::error_code error;
-    if (word != "-" && fs::is_directory(word, error))
-      add_folder(word, files);
-    else
-      files.push_back(word);
-  }
-  return files;
-}
-
-// ---- What is said of a scenario that is run
-
-namespace {
 
 // Of all texts that come onto a page, each letter once, in order.
 void find_missing(const Scenario& scenario, std::u32string& letters) {
@@ -248,6 +201,49 @@ void add_problem(const Scenario& scenario, std::vector<Diagnostic>& found) {
 }
 
 }  // namespace
+
+std::vector<fs::path> scenario_folders() {
+  std::vector<fs::path> there;
+  std::error_code error;
+  for (const fs::path& folder : places())
+    if (fs::is_directory(folder, error)) there.push_back(folder.lexically_normal());
+  return there;
+}
+
+std::string scenario_file(const std::string& words) {
+  std::error_code error;
+  const bool is_path = words.find('/') != std::string::npos || words.ends_with(".toml");
+  if (words.empty() || words == "-" || is_path || fs::exists(words, error)) return words;
+  const std::vector<fs::path> folders = scenario_folders();
+  if (const auto file = find_named(words, folders)) {
+    say(fmt::format("'{}' is {}", words, file->string()));
+    return file->string();
+  }
+  std::vector<std::string> names;
+  for (const fs::path& folder : folders)
+    for (const char* sub : kSubfolders)
+      for (const fs::path& file : toml_files(folder / sub, error))
+        names.push_back(file.stem().string());
+  std::ranges::sort(names);
+  throw IoError("there is no file '{}' and no scenario of that name; {}", words,
+                nearest_of(words, names));
+}
+
+std::vector<std::string> input_files(const std::vector<std::string>& words) {
+  if (std::ranges::count(words, "-") > 1)
+    throw UsageError("- is standard input, which can be read once only");
+  std::vector<std::string> files;
+  for (const std::string& word : words) {
+    std::error_code error;
+    if (word != "-" && fs::is_directory(word, error))
+      add_folder(word, files);
+    else
+      files.push_back(word);
+  }
+  return files;
+}
+
+// ---- What is said of a scenario that is run
 
 Pace pace_of(std::string_view word, const Scenario& scenario) {
   if (word.empty()) return scenario.pace;

@@ -79,6 +79,41 @@ void tell_and_keep(Severity severity, std::string_view message,
       [&] { return fmt::format("lantern: {} {}", coloured(severity), made_printable(message)); });
 }
 
+bool owed = false;
+std::string given;       // by the command, or an object with nothing but the format
+std::string last_words;  // whole, made while there is memory
+
+template <class Value>
+void write_or_null(JsonWriter& json, const char* key, const Value& value) {
+  json.member(key, value == Value() ? std::nullopt : std::optional(value));
+}
+
+// Every member in any case, null where there is nothing to say.
+void write(JsonWriter& json, const Diagnostic& d) {
+  json.line().begin_object();
+  json.member("severity", d.severity == Severity::error ? "error" : "warning");
+  write_or_null(json, "file", d.where.file);
+  write_or_null(json, "line", d.where.line);
+  write_or_null(json, "column", d.where.column);
+  json.member("message", d.message);
+  write_or_null(json, "source_line", d.source_line);
+  write_or_null(json, "suggestion", d.suggestion);
+  json.end_object();
+}
+
+// The object with the members that it ends with.
+std::string ended(std::string object, const std::vector<Diagnostic>& diagnostics, int exit_code) {
+  const std::size_t end = object.find_last_of('}');
+  LANTERN_CHECK(end, !=, std::string::npos);
+  object.resize(object.find_last_not_of(" \n", end - 1) + 1);
+  JsonWriter json;
+  json.begin_object().line().key("diagnostics").begin_array();
+  for (const Diagnostic& d : diagnostics) write(json, d);
+  if (!diagnostics.empty()) json.line();
+  json.end_array().line().member("exit_code", exit_code).line().end_object();
+  return object + "," + json.text().substr(1) + "\n";
+}
+
 }  // namespace
 
 bool animated() { return ::isatty(STDERR_FILENO) == 1; }
@@ -151,45 +186,6 @@ void clear_status() noexcept {
 }
 
 // ---- What a program is answered
-
-namespace {
-
-bool owed = false;
-std::string given;       // by the command, or an object with nothing but the format
-std::string last_words;  // whole, made while there is memory
-
-template <class Value>
-void write_or_null(JsonWriter& json, const char* key, const Value& value) {
-  json.member(key, value == Value() ? std::nullopt : std::optional(value));
-}
-
-// Every member in any case, null where there is nothing to say.
-void write(JsonWriter& json, const Diagnostic& d) {
-  json.line().begin_object();
-  json.member("severity", d.severity == Severity::error ? "error" : "warning");
-  write_or_null(json, "file", d.where.file);
-  write_or_null(json, "line", d.where.line);
-  write_or_null(json, "column", d.where.column);
-  json.member("message", d.message);
-  write_or_null(json, "source_line", d.source_line);
-  write_or_null(json, "suggestion", d.suggestion);
-  json.end_object();
-}
-
-// The object with the members that it ends with.
-std::string ended(std::string object, const std::vector<Diagnostic>& diagnostics, int exit_code) {
-  const std::size_t end = object.find_last_of('}');
-  LANTERN_CHECK(end, !=, std::string::npos);
-  object.resize(object.find_last_not_of(" \n", end - 1) + 1);
-  JsonWriter json;
-  json.begin_object().line().key("diagnostics").begin_array();
-  for (const Diagnostic& d : diagnostics) write(json, d);
-  if (!diagnostics.empty()) json.line();
-  json.end_array().line().member("exit_code", exit_code).line().end_object();
-  return object + "," + json.text().substr(1) + "\n";
-}
-
-}  // namespace
 
 JsonWriter answer_of(std::string_view command) {
   JsonWriter json;

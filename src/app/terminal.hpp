@@ -42,9 +42,9 @@ void print(std::string_view text);
 std::string table(std::vector<std::vector<std::string>> rows);
 
 // What a bad word on the command line gets. Exit code 2.
-class UsageError : public std::runtime_error {
+class UsageError : public Told<std::runtime_error> {
  public:
-  using std::runtime_error::runtime_error;
+  using Told::Told;
 };
 
 // One line below all messages, rewritten in place and taken away again. Only on a terminal:

@@ -2,8 +2,6 @@
 
 #include <numeric>
 
-#include <fmt/format.h>
-
 #include "base/check.hpp"
 #include "base/error.hpp"
 
@@ -12,19 +10,31 @@ namespace {
 
 constexpr int kLargest = 65536;  // pixels on one side
 
+// Do they share a pixel?
+bool share_pixels(const Rect& a, const Rect& b) {
+  return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
+}
+
+std::vector<std::size_t> layers_of(const std::vector<ScreenElement>& elements) {
+  std::vector<std::size_t> layers(elements.size());
+  for (std::size_t i = 0; i < elements.size(); ++i)
+    for (std::size_t under = 0; under < i; ++under)
+      if (share_pixels(elements[i].place, elements[under].place))
+        layers[i] = std::max(layers[i], layers[under] + 1);
+  return layers;
+}
+
 }  // namespace
 
 Atlas::Atlas(int width, int height) {
   if (width < 1 || width > kLargest || height < 1 || height > kLargest)
-    throw Refused(fmt::format("an atlas of {} x {} pixels: both must be from 1 to {}", width,
-                              height, kLargest));
+    throw Refused("an atlas of {} x {} pixels: both must be from 1 to {}", width, height, kLargest);
   add_leaf({0, 0, width, height}, kNoNode);
 }
 
 void Atlas::require_size(TextureId id, int width, int height) {
   if (width < 1 || height < 1)
-    throw Refused(
-        fmt::format("texture {} of {} x {} pixels: both must be at least 1", id, width, height));
+    throw Refused("texture {} of {} x {} pixels: both must be at least 1", id, width, height);
 }
 
 bool Atlas::is_second(std::uint32_t node) const {
@@ -85,24 +95,6 @@ std::vector<std::uint32_t> Atlas::free_leaves() const {
   }
   return leaves;
 }
-
-namespace {
-
-// Do they share a pixel?
-bool share_pixels(const Rect& a, const Rect& b) {
-  return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
-}
-
-std::vector<std::size_t> layers_of(const std::vector<ScreenElement>& elements) {
-  std::vector<std::size_t> layers(elements.size());
-  for (std::size_t i = 0; i < elements.size(); ++i)
-    for (std::size_t under = 0; under < i; ++under)
-      if (share_pixels(elements[i].place, elements[under].place))
-        layers[i] = std::max(layers[i], layers[under] + 1);
-  return layers;
-}
-
-}  // namespace
 
 std::vector<std::size_t> sorted_by_image(const std::vector<ScreenElement>& elements) {
   const std::vector<std::size_t> layers = layers_of(elements);

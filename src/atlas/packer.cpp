@@ -4,8 +4,6 @@
 #include <limits>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "base/check.hpp"
 #include "base/error.hpp"
 #include "base/stop.hpp"
@@ -181,6 +179,19 @@ class Filling {
   std::vector<Leaf> open_;  // the next one last
 };
 
+constexpr std::size_t kBlock = 16;  // kinds
+constexpr int kUsedUp = std::numeric_limits<int>::max();
+
+// By one of its bytes, the greatest first; equal ones stay in order.
+void sort_by_byte(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& other, int shift) {
+  std::array<std::uint32_t, 257> at{};
+  const auto byte = [&](std::uint64_t key) { return 255 - (key >> shift & 255); };
+  for (const std::uint64_t key : keys) ++at[byte(key) + 1];
+  for (std::size_t i = 1; i < at.size(); ++i) at[i] += at[i - 1];
+  for (const std::uint64_t key : keys) other[at[byte(key)]++] = key;
+  keys.swap(other);
+}
+
 }  // namespace
 
 std::size_t trial_count(bool turn) { return kTrials.size() * (turn ? kTurnedHolds.size() : 1); }
@@ -191,8 +202,8 @@ Packer::Packer(std::span<const TextureSize> textures, bool turn)
   for (std::size_t i = 0; i < textures.size(); ++i) {
     const auto [width, height] = textures[i];
     if (std::min(width, height) < 1 || std::max(width, height) > kLargestTexture)
-      throw Refused(fmt::format("texture {} of {} x {} pixels: both must be from 1 to {}", i, width,
-                                height, kLargestTexture));
+      throw Refused("texture {} of {} x {} pixels: both must be from 1 to {}", i, width, height,
+                    kLargestTexture);
     area_ += std::int64_t{width} * height;
     higher += height - width;
   }
@@ -274,23 +285,6 @@ std::vector<std::optional<TexturePlace>> places_of(const Packing& packing,
   }
   return places;
 }
-
-namespace {
-
-constexpr std::size_t kBlock = 16;  // kinds
-constexpr int kUsedUp = std::numeric_limits<int>::max();
-
-// By one of its bytes, the greatest first; equal ones stay in order.
-void sort_by_byte(std::vector<std::uint64_t>& keys, std::vector<std::uint64_t>& other, int shift) {
-  std::array<std::uint32_t, 257> at{};
-  const auto byte = [&](std::uint64_t key) { return 255 - (key >> shift & 255); };
-  for (const std::uint64_t key : keys) ++at[byte(key) + 1];
-  for (std::size_t i = 1; i < at.size(); ++i) at[i] += at[i - 1];
-  for (const std::uint64_t key : keys) other[at[byte(key)]++] = key;
-  keys.swap(other);
-}
-
-}  // namespace
 
 bool Stock::turns(TextureSize size) const {
   return holding_.hold == Holding::Hold::lying      ? size.width < size.height

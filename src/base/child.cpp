@@ -11,7 +11,6 @@
 
 #include <dlfcn.h>
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <poll.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -78,7 +77,7 @@ struct Streams {
       return;
     const int code = errno;
     close_all();
-    throw IoError(fmt::format("cannot run '{}': {}", printable(program), std::strerror(code)));
+    throw IoError("cannot run '{}': {}", printable(program), std::strerror(code));
   }
   ~Streams() { close_all(); }
   Streams(const Streams&) = delete;
@@ -122,8 +121,7 @@ Child::Child(const std::vector<std::string>& words, std::optional<int> handed_on
   process_ = ::fork();
   if (process_ == 0) become(pointers, streams, parent);
   if (process_ < 0)
-    throw IoError(
-        fmt::format("cannot run '{}': {}", printable(words.front()), std::strerror(errno)));
+    throw IoError("cannot run '{}': {}", printable(words.front()), std::strerror(errno));
   ::setpgid(process_, process_);  // whoever is first
   input_ = std::exchange(streams.input[1], -1);
   words_ = std::exchange(streams.words[0], -1);

@@ -2,8 +2,14 @@
 // them.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <ctime>
+#include <vector>
+
+#include "base/check.hpp"
+#include "base/stop.hpp"
 
 namespace lantern {
 
@@ -33,5 +39,64 @@ class CpuStopwatch {
   clockid_t clock_;
   double start_ = now();
 };
+
+// Seconds of what was timed, over repeats. Zero repeats: not timed.
+struct Timing {
+  int repeats = 0;
+  double median = 0;
+  double least = 0;
+  double lower_quartile = 0;
+  double upper_quartile = 0;
+  double spread() const { return upper_quartile - lower_quartile; }  // interquartile range
+  bool operator==(const Timing&) const = default;
+};
+
+// How a run is timed, after a warm-up. A repeat runs as often as it takes to fill `least_seconds`.
+struct TimingRule {
+  int repeats = 15;
+  double least_seconds = 0.05;
+};
+
+// The value below which lies `share` (0 ... 1) of the values, between neighbours by their distance;
+// of an empty list a broken invariant.
+inline double quantile(std::vector<double> values, double share) {
+  LANTERN_CHECK(values.empty(), ==, false);
+  std::ranges::sort(values);
+  const double at = share * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(at);
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return values[below] + (at - static_cast<double>(below)) * (values[above] - values[below]);
+}
+
+// Of the seconds that each repeat took. No repeats: not timed.
+inline Timing timing_of(const std::vector<double>& seconds) {
+  if (seconds.empty()) return {};
+  return {static_cast<int>(seconds.size()), quantile(seconds, 0.5), quantile(seconds, 0),
+          quantile(seconds, 0.25), quantile(seconds, 0.75)};
+}
+
+// Seconds of one call of `work`, which is called once before for warmth. Without repeats it is not
+// called at all.
+template <class F>
+Timing timed(const TimingRule& rule, F&& work) {
+  if (rule.repeats < 1) return {};
+  work();
+  const Stopwatch first;
+  work();
+  const double once = first.seconds();
+  constexpr double kMostCalls = 1e6;
+  const double wanted = once > 0 ? rule.least_seconds / once : kMostCalls;
+  const auto calls = static_cast<std::uint64_t>(std::clamp(wanted + 1, 1.0, kMostCalls));
+  std::vector<double> seconds;
+  for (int i = 0; i < rule.repeats; ++i) {
+    const Stopwatch watch;
+    for (std::uint64_t call = 0; call < calls; ++call) {
+      stop_if_asked();
+      work();
+    }
+    seconds.push_back(watch.seconds() / static_cast<double>(calls));
+  }
+  return timing_of(seconds);
+}
 
 }  // namespace lantern

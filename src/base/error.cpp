@@ -1,9 +1,6 @@
 #include "base/error.hpp"
 
 #include <algorithm>
-#include <utility>
-
-#include <fmt/format.h>
 
 #include "base/printable.hpp"
 

@@ -5,7 +5,10 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
+
+#include <fmt/format.h>
 
 #include "rooms.hpp"
 
@@ -79,18 +82,28 @@ class BrokenStructure : public ScenarioError {
   using ScenarioError::ScenarioError;
 };
 
+// An error whose message is a text, or a format and what fills it.
+template <class Kind>
+class Told : public Kind {
+ public:
+  explicit Told(const std::string& message) : Kind(message) {}
+  template <class First, class... Rest>
+  Told(fmt::format_string<First, Rest...> format, First&& first, Rest&&... rest)
+      : Kind(fmt::format(format, std::forward<First>(first), std::forward<Rest>(rest)...)) {}
+};
+
 // A value that an engine room refuses where it enters (NaN, negative size, more than a stated
 // budget). The message names the object and the field; whoever was called is left as it was,
 // unless it says otherwise. The scenario room turns it into a ScenarioError with a position.
-class Refused : public std::invalid_argument {
+class Refused : public Told<std::invalid_argument> {
  public:
-  using std::invalid_argument::invalid_argument;
+  using Told::Told;
 };
 
 // A file or stream could not be read or written. Exit code 1.
-class IoError : public std::runtime_error {
+class IoError : public Told<std::runtime_error> {
  public:
-  using std::runtime_error::runtime_error;
+  using Told::Told;
 };
 
 // Whoever read standard output has seen enough (`| head`). Exit code 1 without a word, as for any
@@ -101,9 +114,9 @@ class ReaderGone : public IoError {
 };
 
 // No graphics backend could be started. Exit code 4.
-class BackendError : public std::runtime_error {
+class BackendError : public Told<std::runtime_error> {
  public:
-  using std::runtime_error::runtime_error;
+  using Told::Told;
 };
 
 }  // namespace lantern

@@ -29,7 +29,7 @@ constexpr std::string_view kTemporary = ".lantern-part-";
 std::string shown(const std::filesystem::path& path) { return printable(path.string()); }
 
 [[noreturn]] void fail(const char* what, const std::filesystem::path& path, int code) {
-  throw IoError(fmt::format("cannot {} '{}': {}", what, shown(path), std::strerror(code)));
+  throw IoError("cannot {} '{}': {}", what, shown(path), std::strerror(code));
 }
 
 // An open file descriptor, closed on the way out.
@@ -54,13 +54,12 @@ std::string read_opened(const Descriptor& file, const std::filesystem::path& pat
   struct stat status {};
   if (::fstat(file.number(), &status) != 0) fail("read", path, errno);
   if (S_ISDIR(status.st_mode)) fail("read", path, EISDIR);
-  if (!S_ISREG(status.st_mode))
-    throw IoError(fmt::format("cannot read '{}': not a regular file", shown(path)));
+  if (!S_ISREG(status.st_mode)) throw IoError("cannot read '{}': not a regular file", shown(path));
   see_read(file.number());
   const auto has = static_cast<std::size_t>(status.st_size), size = std::min(has, most_bytes);
   if (all && has > most_bytes)
-    throw IoError(fmt::format("cannot read '{}': it has {} bytes, the limit is {}", shown(path),
-                              has, most_bytes));
+    throw IoError("cannot read '{}': it has {} bytes, the limit is {}", shown(path), has,
+                  most_bytes);
   std::string bytes(size, '\0');
   std::size_t done = 0;
   while (done < size) {
@@ -131,18 +130,16 @@ std::optional<Folder> Folder::find(std::string_view name) const {
   if (number >= 0) return Folder(number, path(name));
   if (errno == ENOENT) return std::nullopt;
   if (errno == ENOTDIR || errno == ELOOP)
-    throw IoError(fmt::format("'{}' is {}", shown(path(name)),
-                              std::filesystem::is_symlink(path(name))
-                                  ? "a link; links are not followed here"
-                                  : "no folder"));
+    throw IoError("'{}' is {}", shown(path(name)),
+                  std::filesystem::is_symlink(path(name)) ? "a link; links are not followed here"
+                                                          : "no folder");
   fail("open", path(name), errno);
 }
 
 Folder Folder::inside(std::string_view name) const {
   if (auto there = find(name)) return *there;
   if (::mkdirat(descriptor(), std::string(name).c_str(), 0777) != 0 && errno != EEXIST)
-    throw IoError(
-        fmt::format("cannot make the folder '{}': {}", shown(path(name)), std::strerror(errno)));
+    throw IoError("cannot make the folder '{}': {}", shown(path(name)), std::strerror(errno));
   if (auto made = find(name)) return *made;
   fail("open", path(name), ENOENT);
 }
@@ -193,8 +190,8 @@ std::optional<std::string> Folder::read(std::string_view name, std::size_t most_
       ::openat(descriptor(), entry(one), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOFOLLOW));
   if (file.number() < 0 && errno == ENOENT) return std::nullopt;
   if (file.number() < 0 && errno == ELOOP)
-    throw IoError(fmt::format("cannot read '{}': a link, and what it leads to is not touched",
-                              shown(path(name))));
+    throw IoError("cannot read '{}': a link, and what it leads to is not touched",
+                  shown(path(name)));
   return read_opened(file, path(name), most_bytes, all);
 }
 
@@ -222,8 +219,8 @@ void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error || !std::filesystem::is_directory(folder, error))
-    throw IoError(fmt::format("cannot make the folder '{}': {}", shown(folder),
-                              error ? error.message() : "something else has this name"));
+    throw IoError("cannot make the folder '{}': {}", shown(folder),
+                  error ? error.message() : "something else has this name");
 }
 
 std::filesystem::path folder_of(const std::filesystem::path& file) {
@@ -235,8 +232,7 @@ FilePlace::FilePlace(const std::filesystem::path& path, int)
 
 void require_writable(const FilePlace& place) {
   if (is_input(place.path()))
-    throw IoError(
-        fmt::format("cannot write '{}': it is what this run has read", shown(place.path())));
+    throw IoError("cannot write '{}': it is what this run has read", shown(place.path()));
   struct stat status {};
   if (::fstatat(place.folder.descriptor(), entry(place.name), &status, AT_SYMLINK_NOFOLLOW) == 0 &&
       S_ISDIR(status.st_mode))
@@ -321,8 +317,7 @@ void write_file(const FilePlace& place, std::string_view bytes) {
 FolderLock::FolderLock(const Folder& folder)
     : descriptor_(::openat(folder.descriptor(), ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
   if (descriptor_ < 0)
-    throw IoError(
-        fmt::format("cannot open '{}': {}", folder.path().string(), std::strerror(errno)));
+    throw IoError("cannot open '{}': {}", folder.path().string(), std::strerror(errno));
   // A run that was killed a moment ago may not be quite gone.
   constexpr int kTries = 100;
   constexpr auto kPause = std::chrono::milliseconds(20);
@@ -333,9 +328,8 @@ FolderLock::FolderLock(const Folder& folder)
   }
   ::close(descriptor_);
   stop_if_asked();
-  throw IoError(
-      fmt::format("another run is writing into '{}'; wait for it, or give -o another folder",
-                  folder.path().string()));
+  throw IoError("another run is writing into '{}'; wait for it, or give -o another folder",
+                folder.path().string());
 }
 
 FolderLock::~FolderLock() { ::close(descriptor_); }

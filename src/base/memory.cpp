@@ -130,7 +130,7 @@ std::optional<std::uint64_t> memory_size(std::string_view words) {
   const char* const last = words.data() + words.size();
   const auto [end, error] = std::from_chars(words.data(), last, number);
   if (error != std::errc() || last - end != 1 || !std::isfinite(number)) return std::nullopt;
-  const auto unit = std::find(kUnits.begin(), kUnits.end(), *end);
+  const auto unit = std::ranges::find(kUnits, *end);
   if (unit == kUnits.end()) return std::nullopt;
   const double bytes = std::ldexp(number, 10 * static_cast<int>(unit - kUnits.begin() + 1));
   if (!(bytes >= static_cast<double>(kLeastBudget)) || bytes >= 0x1p60) return std::nullopt;
@@ -153,10 +153,9 @@ void refuse_memory(std::uint64_t bytes, std::string_view what, std::string_view 
   // Some room for all else, in whole numbers of the largest unit.
   const double wanted = 1.2 * static_cast<double>(bytes);
   const bool gigabytes = wanted > 0x1p30;
-  throw Refused(fmt::format("{} need about {}, the budget is {}; {}, or --memory {:.0f}{}", what,
-                            memory_text(bytes), memory_text(memory_budget()), advice,
-                            std::ceil(std::ldexp(wanted, gigabytes ? -30 : -20)),
-                            gigabytes ? 'G' : 'M'));
+  throw Refused("{} need about {}, the budget is {}; {}, or --memory {:.0f}{}", what,
+                memory_text(bytes), memory_text(memory_budget()), advice,
+                std::ceil(std::ldexp(wanted, gigabytes ? -30 : -20)), gigabytes ? 'G' : 'M');
 }
 
 }  // namespace lantern

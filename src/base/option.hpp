@@ -52,4 +52,8 @@ struct Option {
 };
 using Options = std::vector<Option>;
 
+inline Option seed_option(const char* help, std::uint64_t& seed) {
+  return {"--seed", &seed, help, {.value = "S", .most = 0x1p53}};
+}
+
 }  // namespace lantern

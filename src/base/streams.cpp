@@ -47,7 +47,7 @@ struct WrittenStream {
   std::atomic<bool> is_read = false;
 
   void require_free() const {
-    if (is_read) throw IoError(fmt::format("{} is written to a file that this run reads", name));
+    if (is_read) throw IoError("{} is written to a file that this run reads", name);
   }
 };
 
@@ -137,13 +137,12 @@ std::string read_stdin(std::size_t most_bytes) {
     }
     if (n < 0 && errno == EINTR) continue;
     if (n < 0)
-      throw IoError(fmt::format("cannot read standard input: {}",
-                                input_was_closed ? "it is closed" : std::strerror(errno)));
+      throw IoError("cannot read standard input: {}",
+                    input_was_closed ? "it is closed" : std::strerror(errno));
     if (n == 0) return bytes;
     bytes.append(part, static_cast<std::size_t>(n));
     if (bytes.size() > most_bytes)
-      throw IoError(
-          fmt::format("cannot read standard input: it has more than {} bytes", most_bytes));
+      throw IoError("cannot read standard input: it has more than {} bytes", most_bytes);
   }
 }
 

@@ -4,7 +4,6 @@
 
 #include "geometry/elementary.hpp"
 #include "geometry/flat.hpp"
-#include "geometry/plane.hpp"
 namespace lantern::draw {
 namespace {
 

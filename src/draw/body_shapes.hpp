@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "draw/draw_list.hpp"
-#include "draw/role.hpp"
+#include "draw/theme.hpp"
 #include "frame/frame.hpp"
 #include "geometry/plane.hpp"
 

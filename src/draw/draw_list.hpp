@@ -3,7 +3,6 @@
 // order.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <numeric>
@@ -13,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-#include "draw/role.hpp"
+#include "draw/theme.hpp"
 #include "geometry/box.hpp"
 
 namespace lantern::draw {

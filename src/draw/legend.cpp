@@ -1,9 +1,8 @@
-#include "draw/legend.hpp"
-
 #include <utility>
 #include <vector>
 
 #include "draw/marks.hpp"
+#include "draw/page.hpp"
 #include "draw/panel.hpp"
 #include "draw/pen.hpp"
 #include "draw/world/narrow_marks.hpp"

@@ -7,7 +7,6 @@
 
 #include "draw/panel.hpp"
 #include "draw/pen.hpp"
-#include "geometry/elementary.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <iterator>
 #include <optional>
-#include <string_view>
 
 #include <fmt/format.h>
 
 #include "base/number.hpp"
-#include "draw/legend.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 

@@ -205,20 +205,10 @@ void draw_texture(const FrameTexture& texture, const Box<2>& rect, double scale,
     return draw_pattern(texture.id, texture.color, rect, scale, most_parts, list, turned);
   list.rect(rect, body_role(texture.color));
   Easel easel(texture, rect, turned, list);
-  switch (texture.picture) {
-    case Picture::pattern:
-      return;
-    case Picture::heart:
-      return paint_heart(easel);
-    case Picture::sword:
-      return paint_sword(easel);
-    case Picture::potion:
-      return paint_potion(easel);
-    case Picture::coin:
-      return paint_coin(easel);
-    case Picture::map:
-      return paint_map(easel);
-  }
+  // In the order of Picture, without patterns.
+  static constexpr void (*kPaint[])(Easel&) = {paint_heart, paint_sword, paint_potion, paint_coin,
+                                               paint_map};
+  kPaint[static_cast<std::size_t>(texture.picture) - 1](easel);
 }
 
 }  // namespace lantern::draw

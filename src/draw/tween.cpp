@@ -8,13 +8,10 @@
 #include <functional>
 #include <map>
 #include <set>
-#include <string>
 #include <string_view>
-#include <utility>
 #include <variant>
 
 #include "base/stop.hpp"
-#include "draw/tween_shapes.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -278,7 +275,7 @@ class Passages {
     for (std::size_t i = 0; i < a_.shapes.size(); ++i) {
       const TextShape* old = text_alone(a_, plan_.of_a, i);
       if (!old) continue;
-      const auto next = std::find_if(coming.begin(), coming.end(), [&](std::size_t k) {
+      const auto next = std::ranges::find_if(coming, [&](std::size_t k) {
         const auto& text = std::get<TextShape>(b_.shapes[k]);
         return text.size == old->size && text.weight == old->weight && text.align == old->align &&
                std::abs(text.at.y - old->at.y) < 1 && std::abs(text.at.x - old->at.x) < old->size;

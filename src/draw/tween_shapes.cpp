@@ -1,11 +1,10 @@
-#include "draw/tween_shapes.hpp"
-
 #include <algorithm>
 
 #include <fmt/format.h>
 
 #include "draw/labels.hpp"
 #include "draw/pen.hpp"
+#include "draw/tween.hpp"
 
 namespace lantern::draw {
 namespace {

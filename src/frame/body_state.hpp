@@ -2,7 +2,6 @@
 // z.
 #pragma once
 
-#include "geometry/flat.hpp"
 #include "geometry/rotation.hpp"
 
 namespace lantern::frame {

@@ -24,6 +24,11 @@ using NamePair = std::pair<std::string, std::string>;
 NamePair ordered(std::string a, std::string b) {
   return a < b ? NamePair{std::move(a), std::move(b)} : NamePair{std::move(b), std::move(a)};
 }
+std::set<NamePair> ordered(const std::vector<std::pair<std::string, std::string>>& pairs) {
+  std::set<NamePair> all;
+  for (const auto& [a, b] : pairs) all.insert(ordered(a, b));
+  return all;
+}
 
 // Where a frame has what expectations name: found once for all of them, as each body may have one.
 class Places {
@@ -53,9 +58,7 @@ class Places {
 
 // Bodies stand in order of ids.
 const std::string& name_of(const Frame& frame, BodyId id) {
-  return std::lower_bound(frame.bodies.begin(), frame.bodies.end(), id,
-                          [](const FrameBody& body, BodyId wanted) { return body.id < wanted; })
-      ->name;
+  return std::ranges::lower_bound(frame.bodies, id, {}, &FrameBody::id)->name;
 }
 
 std::string listed(const std::set<NamePair>& pairs) {
@@ -103,8 +106,8 @@ Unmet unmet_leaves(const Expectation& e, const Frame&, Places& places) {
 
 Unmet unmet_pairs(const Expectation& e, const Frame& frame, Places&) {
   const bool of_contacts = e.kind == Expectation::Kind::contacts;
-  std::set<NamePair> expected, found;
-  for (const auto& [a, b] : e.pairs) expected.insert(ordered(a, b));
+  std::set<NamePair> found;
+  const std::set<NamePair> expected = ordered(e.pairs);
   const auto add = [&](const Pair& pair) {
     found.insert(ordered(name_of(frame, pair.a), name_of(frame, pair.b)));
   };
@@ -122,8 +125,8 @@ Unmet unmet_hits(const Expectation& e, const Frame& frame, Places&) {
   std::vector<std::string> found, expected = e.names;
   for (const BodyId id : frame.get<FrameFinding>().hits) found.push_back(name_of(frame, id));
   if (frame.get<FrameFinding>().rays.empty()) {
-    std::sort(found.begin(), found.end());
-    std::sort(expected.begin(), expected.end());
+    std::ranges::sort(found);
+    std::ranges::sort(expected);
   }
   if (found == expected) return std::nullopt;
   return fmt::format("expected the hits {}, found {}", listed(expected), listed(found));
@@ -168,55 +171,6 @@ Unmet unmet_turn(const Expectation& e, const Frame&, Places& places) {
                      body ? fmt::format("{}", body->angle / kDegree) : "none");
 }
 
-std::string pairs_text(std::string_view key, const Expectation& e) {
-  std::set<NamePair> pairs;
-  for (const auto& [a, b] : e.pairs) pairs.insert(ordered(a, b));
-  return fmt::format("{} = {}", key, listed(pairs));
-}
-
-std::string text_of(const Expectation& e, int dimension) {
-  using enum Expectation::Kind;
-  const auto point = [&](std::string_view key) {
-    return fmt::format("{} of {} = {}", key, e.name, point_text(e.position, dimension));
-  };
-  switch (e.kind) {
-    case at_most:
-      return fmt::format("{} ≤ {:.9g}", e.name, e.number);
-    case at_least:
-      return fmt::format("{} ≥ {:.9g}", e.name, e.number);
-    case leaves:
-      return fmt::format("leaves of {} = {}", e.name, e.number);
-    case Expectation::Kind::pairs:
-      return pairs_text("pairs", e);
-    case contacts:
-      return pairs_text("contacts", e);
-    case hits:
-      return fmt::format("hits = {}", listed(e.names));
-    case asleep:
-      return fmt::format("asleep: {}", listed(e.names));
-    case awake:
-      return fmt::format("awake: {}", listed(e.names));
-    case position:
-      return point("position");
-    case velocity:
-      return point("velocity");
-    case half_size:
-      return point("half size");
-    case turned:
-      return fmt::format("{} turned by {:.9g}°", e.name, e.number / kDegree);
-    case build_work:
-      return fmt::format("work of {} to build = {:.9g}", e.name, e.number);
-    case step_work:
-      return fmt::format("work of {} = {:.9g}", e.name, e.number);
-    case fewest:
-      return fmt::format("fewest = {}", listed(e.names));
-    case count:
-    case measure:
-      break;
-  }
-  return fmt::format("{} = {:.9g}", e.name, e.number);
-}
-
 std::vector<const Expectation*> all_of(const Step& step) {
   std::vector<const Expectation*> all;
   for (const Expectation& e : step.expect) all.push_back(&e);
@@ -252,6 +206,38 @@ Unmet unmet_fewest(const Expectation& e, const Frame& frame, Places&) {
                      fmt::join(found, ", "));
 }
 
+struct KindRow {
+  Unmet (*check)(const Expectation&, const Frame&, Places&);
+  const char* text;  // {0} is its name, {1} its number, {2} that in degrees, {3} what is listed
+};
+// In the order of Expectation::Kind.
+constexpr KindRow kKinds[] = {{unmet_number, "{0} = {1:.9g}"},
+                              {unmet_number, "{0} ≤ {1:.9g}"},
+                              {unmet_number, "{0} ≥ {1:.9g}"},
+                              {unmet_leaves, "leaves of {0} = {1}"},
+                              {unmet_pairs, "pairs = {3}"},
+                              {unmet_pairs, "contacts = {3}"},
+                              {unmet_hits, "hits = {3}"},
+                              {unmet_sleep, "asleep: {3}"},
+                              {unmet_sleep, "awake: {3}"},
+                              {unmet_vector, "position of {0} = {3}"},
+                              {unmet_vector, "velocity of {0} = {3}"},
+                              {unmet_vector, "half size of {0} = {3}"},
+                              {unmet_turn, "{0} turned by {2:.9g}°"},
+                              {unmet_number, "{0} = {1:.9g}"},
+                              {unmet_work, "work of {0} to build = {1:.9g}"},
+                              {unmet_work, "work of {0} = {1:.9g}"},
+                              {unmet_fewest, "fewest = {3}"}};
+const KindRow& row_of(const Expectation& e) { return kKinds[static_cast<std::size_t>(e.kind)]; }
+
+std::string text_of(const Expectation& e, int dimension) {
+  const KindRow& row = row_of(e);
+  const std::string list = row.check == unmet_pairs    ? listed(ordered(e.pairs))
+                           : row.check == unmet_vector ? point_text(e.position, dimension)
+                                                       : listed(e.names);
+  return fmt::format(fmt::runtime(row.text), e.name, e.number, e.number / kDegree, list);
+}
+
 }  // namespace
 
 std::vector<std::string> proofs_of(const Scenario& scenario, std::size_t step) {
@@ -277,15 +263,9 @@ std::vector<std::string> proofs_of(const Scenario& scenario, std::size_t step) {
 }
 
 std::vector<Unmet> unmet(const std::vector<Expectation>& expectations, const Frame& frame) {
-  // In the order of Expectation::Kind.
-  static constexpr Unmet (*kChecks[])(const Expectation&, const Frame&, Places&) = {
-      unmet_number, unmet_number, unmet_number, unmet_leaves, unmet_pairs,  unmet_pairs,
-      unmet_hits,   unmet_sleep,  unmet_sleep,  unmet_vector, unmet_vector, unmet_vector,
-      unmet_turn,   unmet_number, unmet_work,   unmet_work,   unmet_fewest};
   Places places(frame);
   std::vector<Unmet> all;
-  for (const Expectation& e : expectations)
-    all.push_back(kChecks[static_cast<std::size_t>(e.kind)](e, frame, places));
+  for (const Expectation& e : expectations) all.push_back(row_of(e).check(e, frame, places));
   return all;
 }
 

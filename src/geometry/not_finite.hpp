@@ -5,8 +5,6 @@
 #include <limits>
 #include <string>
 
-#include <fmt/format.h>
-
 #include "base/error.hpp"
 #include "geometry/vec.hpp"
 
@@ -26,7 +24,7 @@ bool is_finite(const Vec<D>& value) {
 
 // These throw Refused, naming `who` and the field.
 inline void require_finite(double value, const std::string& who, const char* field) {
-  if (!std::isfinite(value)) throw Refused(fmt::format("{}: {} is not finite", who, field));
+  if (!std::isfinite(value)) throw Refused("{}: {} is not finite", who, field);
 }
 template <int D>
 void require_finite(const Vec<D>& value, const std::string& who, const char* field) {
@@ -34,7 +32,7 @@ void require_finite(const Vec<D>& value, const std::string& who, const char* fie
 }
 inline void require_not_negative(double value, const std::string& who, const char* field) {
   if (!std::isfinite(value) || value < 0)
-    throw Refused(fmt::format("{}: {} is {}, must be finite and not negative", who, field, value));
+    throw Refused("{}: {} is {}, must be finite and not negative", who, field, value);
 }
 
 }  // namespace lantern::geometry

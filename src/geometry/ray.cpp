@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "base/error.hpp"
@@ -77,69 +76,20 @@ std::optional<double> entry_of_half_space(const Ray<D>& ray, const Vec<D>& norma
   return t <= ray.length ? std::optional(t) : std::nullopt;
 }
 
-}  // namespace
-
-template <int D>
-void require_valid(const Ray<D>& ray) {
-  require_finite(ray.origin, "ray", "origin");
-  require_finite(ray.direction, "ray", "direction");
-  if (ray.direction == Vec<D>(0.0)) throw Refused("ray: direction has no length");
-  if (!(ray.length >= 0))
-    throw Refused(fmt::format("ray: length is {}, must not be negative", ray.length));
-}
-
-template <int D>
-std::optional<double> entry(const Ray<D>& ray, const Shape<D>& shape, const Vec<D>& position,
-                            const Rotation<D>& orientation) {
-  const auto from = [](const std::optional<RaySpan>& span) {
-    return span ? std::optional(span->from) : std::nullopt;
-  };
-  const RaySpan all{0, ray.length};
-  return std::visit(
-      EachShape{
-          [&](const Sphere& s) {
-            return from(
-                common(all, span_in_ball<D>(ray.origin - position, ray.direction, s.radius)));
-          },
-          [&](const AxisBox<D>& s) {
-            return from(span_in(ray, Box<D>::around(position, s.half_size)));
-          },
-          [&](const OrientedBox<D>& s) {
-            return from(span_in(seen_from(ray, position, orientation),
-                                Box<D>::around(Vec<D>(0.0), s.half_size)));
-          },
-          [&](const Capsule& s) {
-            return entry_of_capsule(seen_from(ray, position, orientation), s);
-          },
-          [&](const HalfSpace<D>& s) { return entry_of_half_space(ray, s.normal, position); },
-      },
-      shape);
-}
-
-template void require_valid(const Ray<2>&);
-template void require_valid(const Ray<3>&);
-template std::optional<double> entry(const Ray<2>&, const Shape<2>&, const Vec<2>&,
-                                     const Rotation<2>&);
-template std::optional<double> entry(const Ray<3>&, const Shape<3>&, const Vec<3>&,
-                                     const Rotation<3>&);
-
-namespace {
-
 void require_view(double angle, double near, double far) {
   if (!(angle > 0 && angle < std::numbers::pi))
-    throw Refused(fmt::format("view: the opening angle is {}, must lie between 0 and pi", angle));
+    throw Refused("view: the opening angle is {}, must lie between 0 and pi", angle);
   if (!(near >= 0) || !(near < far) || !std::isfinite(far))
-    throw Refused(fmt::format(
+    throw Refused(
         "view: near is {}, far is {}; must be finite, near not negative and less than far", near,
-        far));
+        far);
 }
 
 template <int D>
 Vec<D> direction(const Vec<D>& v, const char* field) {
   require_finite(v, "view", field);
   const double length = glm::length(v);
-  if (!(length > 0) || !std::isfinite(length))
-    throw Refused(fmt::format("view: {} has no length", field));
+  if (!(length > 0) || !std::isfinite(length)) throw Refused("view: {} has no length", field);
   return v / length;
 }
 
@@ -225,13 +175,56 @@ bool crossed_edges_part(const Frustum<3>& frustum, const Box<3>& box) {
 
 }  // namespace
 
+template <int D>
+void require_valid(const Ray<D>& ray) {
+  require_finite(ray.origin, "ray", "origin");
+  require_finite(ray.direction, "ray", "direction");
+  if (ray.direction == Vec<D>(0.0)) throw Refused("ray: direction has no length");
+  if (!(ray.length >= 0)) throw Refused("ray: length is {}, must not be negative", ray.length);
+}
+
+template <int D>
+std::optional<double> entry(const Ray<D>& ray, const Shape<D>& shape, const Vec<D>& position,
+                            const Rotation<D>& orientation) {
+  const auto from = [](const std::optional<RaySpan>& span) {
+    return span ? std::optional(span->from) : std::nullopt;
+  };
+  const RaySpan all{0, ray.length};
+  return std::visit(
+      EachShape{
+          [&](const Sphere& s) {
+            return from(
+                common(all, span_in_ball<D>(ray.origin - position, ray.direction, s.radius)));
+          },
+          [&](const AxisBox<D>& s) {
+            return from(span_in(ray, Box<D>::around(position, s.half_size)));
+          },
+          [&](const OrientedBox<D>& s) {
+            return from(span_in(seen_from(ray, position, orientation),
+                                Box<D>::around(Vec<D>(0.0), s.half_size)));
+          },
+          [&](const Capsule& s) {
+            return entry_of_capsule(seen_from(ray, position, orientation), s);
+          },
+          [&](const HalfSpace<D>& s) { return entry_of_half_space(ray, s.normal, position); },
+      },
+      shape);
+}
+
+template void require_valid(const Ray<2>&);
+template void require_valid(const Ray<3>&);
+template std::optional<double> entry(const Ray<2>&, const Shape<2>&, const Vec<2>&,
+                                     const Rotation<2>&);
+template std::optional<double> entry(const Ray<3>&, const Shape<3>&, const Vec<3>&,
+                                     const Rotation<3>&);
+
 Frustum<3> view_frustum(const Vec<3>& eye, const Vec<3>& target, const Vec<3>& up, double fov,
                         double aspect, double near, double far) {
   require_view(fov, near, far);
   require_finite(eye, "view", "eye");
   require_finite(target, "view", "target");
   if (!(aspect > 0) || !std::isfinite(aspect))
-    throw Refused(fmt::format("view: aspect is {}, must be above 0", aspect));
+    throw Refused("view: aspect is {}, must be above 0", aspect);
   const Vec<3> forward = direction<3>(target - eye, "the way from eye to target");
   const Vec<3> right =
       direction<3>(glm::cross(forward, direction<3>(up, "up")), "up, seen from the eye,");

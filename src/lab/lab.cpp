@@ -1,7 +1,6 @@
 // The module build/lantern_lab.so: what the program asks of it.
 #include "app/lab.hpp"
 
-#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -17,8 +16,8 @@
 #include "base/stop.hpp"
 #include "embedded/version.hpp"
 #include "lab/commands.hpp"
-#include "measure/peers.hpp"
 #include "measure/row.hpp"
+#include "measure/solvers.hpp"
 #include "report/benches.hpp"
 
 namespace lantern::lab {
@@ -63,6 +62,41 @@ void write(const Texts& texts, const std::string& name, ReportFolder& folder) {
     if (!text->empty()) folder.write(name + ending, *text);
   for (const auto& [file, text] : texts.more) folder.write(file, text);
 }
+
+app::Run begin_bench(const std::string& name, std::unique_ptr<Experiment> experiment,
+                     Options& rows) {
+  ExperimentRun as{"bench " + name, "bench_" + name};
+  as.folder_help = fmt::format("folder for {0}.html, {0}.csv and {0}.json", as.file);
+  return begin_experiment(std::move(experiment), std::move(as), rows);
+}
+
+// The commands, as the program names them.
+app::Run begin(std::string_view name, Options& rows) {
+  if (name == "bench frames") return begin_bench("frames", frames_bench(scenario_file), rows);
+  if (name == "bench pairs") return begin_bench("pairs", pairs_bench(), rows);
+  if (name == "bench atlas") return begin_bench("atlas", atlas_bench(), rows);
+  if (name == "bench step") return begin_bench("step", step_bench(), rows);
+  if (name == "measure") return begin_measure(rows);
+  if (name == "stress")
+    return begin_experiment(
+        stress_experiment(),
+        {.command = "stress",
+         .file = "stress",
+         .folder_help = "folder for stress.csv, stress.json, stability_map.png and .svg",
+         .draws = true},
+        rows);
+  LANTERN_CHECK(name, ==, std::string_view("a command of the lab"));
+  return nullptr;
+}
+
+std::vector<std::string> engines(std::vector<std::string>& missing) {
+  std::vector<std::string> found;
+  for (const auto& peer : load_peers(missing))
+    found.push_back(peer->name() + " " + peer->version());
+  return found;
+}
+
+constexpr Lab kLab{kSourceHash, begin, engines, box_peer_names, require_problem};
 
 }  // namespace
 
@@ -131,44 +165,6 @@ app::Run begin_experiment(std::unique_ptr<Experiment> experiment, ExperimentRun 
   };
 }
 
-namespace {
-
-app::Run begin_bench(const std::string& name, std::unique_ptr<Experiment> experiment,
-                     Options& rows) {
-  ExperimentRun as{"bench " + name, "bench_" + name};
-  as.folder_help = fmt::format("folder for {0}.html, {0}.csv and {0}.json", as.file);
-  return begin_experiment(std::move(experiment), std::move(as), rows);
-}
-
-// The commands, as the program names them.
-app::Run begin(std::string_view name, Options& rows) {
-  if (name == "bench frames") return begin_bench("frames", frames_bench(scenario_file), rows);
-  if (name == "bench pairs") return begin_bench("pairs", pairs_bench(), rows);
-  if (name == "bench atlas") return begin_bench("atlas", atlas_bench(), rows);
-  if (name == "bench step") return begin_bench("step", step_bench(), rows);
-  if (name == "measure") return begin_measure(rows);
-  if (name == "stress")
-    return begin_experiment(
-        stress_experiment(),
-        {.command = "stress",
-         .file = "stress",
-         .folder_help = "folder for stress.csv, stress.json, stability_map.png and .svg",
-         .draws = true},
-        rows);
-  LANTERN_CHECK(name, ==, std::string_view("a command of the lab"));
-  return nullptr;
-}
-
-std::vector<std::string> engines(std::vector<std::string>& missing) {
-  std::vector<std::string> found;
-  for (const auto& peer : load_peers(missing))
-    found.push_back(peer->name() + " " + peer->version());
-  return found;
-}
-
-constexpr Lab kLab{kSourceHash, begin, engines, box_peer_names, require_problem};
-
-}  // namespace
 }  // namespace lantern::lab
 
 extern "C" const lantern::app::Lab* lantern_lab() { return &lantern::lab::kLab; }

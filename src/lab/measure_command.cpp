@@ -15,8 +15,8 @@
 #include "base/suggest.hpp"
 #include "lab/commands.hpp"
 #include "language/method.hpp"
-#include "measure/peers.hpp"
 #include "measure/run.hpp"
+#include "measure/solvers.hpp"
 #include "report/benches.hpp"
 #include "report/document.hpp"
 #include "report/measure_document.hpp"
@@ -118,8 +118,8 @@ void add_scenarios(const std::string& word, std::vector<Scenario>& scenarios) {
         scenarios.push_back(std::move(s));
   if (scenarios.size() > before) return;
   const std::string near = suggestion(word, names, 0);
-  throw UsageError(fmt::format("there is no problem '{}'; {}", word,
-                               near.empty() ? "'lantern measure --list' names them all" : near));
+  throw UsageError("there is no problem '{}'; {}", word,
+                   near.empty() ? "'lantern measure --list' names them all" : near);
 }
 
 bool same(const Circumstances& a, const Circumstances& b) {
@@ -190,8 +190,7 @@ class Measure : public Experiment {
     }
     for (const double step : steps_)
       if (!std::isfinite(step) || step <= 0)
-        throw UsageError(
-            fmt::format("a time step of {} s is not allowed; it must be above 0", step));
+        throw UsageError("a time step of {} s is not allowed; it must be above 0", step);
   }
 
   bool resumes() const override { return true; }
@@ -371,8 +370,8 @@ int page_of_earlier(const std::vector<std::string>& from, const ExperimentRun& a
     std::string why;
     auto read = read_measurement(read_input(path, kMostEarlierBytes), &why);
     if (!read)
-      throw UsageError(fmt::format("'{}' is no measurement that 'lantern measure' has written: {}",
-                                   path.string(), why));
+      throw UsageError("'{}' is no measurement that 'lantern measure' has written: {}",
+                       path.string(), why);
     measurements.push_back(std::move(*read));
   }
   ReportFolder folder(as.output, "measure_page");

@@ -45,8 +45,8 @@ class Stress : public Experiment {
     for (const std::string& name : names_)
       if (std::ranges::find(known, name) == known.end()) {
         const std::string hint = suggestion(name, known);
-        throw Refused(fmt::format("there is no case '{}'; {}", name,
-                                  hint.empty() ? "see 'lantern stress --list'" : hint));
+        throw Refused("there is no case '{}'; {}", name,
+                      hint.empty() ? "see 'lantern stress --list'" : hint);
       }
     for (const StressCase& one : stress_cases())
       if (names_.empty() ? full_ || !one.slow : std::ranges::find(names_, one.name) != names_.end())

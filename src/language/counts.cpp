@@ -24,6 +24,64 @@ bool after(const Past& past) {
   return past.has<V>();
 }
 
+constexpr CountDoc kTexts[] = {
+    {"texture", when::with_atlas, "", "The texture that the frame is about."},
+    {"refused_names", when::with_atlas, "",
+     "Names of the textures that were refused, or \"none\"."},
+    {"time", when::time, "", "Seconds of world time, with two decimals."},
+};
+
+constexpr CountDoc kBodyMeasures[] = {
+    {"energy", when::bodies, "",
+     "Kinetic and potential energy; of a spring between two dynamic bodies, half.", Most::unbounded,
+     "J"},
+    {"kinetic_energy", when::bodies, "", "Energy of its motion and rotation.", Most::size, "J"},
+    {"potential_energy", when::bodies, "", "Energy of its height and springs.", Most::unbounded,
+     "J"},
+    {"speed", when::bodies, "", "Of its centre, in units a second.", Most::size, "units/s"},
+    {"spin", when::bodies, "",
+     "Its angular velocity in rad/s, counter-clockwise; its length in a 3D world.", Most::unbounded,
+     "rad/s"},
+    {"angular_momentum", when::bodies, "", "About its own centre; its length in a 3D world.",
+     Most::unbounded, "J s"},
+    {"own_spin_x", when::solid, "",
+     "Its angular velocity in rad/s about its own x axis, in a 3D world.", Most::unbounded,
+     "rad/s"},
+    {"own_spin_y", when::solid, "", "About its own y axis.", Most::unbounded, "rad/s"},
+    {"own_spin_z", when::solid, "", "About its own z axis.", Most::unbounded, "rad/s"},
+    {"x", when::bodies, "", "Where its centre is.", Most::unbounded, "units"},
+    {"y", when::bodies, "", "The same along y.", Most::unbounded, "units"},
+    {"z", when::solid, "", "The same along z, in a 3D world.", Most::unbounded, "units"},
+    {"penetration", when::contacts, "",
+     "How deep its deepest contact of the last world step overlaps.", Most::size, "units"},
+};
+
+std::vector<CountDoc>& counts() {
+  static std::vector<CountDoc> all;
+  return all;
+}
+std::vector<CountDoc>& measures() {
+  static std::vector<CountDoc> all;
+  return all;
+}
+
+void add(std::span<const CountDoc> rows, std::vector<CountDoc>& to) {
+  for (const CountDoc& row : rows) {
+    require_own_name("count", row.name, find_count(row.name) != nullptr);
+    to.push_back(row);
+  }
+}
+
+std::string told(const CountRule& rule, const ScriptPast& past) {
+  return fmt::format(fmt::runtime(rule.why_not), to_string(past.structure().kind));
+}
+
+// The first of the rule and of those before it that does not hold; null if all do.
+const CountRule* broken(const CountRule& rule, const ScriptPast& past) {
+  const CountRule* before = rule.first ? broken(*rule.first, past) : nullptr;
+  return before || !past.is_sure() || rule.holds(past) ? before : &rule;
+}
+
 }  // namespace
 
 namespace when {
@@ -124,68 +182,6 @@ const CountRule eyed = {"after a `see` with an eye", "no eye has looked yet",
                         [](const Past& past) { return past.has_eye_looked(); }, &compiled};
 
 }  // namespace when
-
-namespace {
-
-constexpr CountDoc kTexts[] = {
-    {"texture", when::with_atlas, "", "The texture that the frame is about."},
-    {"refused_names", when::with_atlas, "",
-     "Names of the textures that were refused, or \"none\"."},
-    {"time", when::time, "", "Seconds of world time, with two decimals."},
-};
-
-constexpr CountDoc kBodyMeasures[] = {
-    {"energy", when::bodies, "",
-     "Kinetic and potential energy; of a spring between two dynamic bodies, half.", Most::unbounded,
-     "J"},
-    {"kinetic_energy", when::bodies, "", "Energy of its motion and rotation.", Most::size, "J"},
-    {"potential_energy", when::bodies, "", "Energy of its height and springs.", Most::unbounded,
-     "J"},
-    {"speed", when::bodies, "", "Of its centre, in units a second.", Most::size, "units/s"},
-    {"spin", when::bodies, "",
-     "Its angular velocity in rad/s, counter-clockwise; its length in a 3D world.", Most::unbounded,
-     "rad/s"},
-    {"angular_momentum", when::bodies, "", "About its own centre; its length in a 3D world.",
-     Most::unbounded, "J s"},
-    {"own_spin_x", when::solid, "",
-     "Its angular velocity in rad/s about its own x axis, in a 3D world.", Most::unbounded,
-     "rad/s"},
-    {"own_spin_y", when::solid, "", "About its own y axis.", Most::unbounded, "rad/s"},
-    {"own_spin_z", when::solid, "", "About its own z axis.", Most::unbounded, "rad/s"},
-    {"x", when::bodies, "", "Where its centre is.", Most::unbounded, "units"},
-    {"y", when::bodies, "", "The same along y.", Most::unbounded, "units"},
-    {"z", when::solid, "", "The same along z, in a 3D world.", Most::unbounded, "units"},
-    {"penetration", when::contacts, "",
-     "How deep its deepest contact of the last world step overlaps.", Most::size, "units"},
-};
-
-std::vector<CountDoc>& counts() {
-  static std::vector<CountDoc> all;
-  return all;
-}
-std::vector<CountDoc>& measures() {
-  static std::vector<CountDoc> all;
-  return all;
-}
-
-void add(std::span<const CountDoc> rows, std::vector<CountDoc>& to) {
-  for (const CountDoc& row : rows) {
-    require_own_name("count", row.name, find_count(row.name) != nullptr);
-    to.push_back(row);
-  }
-}
-
-std::string told(const CountRule& rule, const ScriptPast& past) {
-  return fmt::format(fmt::runtime(rule.why_not), to_string(past.structure().kind));
-}
-
-// The first of the rule and of those before it that does not hold; null if all do.
-const CountRule* broken(const CountRule& rule, const ScriptPast& past) {
-  const CountRule* before = rule.first ? broken(*rule.first, past) : nullptr;
-  return before || !past.is_sure() || rule.holds(past) ? before : &rule;
-}
-
-}  // namespace
 
 ScriptPast::ScriptPast(const ScenarioSpec& scenario, int dimension)
     : scenario_(scenario), dimension_(dimension), structure_(scenario.structure) {}

@@ -338,6 +338,28 @@ void notice_links(Draft& draft) {
   }
 }
 
+// What a side has been told of, and where it expects something.
+struct SideNotices {
+  explicit SideNotices(const Scenario& side) {
+    for (const Noticed& one : side.noticed) told.insert(named(one));
+    for (const Step& step : side.steps)
+      for (const auto* list : {&step.expect, &step.always})
+        for (const Expectation& e : *list) expects.insert({e.where.line, e.where.column});
+  }
+  static std::tuple<Warning, int, int, std::string_view> named(const Noticed& one) {
+    return {one.kind, one.where.line, one.where.column, one.message};
+  }
+  bool has(const Noticed& one) const { return told.contains(named(one)); }
+  // What one side overrides may be another's, and what cannot fail on one may on another.
+  bool agrees(const Noticed& one) const {
+    return has(one) ||
+           !(one.kind == Warning::settings || expects.contains({one.where.line, one.where.column}));
+  }
+
+  std::set<std::tuple<Warning, int, int, std::string_view>> told;
+  std::set<std::pair<int, int>> expects;
+};
+
 }  // namespace
 
 void Draft::notice(Warning kind, SourcePosition where, std::string message,
@@ -372,32 +394,6 @@ void notice_empty_expectations(const TomlTable& file, Draft& draft) {
                      fmt::format("'{}' expects nothing, {}", key, kCannotFail),
                      "say what must hold, as { bodies = 3 }");
 }
-
-namespace {
-
-// What a side has been told of, and where it expects something.
-struct SideNotices {
-  explicit SideNotices(const Scenario& side) {
-    for (const Noticed& one : side.noticed) told.insert(named(one));
-    for (const Step& step : side.steps)
-      for (const auto* list : {&step.expect, &step.always})
-        for (const Expectation& e : *list) expects.insert({e.where.line, e.where.column});
-  }
-  static std::tuple<Warning, int, int, std::string_view> named(const Noticed& one) {
-    return {one.kind, one.where.line, one.where.column, one.message};
-  }
-  bool has(const Noticed& one) const { return told.contains(named(one)); }
-  // What one side overrides may be another's, and what cannot fail on one may on another.
-  bool agrees(const Noticed& one) const {
-    return has(one) ||
-           !(one.kind == Warning::settings || expects.contains({one.where.line, one.where.column}));
-  }
-
-  std::set<std::tuple<Warning, int, int, std::string_view>> told;
-  std::set<std::pair<int, int>> expects;
-};
-
-}  // namespace
 
 std::vector<Noticed> noticed_on(const std::vector<std::shared_ptr<const Scenario>>& sides) {
   std::vector<SideNotices> of_sides;

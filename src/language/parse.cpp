@@ -76,15 +76,9 @@ void read_all(const TomlTable& table, const std::string& path, Draft& draft) {
   for (const Named& need : file.names("needs"))
     draft.scenario.needs_at.push_back(draft.position(need.where));
   read_name(file, path, draft);
-  read_world(file, draft);
-  read_display(file, draft);
-  read_bodies(file, draft);
-  read_links(file, draft);
-  read_level(file, draft);
-  read_chart(file, draft);
-  read_problem(file, draft);
-  read_atlas(file, draft);
-  read_script(file, draft);
+  for (ReadPart* const read : {read_world, read_display, read_bodies, read_links, read_level,
+                               read_chart, read_problem, read_atlas, read_script})
+    read(file, draft);
   if (draft.has_world) choose_structures(draft);
   check_panels(file, draft);
   check_structures(file, draft);
@@ -152,6 +146,40 @@ Scenario parse_sides(const TomlTable& table, std::string_view text, const std::s
   return Scenario(std::move(all.scenario));
 }
 
+// Every index that the spec holds.
+class Indices {
+ public:
+  explicit Indices(const ScenarioSpec& spec) : spec_(spec) {}
+
+  void check() const {
+    for (const BodySpec& b : spec_.bodies)
+      if (b.brain == Brain::follow) body(b.follows);
+    for (const LinkSpec& link : spec_.links) {
+      body(link.a);
+      if (link.b) body(*link.b);
+    }
+    for (const BodyMeasureSpec& measure : spec_.body_measures) body(measure.body);
+    for (const Step& step : spec_.steps)
+      std::visit([&](const auto& verb) { see(verb); }, step.verb);
+  }
+
+ private:
+  void body(std::size_t i) const { LANTERN_CHECK(i, <, spec_.bodies.size()); }
+
+  // Verbs name bodies, one body, textures, or none.
+  void see(const auto& verb) const {
+    if constexpr (requires { verb.bodies; })
+      for (const std::size_t i : verb.bodies) body(i);
+    if constexpr (requires { verb.body; }) body(verb.body);
+    if constexpr (requires { verb.textures; })
+      for (const std::size_t i : verb.textures) LANTERN_CHECK(i, <, spec_.textures.size());
+    if constexpr (std::is_same_v<std::decay_t<decltype(verb)>, Wait>)
+      if (verb.event != Wait::Event::asleep) LANTERN_CHECK(verb.bodies.size(), ==, std::size_t{2});
+  }
+
+  const ScenarioSpec& spec_;
+};
+
 }  // namespace
 
 Scenario parse_scenario(std::string_view text, const std::string& path) {
@@ -202,44 +230,6 @@ Glance glance_at(const std::string& path) try {
   return {};
 }
 
-namespace {
-
-// Every index that the spec holds.
-class Indices {
- public:
-  explicit Indices(const ScenarioSpec& spec) : spec_(spec) {}
-
-  void check() const {
-    for (const BodySpec& b : spec_.bodies)
-      if (b.brain == Brain::follow) body(b.follows);
-    for (const LinkSpec& link : spec_.links) {
-      body(link.a);
-      if (link.b) body(*link.b);
-    }
-    for (const BodyMeasureSpec& measure : spec_.body_measures) body(measure.body);
-    for (const Step& step : spec_.steps)
-      std::visit([&](const auto& verb) { see(verb); }, step.verb);
-  }
-
- private:
-  void body(std::size_t i) const { LANTERN_CHECK(i, <, spec_.bodies.size()); }
-
-  // Verbs name bodies, one body, textures, or none.
-  void see(const auto& verb) const {
-    if constexpr (requires { verb.bodies; })
-      for (const std::size_t i : verb.bodies) body(i);
-    if constexpr (requires { verb.body; }) body(verb.body);
-    if constexpr (requires { verb.textures; })
-      for (const std::size_t i : verb.textures) LANTERN_CHECK(i, <, spec_.textures.size());
-    if constexpr (std::is_same_v<std::decay_t<decltype(verb)>, Wait>)
-      if (verb.event != Wait::Event::asleep) LANTERN_CHECK(verb.bodies.size(), ==, std::size_t{2});
-  }
-
-  const ScenarioSpec& spec_;
-};
-
-}  // namespace
-
 bool ScenarioSpec::is_quiet(Warning kind) const {
   const std::vector<Warning>& quiet = atlas ? atlas->quiet : world.quiet;
   return std::ranges::find(quiet, kind) != quiet.end();
@@ -250,8 +240,8 @@ bool ScenarioSpec::has_forces() const {
 }
 
 bool ScenarioSpec::has_joints() const {
-  return std::any_of(links.begin(), links.end(),
-                     [](const LinkSpec& link) { return link.kind != LinkSpec::Kind::spring; });
+  return std::ranges::any_of(
+      links, [](const LinkSpec& link) { return link.kind != LinkSpec::Kind::spring; });
 }
 
 bool ScenarioSpec::tells_sleepers() const {

@@ -7,7 +7,7 @@
 #include "base/number.hpp"
 #include "base/random.hpp"
 #include "measure/csv_file.hpp"
-#include "measure/peers.hpp"
+#include "measure/solvers.hpp"
 
 namespace lantern::measure {
 namespace {
@@ -290,7 +290,7 @@ TextureSet read_texture_sizes(const std::filesystem::path& file) {
   const std::string text = read_input(file, kMostSizesBytes);
   TextureSet set{file.stem().string(), sizes_in(CsvFile(file.string(), text))};
   if (set.sizes.empty())
-    throw Refused(fmt::format("{}: it has no texture; a line is WIDTH,HEIGHT", file.string()));
+    throw Refused("{}: it has no texture; a line is WIDTH,HEIGHT", file.string());
   return set;
 }
 

@@ -5,7 +5,6 @@
 #include <tuple>
 
 #include "base/memory.hpp"
-#include "spatial/pairs.hpp"
 
 namespace lantern::measure {
 namespace {
@@ -205,7 +204,7 @@ const BroadPhaseCost* cheapest(std::span<const BroadPhaseCost> rows, const std::
 }
 
 bool was_cut_back(std::span<const BroadPhaseCost> rows, const BroadPhaseCost& row) {
-  return std::any_of(rows.begin(), rows.end(), [&](const BroadPhaseCost& other) {
+  return std::ranges::any_of(rows, [&](const BroadPhaseCost& other) {
     return other.scene == row.scene && other.kind == row.kind && other.capacity == row.capacity &&
            other.depth_limit < row.depth_limit && other.depth > row.depth;
   });
@@ -214,7 +213,7 @@ bool was_cut_back(std::span<const BroadPhaseCost> rows, const BroadPhaseCost& ro
 const BroadPhaseCost* row_of(std::span<const BroadPhaseCost> rows, const std::string& scene,
                              StructureKind kind, std::uint32_t capacity,
                              std::uint32_t depth_limit) {
-  const auto found = std::find_if(rows.begin(), rows.end(), [&](const BroadPhaseCost& row) {
+  const auto found = std::ranges::find_if(rows, [&](const BroadPhaseCost& row) {
     return row.scene == scene && row.kind == kind && row.capacity == capacity &&
            row.depth_limit == depth_limit;
   });

@@ -37,8 +37,6 @@ EnergyTrial follow_energy(World<D>& world, double step, int steps, const WatchEn
 template <int D>
 double overlap_of(const World<D>& world);
 
-// Random worlds that hold contacts and joints to the law of energy.
-
 // Runs the world of this seed, flat if it is even: 2 to 12 boxes, balls and capsules of aspects to
 // 1 : 1000, spins to 1e4 rad/s and mass ratios to 1e6, with any friction and restitution to 1, with
 // or without gravity, floor, walls, pins, rods, a constant push, overlaps at the start; in steps of

@@ -1,5 +1,4 @@
 #include "embedded/problems.hpp"
-#include "measure/peers.hpp"
 #include "measure/run.hpp"
 #include "measure/solvers.hpp"
 

@@ -3,8 +3,8 @@
 
 #include <deque>
 
+#include "base/clock.hpp"
 #include "base/suggest.hpp"
-#include "base/timing.hpp"
 #include "measure/simulation.hpp"
 
 namespace lantern::measure {
@@ -207,8 +207,6 @@ struct Measurement {
   std::vector<PeerRecord> peers;  // that have rows
   std::vector<Row> rows;          // in order of problems, methods and steps
 };
-
-// What all benches have in common: who takes part, what was found, and who was asked for.
 
 // Who takes part in a bench.
 struct Contestant {

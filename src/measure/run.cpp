@@ -32,7 +32,7 @@ Schedule script_of(const Scenario& scenario) {
       own->step();
       if (own->has_happened(wait.event, wait.bodies)) return i;
     }
-    throw Refused(fmt::format("what a step waits for has not happened within {} s", wait.at_most));
+    throw Refused("what a step waits for has not happened within {} s", wait.at_most);
   };
   Schedule schedule;
   Leg leg;
@@ -275,10 +275,10 @@ Schedule Schedule::of(const Scenario& scenario) {
 
 double Schedule::fitted_step(double wished) const {
   if (!std::isfinite(wished) || wished <= 0)
-    throw Refused(fmt::format("a time step of {} s is not allowed; it must be above 0", wished));
+    throw Refused("a time step of {} s is not allowed; it must be above 0", wished);
   if (seconds + wished == seconds || seconds / wished > 0x1p53)
-    throw Refused(fmt::format("a time step of {} s is too small to move a clock that shows {} s",
-                              wished, seconds));
+    throw Refused("a time step of {} s is too small to move a clock that shows {} s", wished,
+                  seconds);
   if (legs.size() == 1) {
     const double part = part_of(legs[0]);
     return part / std::max(1.0, std::round(part / wished));
@@ -287,9 +287,9 @@ double Schedule::fitted_step(double wished) const {
     const double parts = part_of(leg) / wished;
     if (parts < 0.5 || std::abs(parts - std::round(parts)) > 1e-6 * parts)
       throw Refused(
-          fmt::format("a time step of {} s does not divide the {} s between two looks at "
-                      "the run",
-                      wished, part_of(leg)));
+          "a time step of {} s does not divide the {} s between two looks at "
+          "the run",
+          wished, part_of(leg));
   }
   return wished;
 }

@@ -84,10 +84,7 @@ void time_in_turn(const Trials& trials, std::span<const TimedRun> runs,
 double estimated_seconds(const Scenario& scenario, const Schedule& schedule, const Solver& solver,
                          double h);
 
-// Which runs make up a measurement, how long each will take, and the running of them.
-
 // The problems that Lantern carries with it: scenarios whose answer is known.
-
 // Names of the files of scenarios/problems/ and of its crowds/, in alphabetical order.
 std::vector<std::string_view> problem_names();
 

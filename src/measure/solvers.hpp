@@ -1,6 +1,7 @@
 // Lantern's own engine, the one that makes the frames, by one of its methods.
 #pragma once
 
+#include "base/child.hpp"
 #include "language/method.hpp"
 #include "measure/simulation.hpp"
 
@@ -25,7 +26,6 @@ class LanternSolver : public Solver {
 std::vector<Method> methods_for(const Scenario& scenario);
 
 // Dormand and Prince's method as a solver: the reference for smooth problems, at its price.
-
 // For scenes of points: bodies that neither collide nor are turned, without rods. It chooses its
 // steps itself; what it is given as a step says how exact it is to be: 1e-3 of the scene's size and
 // speed at the problem's largest step, and 32 times better for each halving, down to 1e-14.
@@ -35,5 +35,43 @@ class DormandPrinceSolver : public Solver {
   std::optional<std::string> cannot(const Scenario& scenario) const override;
   std::unique_ptr<Simulation> start(const Scenario& scenario, double h) const override;
 };
+
+// A module of another library that Lantern is measured beside (src/peers), loaded when asked for.
+// They are optional: what was not installed when Lantern was built is missing.
+
+struct PeerModule {
+  const char* name;     // of the library
+  const char* file;     // of the module
+  const char* package;  // that it is built from
+};
+
+// From the folder "peers" beside the program, or beside the program's folder. Nothing, and a line
+// in `missing`, if it is not there: "Box2D: not built in; apt-get install libbox2d-dev and build
+// again: ...".
+std::optional<Library> load_module(const PeerModule& module, std::vector<std::string>& missing);
+
+// What the function `entry` of each module adds. A module once loaded stays.
+template <class Peer>
+std::vector<Peer> peers_of(std::span<const PeerModule> modules, const char* entry,
+                           std::vector<std::string>& missing) {
+  std::vector<Peer> peers;
+  for (const PeerModule& module : modules) {
+    const auto library = load_module(module, missing);
+    if (!library) continue;
+    void (*add)(std::vector<Peer>&) = nullptr;
+    if (library->find(add, entry))
+      add(peers);
+    else
+      missing.push_back(std::string(module.name) + ": cannot be loaded: " + library->problem());
+  }
+  return peers;
+}
+
+// The engines whose modules are there; lines are added to `missing` as above.
+std::vector<std::unique_ptr<Solver>> load_peers(std::vector<std::string>& missing);
+
+// The libraries of boxes that `bench pairs` measures beside: "CGAL 5.5.1 (double)". Lines are added
+// to `missing` as above.
+std::vector<std::string> box_peer_names(std::vector<std::string>& missing);
 
 }  // namespace lantern::measure

@@ -5,7 +5,6 @@
 #include "base/number.hpp"
 #include "base/random.hpp"
 #include "geometry/not_finite.hpp"
-#include "measure/peers.hpp"
 #include "measure/solvers.hpp"
 
 namespace lantern::measure {
@@ -139,7 +138,7 @@ std::vector<std::unique_ptr<Solver>> contestants(StepBenchResult& result) {
   for (const std::string& name : config.only)
     if (std::ranges::none_of(
             all, [&](const auto& solver) { return is_asked_for({name}, solver->name()); }))
-      throw Refused(fmt::format("there is no method of contacts and no engine '{}'", name));
+      throw Refused("there is no method of contacts and no engine '{}'", name);
   for (const auto& solver : all)
     result.contestants.push_back({solver->name(), solver->version(), ""});
   return all;
@@ -287,9 +286,7 @@ std::vector<OwnPoint> own_front(const StepBenchResult& result, const std::string
   for (const StepRow& row : result.rows)
     if (row.pile == pile && !row.is_peer() && row.is_whole(result.config.seconds))
       points.push_back({std::max(row.end.deepest, kNoDepth), row.mean, row.solver});
-  std::ranges::sort(points, [](const OwnPoint& a, const OwnPoint& b) {
-    return std::pair(a.ms, a.deepest) < std::pair(b.ms, b.deepest);
-  });
+  std::ranges::sort(points, {}, [](const OwnPoint& p) { return std::pair(p.ms, p.deepest); });
   for (const OwnPoint& point : points)
     if (front.empty() || point.deepest < front.back().deepest) front.push_back(point);
   return front;

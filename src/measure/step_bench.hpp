@@ -6,9 +6,6 @@
 
 namespace lantern::measure {
 
-// Piles of many bodies in contact: the scene in which engines spend their time, and what is looked
-// at when it has come to rest.
-
 // Unit boxes or balls (half size or radius 0.5, density 1, friction 0.5, no bounce) that fall from
 // rest into a container: 100 wide in 2D, 12 x 12 in 3D, so that in both N bodies lie in a few
 // layers at 500 and in some tens at 5,000. They start in rows 1.22 apart, every other row shifted

@@ -169,7 +169,7 @@ double deepest(const World<D>& world) {
 
 template <int D>
 bool is_finite(const World<D>& world) {
-  return std::all_of(world.bodies().begin(), world.bodies().end(), [](const Body<D>& body) {
+  return std::ranges::all_of(world.bodies(), [](const Body<D>& body) {
     return geometry::is_finite<D>(body.position) && geometry::is_finite<D>(body.velocity);
   });
 }

@@ -1,5 +1,4 @@
 // stb_rect_pack by Sean Barrett: a skyline packer, by both of its heuristics.
-#include <cstdlib>
 
 #include "measure/atlas_peer.hpp"
 

@@ -2,11 +2,10 @@
 // of equations that it must keep.
 #pragma once
 
-#include <algorithm>
 #include <optional>
 #include <vector>
 
-#include "measure/peer.hpp"
+#include "measure/simulation.hpp"
 
 namespace lantern::peers {
 

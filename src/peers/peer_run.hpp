@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "base/error.hpp"
-#include "measure/peer.hpp"
+#include "measure/simulation.hpp"
 
 namespace lantern::peers {
 

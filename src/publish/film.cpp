@@ -16,7 +16,6 @@
 
 #include "base/child.hpp"
 #include "base/error.hpp"
-#include "base/file.hpp"
 #include "base/memory.hpp"
 #include "base/printable.hpp"
 
@@ -266,11 +265,11 @@ struct Film::State {
 void Film::State::fail() {
   const int code = child.finish();
   const std::string words = last_words(child.said(), film_target(file), path.string());
-  throw IoError(fmt::format("cannot make '{}': ffmpeg {} {}{}{}", printable(path.string()),
-                            code > 128  ? "was ended by signal"
-                            : code == 0 ? "wrote no whole film, and ended with exit code"
-                                        : "failed with exit code",
-                            code > 128 ? code - 128 : code, words.empty() ? "" : ": ", words));
+  throw IoError("cannot make '{}': ffmpeg {} {}{}{}", printable(path.string()),
+                code > 128  ? "was ended by signal"
+                : code == 0 ? "wrote no whole film, and ended with exit code"
+                            : "failed with exit code",
+                code > 128 ? code - 128 : code, words.empty() ? "" : ": ", words);
 }
 
 void Film::State::send(const Job& job) {
@@ -315,7 +314,7 @@ Film::Film(const std::filesystem::path& ffmpeg, const FilmSettings& settings,
   try {
     s.thread = std::jthread([&s](const std::stop_token& stop) { s.give_away(stop); });
   } catch (const std::system_error& problem) {
-    throw IoError(fmt::format("cannot start a thread: {}", problem.code().message()));
+    throw IoError("cannot start a thread: {}", problem.code().message());
   }
 }
 

@@ -38,9 +38,7 @@ std::string differing_of(std::size_t differing, std::size_t frames) {
 namespace {
 
 std::string joined(const std::vector<std::string>& parts, std::string_view between) {
-  std::string text;
-  for (const std::string& part : parts) text += (text.empty() ? "" : std::string(between)) + part;
-  return text;
+  return fmt::format("{}", fmt::join(parts, between));
 }
 
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }

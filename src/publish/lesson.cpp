@@ -8,7 +8,6 @@
 
 #include "base/check.hpp"
 #include "base/error.hpp"
-#include "base/file.hpp"
 #include "base/json_writer.hpp"
 #include "base/number.hpp"
 #include "base/printable.hpp"

@@ -26,7 +26,7 @@ std::vector<std::string_view> parts_of(std::string_view key) {
 }
 
 bool is_among(std::string_view word, std::initializer_list<std::string_view> words) {
-  return std::find(words.begin(), words.end(), word) != words.end();
+  return std::ranges::find(words, word) != words.end();
 }
 
 class Entities {

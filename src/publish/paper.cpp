@@ -131,9 +131,8 @@ SheetLayout::SheetLayout(const Vec<2>& paper, const SheetGrid& grid) : grid_(gri
   const double width = parts(size.x - 2 * kMargin, grid.columns, kGapAcross);
   const double height = parts(size.y - kTop - kBottom, grid.rows, kGapDown);
   if (!(width >= kLeastWidth && height >= kLeastHeight))
-    throw Refused(
-        fmt::format("pages {:.3g} times as wide as high have no room for {} x {} pictures",
-                    paper.x / paper.y, grid.columns, grid.rows));
+    throw Refused("pages {:.3g} times as wide as high have no room for {} x {} pictures",
+                  paper.x / paper.y, grid.columns, grid.rows);
   const double type = std::clamp(kTypeOfWidth * width, kLeastType, kMostType);
   lines_ = static_cast<std::size_t>(
       std::clamp(std::ceil(kUsualCaption * kLetter * type / width), 2.0, 5.0));

@@ -9,8 +9,6 @@
 #include "base/error.hpp"
 #include "base/printable.hpp"
 #include "base/stop.hpp"
-#include "draw/font.hpp"
-#include "render/canvas.hpp"
 
 namespace lantern::render {
 namespace {
@@ -29,8 +27,7 @@ class Functions {
  private:
   // Cairo needs FreeType for its own sake, too: both are named, whichever is broken.
   [[noreturn]] void refuse(const std::string& why) const {
-    throw BackendError(
-        fmt::format("no {}: {}; install the packages libcairo2 and libfreetype6", name_, why));
+    throw BackendError("no {}: {}; install the packages libcairo2 and libfreetype6", name_, why);
   }
   const char* name_;
   Library library_;
@@ -55,7 +52,7 @@ std::array<void*, 2> loaded_faces() {
   library.take(open, "FT_New_Memory_Face");
   void* free_type = nullptr;
   if (const int error = start(&free_type); error != 0)
-    throw BackendError(fmt::format("FreeType cannot start: error {}", error));
+    throw BackendError("FreeType cannot start: error {}", error);
   std::array<void*, 2> faces{};
   for (const Weight weight : {Weight::regular, Weight::semibold}) {
     constexpr int kNoHinting = 2;  // FT_LOAD_NO_HINTING
@@ -63,7 +60,7 @@ std::array<void*, 2> loaded_faces() {
     void* face = nullptr;
     if (const int error = open(free_type, bytes.data(), static_cast<long>(bytes.size()), 0, &face);
         error != 0)
-      throw BackendError(fmt::format("FreeType cannot read the bundled type: error {}", error));
+      throw BackendError("FreeType cannot read the bundled type: error {}", error);
     void*& made = faces[static_cast<std::size_t>(weight)];
     made = cairo().ft_font_face_create_for_ft_face(face, kNoHinting);
     cairo().require(cairo().font_face_status(made));
@@ -106,7 +103,7 @@ std::size_t digits_from(const DrawList& list, std::size_t first) {
 void Cairo::require(int code) const {
   constexpr int kNoMemory = 1;  // CAIRO_STATUS_NO_MEMORY
   if (code == kNoMemory) throw std::bad_alloc();
-  if (code != 0) throw BackendError(fmt::format("cairo: {}", status_to_string(code)));
+  if (code != 0) throw BackendError("cairo: {}", status_to_string(code));
 }
 
 const Cairo& cairo() {

@@ -1,8 +1,6 @@
 // What all painters of draw lists have in common.
 #pragma once
 
-#include <fmt/format.h>
-
 #include "base/error.hpp"
 #include "draw/draw_list.hpp"
 #include "draw/theme.hpp"
@@ -42,17 +40,16 @@ inline void check_draw_list(const DrawList& list) {
   if (!sane(list.page.x) || !sane(list.page.y) || list.page.x <= 0 || list.page.y <= 0)
     throw Refused("a draw list's page must have a finite size above zero");
   if (!list.tints.empty() && list.tints.size() != list.shapes.size())
-    throw Refused(fmt::format("a draw list of {} shapes has {} tints", list.shapes.size(),
-                              list.tints.size()));
+    throw Refused("a draw list of {} shapes has {} tints", list.shapes.size(), list.tints.size());
   for (std::size_t i = 0; i < list.shapes.size(); ++i) {
     bool good = true;
     const auto look_at = [&](double measure) { good &= sane(measure); };
     std::visit([&](const auto& s) { for_each_measure(s, look_at); }, list.shapes[i]);
     if (const auto* text = std::get_if<TextShape>(&list.shapes[i])) look_at(text->align);
     if (!good)
-      throw Refused(fmt::format(
+      throw Refused(
           "shape {} of the draw list has a coordinate or size that is not finite or beyond {}", i,
-          kMost));
+          kMost);
   }
 }
 

@@ -56,10 +56,10 @@ void require_room(std::uint64_t bytes) {
     }
   if (room == MAP_FAILED)
     throw BackendError(
-        fmt::format("out of memory: OpenGL needs room for {} MB, which the limits of this process "
-                    "do not leave; "
-                    "raise them (ulimit -v, ulimit -d), or draw with --format svg",
-                    bytes / 1'000'000));
+        "out of memory: OpenGL needs room for {} MB, which the limits of this process "
+        "do not leave; "
+        "raise them (ulimit -v, ulimit -d), or draw with --format svg",
+        bytes / 1'000'000);
   ::munmap(room, bytes);
 }
 
@@ -115,18 +115,16 @@ std::unique_ptr<Context> start_osmesa(std::string& file) {
   file = library.name();
   OsMesaFunctions functions;
   if (!library.loaded())
-    throw BackendError(fmt::format("{}; install the package libosmesa6", library.problem()));
+    throw BackendError("{}; install the package libosmesa6", library.problem());
   if (!functions.find_in(library))
-    throw BackendError(
-        fmt::format("{} is too old; install the package libosmesa6 of Mesa 12 or newer", file));
+    throw BackendError("{} is too old; install the package libosmesa6 of Mesa 12 or newer", file);
   const std::array attributes{kFormat, kRgba, kProfile, kCoreProfile, kMajor, 3, kMinor, 3, 0};
   void* const handle = functions.create(attributes.data(), nullptr);
   if (!handle)
-    throw BackendError(
-        fmt::format("{} offers no OpenGL 3.3 core; install libosmesa6 of Mesa 12 or newer", file));
+    throw BackendError("{} offers no OpenGL 3.3 core; install libosmesa6 of Mesa 12 or newer",
+                       file);
   auto context = std::make_unique<OsmesaContext>(functions, handle);
-  if (!context->make_current())
-    throw BackendError(fmt::format("{} cannot make its context current", file));
+  if (!context->make_current()) throw BackendError("{} cannot make its context current", file);
   return context;
 }
 
@@ -258,9 +256,9 @@ Gl::Gl(const Context& context) {
   const auto load = [&]<class Function>(Function& function, const char* name) {
     function = reinterpret_cast<Function>(context.function(name));
     if (!function)
-      throw BackendError(fmt::format(
+      throw BackendError(
           "the backend {} lacks the function {} of OpenGL 3.3; install a newer package of it",
-          context.backend(), name));
+          context.backend(), name);
   };
 #define LANTERN_GL_LOAD(name) load(name, "gl" #name);
   LANTERN_GL_FUNCTIONS(LANTERN_GL_LOAD)
@@ -285,7 +283,7 @@ std::unique_ptr<Context> Context::create(Backend backend) {
     } catch (const BackendError& error) {
       problems += fmt::format("\n  {}: {}", starter.name, error.what());
     }
-  throw BackendError(fmt::format("no graphics backend could be started:{}", problems));
+  throw BackendError("no graphics backend could be started:{}", problems);
 }
 
 std::vector<BackendReport> examine_backends() {

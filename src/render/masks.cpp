@@ -2,7 +2,6 @@
 
 #include "geometry/closest.hpp"
 #include "geometry/ray.hpp"
-#include "render/canvas.hpp"
 
 namespace lantern::render {
 namespace {

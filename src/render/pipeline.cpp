@@ -7,9 +7,7 @@
 
 #include "base/check.hpp"
 #include "base/error.hpp"
-#include "base/file.hpp"
 #include "base/memory.hpp"
-#include "render/png.hpp"
 
 namespace lantern::render {
 
@@ -64,8 +62,7 @@ EncodePool::EncodePool(Config config, Work& work) : config_(std::move(config)), 
   for (std::size_t i = 0; i < threads; ++i) try {
       threads_.emplace_back([this](const std::stop_token& stop) { encode_jobs(stop); });
     } catch (const std::system_error& error) {
-      if (threads_.empty())
-        throw IoError(fmt::format("cannot start a thread: {}", error.code().message()));
+      if (threads_.empty()) throw IoError("cannot start a thread: {}", error.code().message());
       break;  // the machine gives no more: those there are do all
     }
 }

@@ -10,7 +10,6 @@
 
 #include "base/check.hpp"
 #include "base/stop.hpp"
-#include "render/deflate.hpp"
 
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"

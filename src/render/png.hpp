@@ -3,7 +3,6 @@
 #pragma once
 
 #include <optional>
-#include <utility>
 
 #include "render/deflate.hpp"
 #include "render/image.hpp"

@@ -12,7 +12,6 @@
 #include "base/memory.hpp"
 #include "base/stop.hpp"
 #include "embedded/shaders.hpp"
-#include "render/context.hpp"
 #include "render/damage.hpp"
 #include "render/gl.hpp"
 #include "render/instances.hpp"
@@ -66,8 +65,7 @@ GLuint Programs::link(std::string_view fragment_source) {
   if (!good) {
     std::array<GLchar, 2000> log{};
     gl_.GetProgramInfoLog(linked, static_cast<GLsizei>(log.size()), nullptr, log.data());
-    throw BackendError(
-        fmt::format("the backend {} refuses a shader: {}", context_.backend(), log.data()));
+    throw BackendError("the backend {} refuses a shader: {}", context_.backend(), log.data());
   }
   gl_.UseProgram(linked);
   gl_.Uniform2f(gl_.GetUniformLocation(linked, "to_clip"), 2.0f / static_cast<float>(width_),
@@ -124,8 +122,8 @@ struct Renderer::State {
     GLint most = 0;
     gl.GetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most);
     if (width > most || height > most)
-      throw BackendError(fmt::format("the backend {} draws at most {} x {} pixels",
-                                     context->backend(), most, most));
+      throw BackendError("the backend {} draws at most {} x {} pixels", context->backend(), most,
+                         most);
     GLuint color = 0, framebuffer = 0;
     gl.GenRenderbuffers(1, &color);
     gl.BindRenderbuffer(GL_RENDERBUFFER, color);
@@ -134,8 +132,8 @@ struct Renderer::State {
     gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color);
     if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-      throw BackendError(fmt::format("the backend {} makes no framebuffer of {} x {} pixels",
-                                     context->backend(), width, height));
+      throw BackendError("the backend {} makes no framebuffer of {} x {} pixels",
+                         context->backend(), width, height);
     gl.Viewport(0, 0, width, height);
     gl.PixelStorei(GL_PACK_ALIGNMENT, 4);
     gl.Disable(GL_DEPTH_TEST);
@@ -172,8 +170,8 @@ struct Renderer::State {
     gl.GetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
     masks_room = std::min(std::max(bytes, 2 * masks_room), static_cast<std::size_t>(most));
     if (bytes > masks_room)
-      throw BackendError(fmt::format("the backend {} has no room for {} bytes of text and polygons",
-                                     context->backend(), bytes));
+      throw BackendError("the backend {} has no room for {} bytes of text and polygons",
+                         context->backend(), bytes);
     gl.BindBuffer(GL_TEXTURE_BUFFER, masks);
     gl.BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(masks_room), nullptr, GL_DYNAMIC_DRAW);
     masks_sent = 0;
@@ -251,8 +249,8 @@ struct Renderer::State {
 
 Renderer::Renderer(std::unique_ptr<Context> context, int width, int height) {
   if (width < 1 || height < 1 || width > kMostPixels || height > kMostPixels)
-    throw Refused(fmt::format("an image of {} x {} pixels: each side must be 1 ... {}", width,
-                              height, kMostPixels));
+    throw Refused("an image of {} x {} pixels: each side must be 1 ... {}", width, height,
+                  kMostPixels);
   // What the driver draws to, what it is read into, and the picture.
   require_memory(std::uint64_t{12} * width * height,
                  fmt::format("the pixels of a picture of {} x {}", width, height),
@@ -340,7 +338,7 @@ Drawn Renderer::draw(const DrawList& list, const Theme& theme, bool transparent)
       s.draw_parts(parts, paper, transparent);
     for (const PixelRect& part : parts) s.read(part, transparent);
     if (const GLenum error = s.gl.GetError(); error != GL_NO_ERROR)
-      throw BackendError(fmt::format("OpenGL reports error {:#x}", error));
+      throw BackendError("OpenGL reports error {:#x}", error);
   } catch (...) {
     s.damage.forget();
     throw;

@@ -156,9 +156,8 @@ class AtlasBench : public ExperimentOf<AtlasBenchResult> {
     const auto size = two_numbers_in<int>(atlas_, 'x');
     if (!size || std::min(size->first, size->second) < kLeast ||
         std::max(size->first, size->second) > kMost)
-      throw Refused(
-          fmt::format("--size {}: give width x height in pixels, {} to {} each, as 1280x720",
-                      atlas_, kLeast, kMost));
+      throw Refused("--size {}: give width x height in pixels, {} to {} each, as 1280x720", atlas_,
+                    kLeast, kMost);
     return {size->first, size->second};
   }
 

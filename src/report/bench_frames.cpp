@@ -154,7 +154,7 @@ class ScratchFolder {
   ScratchFolder() {
     std::string name = std::filesystem::temp_directory_path() / "lantern-bench-XXXXXX";
     if (::mkdtemp(name.data()) == nullptr)
-      throw IoError(fmt::format("cannot make the folder '{}': {}", name, std::strerror(errno)));
+      throw IoError("cannot make the folder '{}': {}", name, std::strerror(errno));
     path_ = name;
   }
   ~ScratchFolder() {

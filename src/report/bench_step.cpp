@@ -171,9 +171,9 @@ class StepBench : public ExperimentOf<StepBenchResult> {
       const auto pile = pile_named(name);
       if (!pile)
         throw Refused(
-            fmt::format("there is no pile '{}'; write boxes2d:500, balls2d:500, boxes3d:500 or "
-                        "balls3d:500, with 1 to 100000 bodies",
-                        name));
+            "there is no pile '{}'; write boxes2d:500, balls2d:500, boxes3d:500 or "
+            "balls3d:500, with 1 to 100000 bodies",
+            name);
       c.piles.push_back(*pile);
     }
     std::vector<std::string_view> kinds;
@@ -184,7 +184,7 @@ class StepBench : public ExperimentOf<StepBenchResult> {
                                     broad_phase_, kinds, kinds.size()));
     for (const Pile& pile : c.piles)
       if (!is_possible(*kind, pile.dimension))
-        throw Refused(fmt::format("{}: an octree needs three dimensions", pile.name()));
+        throw Refused("{}: an octree needs three dimensions", pile.name());
     c.structure = *kind;
   }
   std::vector<std::string> announcement() const override {

@@ -59,10 +59,6 @@ Option rounds_option(const char* help, int& rounds, double most) {
   return {"--rounds", &rounds, help, {.value = "N", .least = 1, .most = most}};
 }
 
-Option seed_option(const char* help, std::uint64_t& seed) {
-  return {"--seed", &seed, help, {.value = "S", .most = 0x1p53}};
-}
-
 Option longest_option(const char* help, std::optional<double>& longest) {
   return {"--longest", &longest, help, {.value = "S", .above_0 = true}};
 }

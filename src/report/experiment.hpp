@@ -163,7 +163,6 @@ inline Option option(const char* names, OptionTarget to, OptionTraits is, const 
 Option only_option(const char* help, std::vector<std::string>& only);
 Option peers_option(const char* help, bool& peers);
 Option rounds_option(const char* help, int& rounds, double most = 10000);
-Option seed_option(const char* help, std::uint64_t& seed);
 Option longest_option(const char* help, std::optional<double>& longest);
 
 // The options as they would be typed: numbers always, of the others those that were given.

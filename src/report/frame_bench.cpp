@@ -76,8 +76,7 @@ class CairoPeer {
   void write_png(const fs::path& path) {
     const int status = cairo().surface_write_to_png(surface_, path.c_str());
     if (status != 0)
-      throw IoError(
-          fmt::format("cannot write '{}': {}", path.string(), cairo().status_to_string(status)));
+      throw IoError("cannot write '{}': {}", path.string(), cairo().status_to_string(status));
   }
 
  private:

@@ -126,28 +126,6 @@ class BroadPhases : public ExperimentOf<BroadPhaseResult> {
   std::vector<std::string> files_;
 };
 
-}  // namespace
-
-Texts texts_of(const BroadPhaseResult& result) {
-  const Sheet<BroadPhaseCost> sheet = sheet_of(result);
-  BroadPhaseResult told{result.config, result.circumstances, result.command, {}, {}, {}};
-  for (const BoxScene& scene : result.config.scenes)
-    for (const StructureKind kind : kStructureKinds)
-      if (const auto* best = cheapest(result.rows, scene.name, kind, CostBy::work)) {
-        told.rows.push_back(*best);
-        const std::string name(to_string(kind));
-        if (std::ranges::find(told.contestants, name, &Contestant::name) == told.contestants.end())
-          told.contestants.push_back({name, "", ""});
-      }
-  return texts_of(result, sheet, document_of(told, sheet));
-}
-
-std::unique_ptr<Experiment> broad_phases(std::vector<std::string> files, bool full) {
-  return std::make_unique<BroadPhases>(std::move(files), full);
-}
-
-namespace {
-
 constexpr double kGridMargin = 60, kFoot = 836;
 
 // Five tones of blue, light where it is cheap, in every theme; `above` is the largest ratio to the
@@ -354,6 +332,24 @@ class GridPage {
 };
 
 }  // namespace
+
+Texts texts_of(const BroadPhaseResult& result) {
+  const Sheet<BroadPhaseCost> sheet = sheet_of(result);
+  BroadPhaseResult told{result.config, result.circumstances, result.command, {}, {}, {}};
+  for (const BoxScene& scene : result.config.scenes)
+    for (const StructureKind kind : kStructureKinds)
+      if (const auto* best = cheapest(result.rows, scene.name, kind, CostBy::work)) {
+        told.rows.push_back(*best);
+        const std::string name(to_string(kind));
+        if (std::ranges::find(told.contestants, name, &Contestant::name) == told.contestants.end())
+          told.contestants.push_back({name, "", ""});
+      }
+  return texts_of(result, sheet, document_of(told, sheet));
+}
+
+std::unique_ptr<Experiment> broad_phases(std::vector<std::string> files, bool full) {
+  return std::make_unique<BroadPhases>(std::move(files), full);
+}
 
 DrawList draw_broad_phase_page(std::span<const BroadPhaseCost> rows, const BoxScene& scene,
                                StructureKind kind) {

@@ -62,7 +62,7 @@ std::optional<double> cost_of_step(std::span<const Row> rows, const Cost& cost) 
     if (const auto price = cost(row); price && !row.is_peer() && row.counted.steps > 0)
       ratios.push_back(*price / static_cast<double>(row.counted.steps));
   if (ratios.empty()) return std::nullopt;
-  std::sort(ratios.begin(), ratios.end());
+  std::ranges::sort(ratios);
   return ratios[ratios.size() / 2];
 }
 
@@ -187,7 +187,7 @@ std::string problem_words(const ProblemRows& problem) {
   std::string words = problem.problem;
   const std::size_t variant = words.find("_" + problem.variant);
   if (!problem.variant.empty() && variant != std::string::npos) words.replace(variant, 1, ", ");
-  std::replace(words.begin(), words.end(), '_', ' ');
+  std::ranges::replace(words, '_', ' ');
   return capital(words);
 }
 

@@ -203,7 +203,7 @@ std::optional<double> observed_order(std::span<const Row> rows) {
   for (std::size_t i = 1; i < samples.size(); ++i)
     slopes.push_back(slope(samples[i - 1], samples[i]));
   std::vector<double> sorted = slopes;
-  std::sort(sorted.begin(), sorted.end());
+  std::ranges::sort(sorted);
   const double middle = sorted[sorted.size() / 2];
   // The longest even piece.
   std::size_t from = 0, length = 0;
@@ -287,7 +287,7 @@ std::vector<std::size_t> pareto_front(std::span<const Vec<2>> cost_and_error) {
   for (std::size_t i = 0; i < cost_and_error.size(); ++i)
     if (std::isfinite(cost_and_error[i].x) && std::isfinite(cost_and_error[i].y))
       order.push_back(i);
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
     const Vec<2>&p = cost_and_error[a], &q = cost_and_error[b];
     return p.x < q.x || (p.x == q.x && p.y < q.y);
   });

@@ -86,8 +86,6 @@ std::vector<std::size_t> pareto_front(std::span<const Row> rows, const Cost& cos
 // Seconds of a whole run; nothing for a row that was not timed.
 std::optional<double> seconds_of(const Row& row);
 
-// A problem's error against what it costs, and against time.
-
 // One plot of a problem: its methods as series, the observed order behind each name if
 // `with_orders`, runs that failed at the upper edge, the estimated rounding floor, the Pareto
 // front. `looks` must hold every method (looks_of).

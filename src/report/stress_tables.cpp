@@ -56,6 +56,38 @@ std::string row_text(const StressOutcome& outcome, std::size_t name_width) {
   return text;
 }
 
+// The best that we saw of other engines, or read in their own tests: for orientation only, the
+// bounds are Lantern's.
+std::string seen_elsewhere(std::string_view name) {
+  constexpr std::pair<std::string_view, std::string_view> kSeen[] = {
+      {"free_fall", "0.0245 m"},           {"torque_free_momentum", "6e-3"},
+      {"elastic_bounce", "5.7e-6"},        {"stack_of_60", "0.1 mm (Jolt)"},
+      {"heavy_on_light", "11 mm (Jolt)"},  {"chain_of_rods", "13 mm (Jolt)"},
+      {"sliding", "1e-2 m (Jolt's test)"}, {"far_from_origin", "1e-3 m (Box2D's test)"},
+  };
+  for (const auto& [known, seen] : kSeen)
+    if (known == name) return std::string(seen);
+  return {};
+}
+
+// "1 hash" of hashes.
+std::string with_unit(const std::string& number, const std::string& unit) {
+  if (number == "1" && (unit.ends_with("shes") || unit.ends_with("xes")))
+    return number + " " + unit.substr(0, unit.size() - 2);
+  return unit.empty() ? number : number + " " + unit;
+}
+
+std::string measured_text(const Bar& b) {
+  if (!b.value) return "–";
+  return std::isfinite(*b.value) ? with_unit(figure(*b.value), b.unit) : "not finite";
+}
+
+std::string distance_text(const Bar& b) {
+  const auto far = b.distance();
+  if (!far) return "–";
+  return std::abs(*far) > 99 ? (*far < 0 ? "–∞" : "∞") : fmt::format("{:+.1f}", *far);
+}
+
 }  // namespace
 
 std::string to_table(const StressReport& report) {
@@ -94,42 +126,6 @@ std::string summary(const StressReport& report) {
   return fmt::format("{} of {} cases good{}{}", good, report.outcomes.size(), failed,
                      report.finished ? "" : "; interrupted before the end");
 }
-
-namespace {
-
-// The best that we saw of other engines, or read in their own tests: for orientation only, the
-// bounds are Lantern's.
-std::string seen_elsewhere(std::string_view name) {
-  constexpr std::pair<std::string_view, std::string_view> kSeen[] = {
-      {"free_fall", "0.0245 m"},           {"torque_free_momentum", "6e-3"},
-      {"elastic_bounce", "5.7e-6"},        {"stack_of_60", "0.1 mm (Jolt)"},
-      {"heavy_on_light", "11 mm (Jolt)"},  {"chain_of_rods", "13 mm (Jolt)"},
-      {"sliding", "1e-2 m (Jolt's test)"}, {"far_from_origin", "1e-3 m (Box2D's test)"},
-  };
-  for (const auto& [known, seen] : kSeen)
-    if (known == name) return std::string(seen);
-  return {};
-}
-
-// "1 hash" of hashes.
-std::string with_unit(const std::string& number, const std::string& unit) {
-  if (number == "1" && (unit.ends_with("shes") || unit.ends_with("xes")))
-    return number + " " + unit.substr(0, unit.size() - 2);
-  return unit.empty() ? number : number + " " + unit;
-}
-
-std::string measured_text(const Bar& b) {
-  if (!b.value) return "–";
-  return std::isfinite(*b.value) ? with_unit(figure(*b.value), b.unit) : "not finite";
-}
-
-std::string distance_text(const Bar& b) {
-  const auto far = b.distance();
-  if (!far) return "–";
-  return std::abs(*far) > 99 ? (*far < 0 ? "–∞" : "∞") : fmt::format("{:+.1f}", *far);
-}
-
-}  // namespace
 
 std::optional<bool> Bar::met() const {
   if (!value) return std::nullopt;

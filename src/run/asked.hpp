@@ -42,7 +42,7 @@ class Queries {
       if (nearest.hit) hits.push_back(*nearest.hit);
       return nearest.counts;
     });
-    std::sort(hits.begin(), hits.end(), RayHit::before);
+    std::ranges::sort(hits, RayHit::before);
     if (!cast.all && hits.size() > 1) hits.resize(1);
     found_.ray = FrameRay{cast.from, cast.to, {}};
     found_.nearest = !cast.all;
@@ -99,7 +99,7 @@ class Queries {
   }
 
   Finding sorted() {
-    std::sort(found_.hits.begin(), found_.hits.end());
+    std::ranges::sort(found_.hits);
     return std::move(found_);
   }
 

@@ -94,7 +94,7 @@ void AtlasStage::name_free_leaf(const std::string& name, const std::vector<std::
   std::uint32_t handle = 0;
   atlas_.visit([&](const AtlasNodeView& node) {
     const std::int64_t area = std::int64_t{node.rect.width} * node.rect.height;
-    const bool is_new = std::find(before.begin(), before.end(), node.handle) == before.end();
+    const bool is_new = std::ranges::find(before, node.handle) == before.end();
     if (node.leaf && !node.texture && is_new && area > largest) {
       largest = area;
       handle = node.handle;

@@ -30,12 +30,6 @@ constexpr CountDoc kEngineCounts[] = {
     {"awake", when::sleep, "awake",
      "Bodies that can move and are not asleep, whether they move now or not.", Most::bodies}};
 
-}  // namespace
-
-std::span<const CountDoc> engine_counts() { return kEngineCounts; }
-
-namespace {
-
 template <int D>
 class EngineOf : public Engine {
  public:
@@ -202,7 +196,7 @@ class EngineOf : public Engine {
 
   bool has_happened(Wait::Event event, const std::vector<std::size_t>& bodies) const override {
     if (event == Wait::Event::asleep)
-      return std::all_of(bodies.begin(), bodies.end(), [&](std::size_t i) {
+      return std::ranges::all_of(bodies, [&](std::size_t i) {
         const Body<D>* body = players_.body(i);
         return !body || body->asleep;
       });
@@ -423,6 +417,8 @@ class EngineOf : public Engine {
 };
 
 }  // namespace
+
+std::span<const CountDoc> engine_counts() { return kEngineCounts; }
 
 std::unique_ptr<Engine> make_engine(const Scenario& scenario, Work& work) {
   if (scenario.world.dimension == 3) return std::make_unique<EngineOf<3>>(scenario, work);

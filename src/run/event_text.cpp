@@ -18,34 +18,40 @@ std::string capitalised(std::string text) {
   return text;
 }
 
+// What is said of events, in the order of Event::Kind: {0} is the body and {1} the node, {2} and
+// {3} the same with a capital; {4} is how many the node holds, {5} its limit, {6} the depth limit.
+constexpr const char* kTexts[] = {
+    "{2} reaches {1}.",
+    "{2} does not reach {1}.",
+    "{3} is made, because something enters it.",
+    "{3} stores {0} and now holds {4}, more than its limit of {5}.",
+    "{3} holds {4}, its limit is {5}: it splits.",
+    "{3} hands {0} down to its children.",
+    "{3} holds {4}, its limit is {5}. But it lies at depth {6}, and no node may lie deeper: it "
+    "stays a leaf.",
+    "{3} holds {4}, its limit is {5}. But all share one point, so a split would separate no pair.",
+    "A rotation: a child of {1} and the sibling of {1} change places, and {1} shrinks.",
+    "{2} has left its box: its leaf goes, the sibling takes the parent's place, and {0} is "
+    "inserted again."};
 // Of a tree that has a leaf for each body, and fits its boxes to them; empty if it has no words of
 // its own.
-std::string fitting_text(const Event& e, const std::string& place, const std::string& name,
-                         const std::string& body) {
-  switch (e.kind) {
-    case Event::Kind::test:
-      return fmt::format("{} comes to {}: would all boxes together grow least beside it?",
-                         capitalised(body), place);
-    case Event::Kind::miss:
-      return fmt::format("{} would grow more by {}: it is left out.", name, body);
-    case Event::Kind::store:
-      return fmt::format("{} is the leaf of {}.", name, body);
-    case Event::Kind::split:
-      return fmt::format("A new node takes the place of {}: it holds what was there, and {}.",
-                         place, body);
-    case Event::Kind::rotate:
-      return fmt::format(
-          "A rotation: a child of {} and the sibling of {} change places, and {} shrinks.", place,
-          place, place);
-    case Event::Kind::leave:
-      return fmt::format(
-          "{} has left its box: its leaf goes, the sibling takes the parent's place, and {} is "
-          "inserted again.",
-          capitalised(body), body);
-    default:
-      return {};
-  }
-}
+constexpr const char* kFittingTexts[] = {
+    "{2} comes to {1}: would all boxes together grow least beside it?",
+    "{3} would grow more by {0}: it is left out.",
+    "",
+    "{3} is the leaf of {0}.",
+    "A new node takes the place of {1}: it holds what was there, and {0}.",
+    "",
+    "",
+    "",
+    "",
+    ""};
+// Of an atlas, in the order of AtlasEvent::Kind: {0} is the node, {1} the texture.
+constexpr const char* kAtlasTexts[] = {
+    "The free leaf {0} is too small for {1}.", "This leaf already holds {0}.",
+    "The free leaf {0} has room for {1}. It is cut to fit.",
+    "This leaf has exactly the size of {1}: it is stored here.",
+    "No leaf has room for {1}: it is refused, the rest is kept."};
 
 }  // namespace
 
@@ -67,60 +73,21 @@ std::string event_text(const Event& e, const StructureSpec& structure, const std
   if (!traits.is_tree)
     return fmt::format("{} lists {}: {} in all.", capitalised(std::string(traits.words)), body,
                        e.count);
-  const std::string place = place_of(node), name = capitalised(place);
-  if (traits.holds_once)
-    if (std::string text = fitting_text(e, place, name, body); !text.empty()) return text;
-  switch (e.kind) {
-    case Event::Kind::test:
-      return fmt::format("{} reaches {}.", capitalised(body), place);
-    case Event::Kind::miss:
-      return fmt::format("{} does not reach {}.", capitalised(body), place);
-    case Event::Kind::make_child:
-      return fmt::format("{} is made, because something enters it.", name);
-    case Event::Kind::store:
-      if (e.limit == 0) return fmt::format("{} stores {} and holds {}.", name, body, e.count);
-      if (e.count <= e.limit)
-        return fmt::format("{} stores {} and holds {} of at most {}.", name, body, e.count,
-                           e.limit);
-      return fmt::format("{} stores {} and now holds {}, more than its limit of {}.", name, body,
-                         e.count, e.limit);
-    case Event::Kind::split:
-      return fmt::format("{} holds {}, its limit is {}: it splits.", name, e.count, e.limit);
-    case Event::Kind::hand_down:
-      return fmt::format("{} hands {} down to its children.", name, body);
-    case Event::Kind::depth_limit:
-      return fmt::format(
-          "{} holds {}, its limit is {}. But it lies at depth {}, and no node may lie deeper: it "
-          "stays a leaf.",
-          name, e.count, e.limit, structure.max_depth);
-    case Event::Kind::no_progress:
-      return fmt::format(
-          "{} holds {}, its limit is {}. But all share one point, so a split would separate no "
-          "pair.",
-          name, e.count, e.limit);
-    case Event::Kind::rotate:
-    case Event::Kind::leave:
-      return fitting_text(e, place, name, body);
-  }
-  return {};
+  const auto kind = static_cast<std::size_t>(e.kind);
+  const bool has_own = traits.holds_once && *kFittingTexts[kind] != '\0';
+  const char* text = has_own ? kFittingTexts[kind] : kTexts[kind];
+  if (!has_own && e.kind == Event::Kind::store && (e.limit == 0 || e.count <= e.limit))
+    text = e.limit == 0 ? "{3} stores {0} and holds {4}."
+                        : "{3} stores {0} and holds {4} of at most {5}.";
+  const std::string place = place_of(node);
+  return fmt::format(fmt::runtime(text), body, place, capitalised(body), capitalised(place),
+                     e.count, e.limit, structure.max_depth);
 }
 
 std::string event_text(const AtlasEvent& e, const std::string& node, const std::string& texture,
                        int width, int height) {
   const std::string size = fmt::format("{} ({} × {})", texture, width, height);
-  switch (e.kind) {
-    case AtlasEvent::Kind::too_small:
-      return fmt::format("The free leaf {} is too small for {}.", node, size);
-    case AtlasEvent::Kind::used:
-      return fmt::format("This leaf already holds {}.", node);
-    case AtlasEvent::Kind::cut:
-      return fmt::format("The free leaf {} has room for {}. It is cut to fit.", node, size);
-    case AtlasEvent::Kind::store:
-      return fmt::format("This leaf has exactly the size of {}: it is stored here.", size);
-    case AtlasEvent::Kind::refuse:
-      return fmt::format("No leaf has room for {}: it is refused, the rest is kept.", size);
-  }
-  return {};
+  return fmt::format(fmt::runtime(kAtlasTexts[static_cast<std::size_t>(e.kind)]), node, size);
 }
 
 std::string bind_text(const std::string& image, const std::string& bound, std::uint64_t bindings) {

@@ -13,7 +13,6 @@
 #include "language/code_text.hpp"
 #include "language/counts.hpp"
 #include "run/counters.hpp"
-#include "run/shown.hpp"
 
 namespace lantern::run {
 
@@ -37,12 +36,6 @@ constexpr CountDoc kAnswerCounts[] = {
      "Those whose boxes overlap after its step, by every kind."},
     {"least_work", when::compared, "comparison a step/comparisons a step",
      "Comparisons of the kind that needed fewest in its step, to make ready and to find pairs."}};
-
-}  // namespace
-
-std::span<const CountDoc> answer_counts() { return kAnswerCounts; }
-
-namespace {
 
 // Frames of one run, all paces together.
 constexpr std::uint32_t kMostFrames = 100'000;
@@ -76,6 +69,8 @@ std::string why_not_noted(const NoteSpec& note, const Frame& frame) {
 }
 
 }  // namespace
+
+std::span<const CountDoc> answer_counts() { return kAnswerCounts; }
 
 FrameMaker::FrameMaker(const Scenario& scenario, Pace pace, const Stage& stage,
                        const std::function<bool(const Frame&)>& sink)
@@ -130,7 +125,7 @@ void FrameMaker::begin(const Step& step, std::uint32_t index) {
 
 bool FrameMaker::wanted(std::string_view event) const {
   const auto& events = step_->events;
-  return events.empty() || std::find(events.begin(), events.end(), event) != events.end();
+  return events.empty() || std::ranges::find(events, event) != events.end();
 }
 
 void FrameMaker::note_refused(const std::string& name) {
@@ -174,7 +169,7 @@ Frame FrameMaker::picture(const Touched& now, std::string_view event, bool midst
   if (stage_.engine) narrow.add_to(frame, *stage_.engine);
   // Speeds that numbers still hold may have squares that they do not.
   for (const auto& [name, number] : frame.measures)
-    if (!std::isfinite(number)) throw Refused(fmt::format("the measure '{}' overflows", name));
+    if (!std::isfinite(number)) throw Refused("the measure '{}' overflows", name);
   if (stage_.level)
     stage_.level->picture(stage_.engine && stage_.engine->structure().of_level, frame);
   if (stage_.atlas) stage_.atlas->picture(now, frame);

@@ -158,8 +158,7 @@ void LevelStage::see(const std::optional<Vec<2>>& eye, const Watch& watch) {
   }
   if (!eye) return;
   locate(*eye);
-  if (!place_)
-    throw Refused(fmt::format("the eye [{}, {}] lies outside of the world", eye->x, eye->y));
+  if (!place_) throw Refused("the eye [{}, {}] lies outside of the world", eye->x, eye->y);
   shown_ = Answer::sights;
 }
 
@@ -213,7 +212,7 @@ bool LevelStage::is_seen(std::uint32_t sector) const {
 }
 
 void LevelStage::mark_sector(std::uint32_t sector, FrameNode& node) const {
-  const auto at = std::find(order_.begin(), order_.end(), sector);
+  const auto at = std::ranges::find(order_, sector);
   if (at != order_.end()) node.order = static_cast<std::uint32_t>(at - order_.begin());
   const bool looks = shown_ == Answer::sights || viewer_ != kNone;
   if ((shown_ != Answer::none && place_ && place_->sector == sector) || viewer_ == sector)

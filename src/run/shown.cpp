@@ -7,7 +7,6 @@
 #include "geometry/elementary.hpp"
 #include "geometry/flat.hpp"
 #include "language/counts.hpp"
-#include "run/engine.hpp"
 
 namespace lantern::run {
 
@@ -35,13 +34,6 @@ constexpr CountDoc kNarrowMeasures[] = {
      "Where none parts them, how far they overlap along the best one.", Most::size, "units"},
     {"distance", when::searched, "", "Of the bodies of the last `gjk`; 0 if they overlap.",
      Most::size, "units"}};
-
-}  // namespace
-
-std::span<const CountDoc> narrow_counts() { return kNarrowCounts; }
-std::span<const CountDoc> narrow_measures() { return kNarrowMeasures; }
-
-namespace {
 
 constexpr std::size_t kMostInFocus = 3;  // of more, nobody stands out
 
@@ -114,6 +106,9 @@ Vec<3> turned_about(const Vec<3>& middle, const Vec<3>& p, double angle) {
 }
 
 }  // namespace
+
+std::span<const CountDoc> narrow_counts() { return kNarrowCounts; }
+std::span<const CountDoc> narrow_measures() { return kNarrowMeasures; }
 
 void Lighting::light(const Cause& cause, Frame& frame) const {
   if (frame.index == 0 && !cause.midst) return put_out(frame);

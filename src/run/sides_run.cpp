@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <deque>
 #include <map>
-#include <memory>
 #include <utility>
 
 #include <fmt/format.h>

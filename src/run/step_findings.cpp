@@ -47,23 +47,15 @@ constexpr CountDoc kStepMeasures[] = {
      "none.",
      Most::part_of_step, "of a step"}};
 
-}  // namespace
-
-std::span<const CountDoc> step_counts() { return kStepCounts; }
-std::span<const CountDoc> step_measures() { return kStepMeasures; }
-
-namespace {
-
 template <int D>
 FrameContact frame_contact(const Contact<D>& contact, std::span<const ContactEvent> events) {
   FrameContact c;
   c.pair = {contact.a, contact.b};
   c.normal = solid(contact.manifold.normal);
   // Events come in the order of their pairs, one a pair.
-  const auto event = std::lower_bound(events.begin(), events.end(), c.pair,
-                                      [](const ContactEvent& e, const Pair& pair) {
-                                        return Pair{e.a, e.b} < pair;
-                                      });
+  const auto event = std::ranges::lower_bound(events, c.pair, {}, [](const ContactEvent& e) {
+    return Pair{e.a, e.b};
+  });
   if (event != events.end() && Pair{event->a, event->b} == c.pair) {
     c.begins = event->kind == ContactEvent::Kind::begin;
     c.crushes = event->crushes;
@@ -101,6 +93,9 @@ void set(std::vector<std::pair<std::string, V>>& numbers, std::string_view name,
 }
 
 }  // namespace
+
+std::span<const CountDoc> step_counts() { return kStepCounts; }
+std::span<const CountDoc> step_measures() { return kStepMeasures; }
 
 StepFindings::Counts StepFindings::contact_counts() const {
   std::uint64_t points = 0, impulses = 0, crushes = 0;

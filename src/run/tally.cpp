@@ -30,7 +30,7 @@ std::uint64_t points_of(const FrameChart& chart) {
 }  // namespace
 
 bool StageTally::used() const {
-  return std::any_of(amounts.begin(), amounts.end(), [](const Amount& a) { return a.n > 0; });
+  return std::ranges::any_of(amounts, [](const Amount& a) { return a.n > 0; });
 }
 
 void Tally::Seen::add(const Frame& frame) {

@@ -11,7 +11,7 @@ namespace lantern::run {
 namespace {
 
 bool contains(const std::vector<Diagnostic>& all, const Diagnostic& one) {
-  return std::any_of(all.begin(), all.end(), [&](const Diagnostic& d) {
+  return std::ranges::any_of(all, [&](const Diagnostic& d) {
     return d.message == one.message && d.where.line == one.where.line &&
            d.where.column == one.where.column;
   });
@@ -32,7 +32,7 @@ class ViewWatch : public Watcher {
 
   void see_frame(const Frame& frame) override {
     const auto is_thing = [](const FrameBody& body) { return !is_ground(body); };
-    const auto thing = std::find_if(frame.bodies.begin(), frame.bodies.end(), is_thing);
+    const auto thing = std::ranges::find_if(frame.bodies, is_thing);
     if (thing == frame.bodies.end()) return;
     ++seen_;
     if (shows_a_body_(frame) || ++empty_ > 1) return;
@@ -187,7 +187,7 @@ std::vector<Diagnostic> RunWatch::warnings() const {
   for (const auto& [name, side] : sides_)
     for (Diagnostic& found : side->warnings()) {
       const auto has = [&](const auto& other) { return contains(other.second->warnings(), found); };
-      if (std::all_of(sides_.begin(), sides_.end(), has)) {
+      if (std::ranges::all_of(sides_, has)) {
         if (&side != &sides_[0].second) continue;  // told already
       } else {
         found.message += fmt::format(", on the side '{}'", name);

@@ -16,8 +16,7 @@ constexpr double kDeep = 0.01;  // of the thinner body's width
 
 // Bodies that only fly straight on are not meant to collide.
 bool anything_pushes(const Scenario& scenario) {
-  return scenario.has_forces() ||
-         std::any_of(scenario.steps.begin(), scenario.steps.end(), [](const Step& step) {
+  return scenario.has_forces() || std::ranges::any_of(scenario.steps, [](const Step& step) {
            return std::holds_alternative<ApplyForce>(step.verb) ||
                   std::holds_alternative<ApplyImpulse>(step.verb);
          });
@@ -82,7 +81,7 @@ class ContactsWatch : public Watcher {
       for (const FramePair& p : frame.pairs) look(p.pair.a, p.pair.b);
     else
       sweep(frame, look);
-    std::sort(depths.begin(), depths.end());
+    std::ranges::sort(depths);
     depths_ = std::move(depths);
     put_ = false;
   }
@@ -96,9 +95,7 @@ class ContactsWatch : public Watcher {
 
   // 0 if they did not overlap.
   double depth_before(const Pair& pair) const {
-    const auto found = std::lower_bound(
-        depths_.begin(), depths_.end(), pair,
-        [](const auto& entry, const Pair& wanted) { return entry.first < wanted; });
+    const auto found = std::ranges::lower_bound(depths_, pair, {}, &Depths::value_type::first);
     return found == depths_.end() || found->first != pair ? 0 : found->second;
   }
 
@@ -106,8 +103,7 @@ class ContactsWatch : public Watcher {
 
   // They lie in order of their ids.
   static const FrameBody& body(const Frame& frame, BodyId id) {
-    return *std::lower_bound(frame.bodies.begin(), frame.bodies.end(), id,
-                             [](const FrameBody& b, BodyId wanted) { return b.id < wanted; });
+    return *std::ranges::lower_bound(frame.bodies, id, {}, &FrameBody::id);
   }
 
   template <class F>

@@ -215,9 +215,8 @@ class JointWatch : public Watcher {
     std::vector<std::size_t> parted;
     for (std::size_t i = 0; i < worst_.size(); ++i)
       if (worst_[i].share > kMostGap) parted.push_back(i);
-    std::stable_sort(parted.begin(), parted.end(), [&](std::size_t i, std::size_t j) {
-      return worst_[i].share > worst_[j].share;
-    });
+    std::ranges::stable_sort(parted, std::greater(),
+                             [&](std::size_t i) { return worst_[i].share; });
     Diagnostics found;
     for (const std::size_t i : parted) found.add([&] { return parting(i); });
     return found.list("joints part");
@@ -225,8 +224,7 @@ class JointWatch : public Watcher {
 
   bool has_fact() const override { return true; }
   std::string fact() const override {
-    const auto widest = std::max_element(
-        worst_.begin(), worst_.end(), [](const Gap& x, const Gap& y) { return x.size < y.size; });
+    const auto widest = std::ranges::max_element(worst_, {}, &Gap::size);
     std::string told = fmt::format("joints parted by at most {:.2g}", widest->size);
     if (widest->size > 0)
       told += fmt::format(", {} at {:.4g} s",
@@ -286,9 +284,9 @@ class JointWatch : public Watcher {
 Watching watch_energy(const Scenario& scenario) {
   const bool forces = scenario.has_physics();
   // A free body's energy can grow only by the way it turns.
-  const bool turns = scenario.world.dimension == 3 &&
-                     std::any_of(scenario.bodies.begin(), scenario.bodies.end(),
-                                 [](const BodySpec& body) { return body.spin != 0; });
+  const bool turns =
+      scenario.world.dimension == 3 &&
+      std::ranges::any_of(scenario.bodies, [](const BodySpec& body) { return body.spin != 0; });
   if (!scenario.has_body_of(BodyKind::dynamic_body) || (!forces && !turns)) return nullptr;
   return std::make_unique<EnergyWatch>(scenario, !forces);
 }

@@ -63,6 +63,21 @@ void scan_part(ScanTask<D> task, FoundPairs& found) {
 // Of a run: what it costs beside its comparisons is that of some sixteen of them.
 std::uint64_t work_of(const ScanRun& run) { return 16 + (run.to - run.from); }
 
+constexpr std::size_t kShortRow = 24;
+constexpr std::size_t kWorthThreads = 1 << 18;  // pairs
+
+bool is_in_order(const FoundPairs& found) {
+  const auto a = found.first(), b = found.second();
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (a[i] >= b[i] || (i > 0 && (a[i - 1] > a[i] || (a[i - 1] == a[i] && b[i - 1] >= b[i]))))
+      return false;
+  return true;
+}
+
+std::pair<std::size_t, std::size_t> share(std::size_t size, std::size_t part, std::size_t parts) {
+  return {size * part / parts, size * (part + 1) / parts};
+}
+
 }  // namespace
 
 template <int D>
@@ -97,25 +112,6 @@ template class BoxTable<2>;
 template class BoxTable<3>;
 template void scan(const ScanTask<2>&, FoundPairs&);
 template void scan(const ScanTask<3>&, FoundPairs&);
-
-namespace {
-
-constexpr std::size_t kShortRow = 24;
-constexpr std::size_t kWorthThreads = 1 << 18;  // pairs
-
-bool is_in_order(const FoundPairs& found) {
-  const auto a = found.first(), b = found.second();
-  for (std::size_t i = 0; i < found.size(); ++i)
-    if (a[i] >= b[i] || (i > 0 && (a[i - 1] > a[i] || (a[i - 1] == a[i] && b[i - 1] >= b[i]))))
-      return false;
-  return true;
-}
-
-std::pair<std::size_t, std::size_t> share(std::size_t size, std::size_t part, std::size_t parts) {
-  return {size * part / parts, size * (part + 1) / parts};
-}
-
-}  // namespace
 
 void PairOrder::order(FoundPairs& found, std::span<const BodyId> names,
                       std::vector<Pair>& ordered) {

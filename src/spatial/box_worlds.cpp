@@ -18,6 +18,64 @@ constexpr int kMovingFrames = 8;  // updates of a moving scene
 constexpr double kFastest = 12;   // units from one update to the next, on each axis
 constexpr int kClusters = 20;
 
+constexpr std::int64_t kMostBodies = 24;
+
+struct TrialSort {
+  std::string_view name;
+  TrialBody (*body)(const Box<2>& bounds, Random& random);
+};
+
+Vec<2> somewhere(const Box<2>& bounds, Random& random) {
+  return {random.between(bounds.lo.x, bounds.hi.x), random.between(bounds.lo.y, bounds.hi.y)};
+}
+
+constexpr TrialSort kTrialSorts[] = {
+    {"uniform",
+     [](const Box<2>& bounds, Random& random) {
+       return TrialBody{somewhere(bounds, random), random_point<2>(random, 0, 6)};
+     }},
+    {"clustered",
+     [](const Box<2>& bounds, Random& random) {
+       const double at = random.bits() % 2 == 0 ? 0.15 : 0.64;
+       return TrialBody{bounds.lo + bounds.size() * at + random_point<2>(random, 0, 2),
+                        random_point<2>(random, 0, 1)};
+     }},
+    {"coincident",
+     [](const Box<2>& bounds, Random&) {
+       return TrialBody{bounds.lo + bounds.size() * 0.375, Vec<2>(1.5)};
+     }},
+    {"on borders",  // edges lie exactly on those of cells
+     [](const Box<2>& bounds, Random& random) {
+       TrialBody body;
+       for (int i = 0; i < 2; ++i) {
+         const double cell = bounds.size()[i] / 16;
+         const auto from = static_cast<double>(random.whole(0, 14));
+         const auto cells = static_cast<double>(random.whole(0, 2));
+         body.half[i] = cell * cells / 2;
+         body.center[i] = bounds.lo[i] + cell * from + body.half[i];
+       }
+       return body;
+     }},
+    {"large and small",
+     [](const Box<2>& bounds, Random& random) {
+       const double size = bounds.size().x * geometry::pow(10.0, random.between(-6, 1));
+       return TrialBody{somewhere(bounds, random), random_point<2>(random, 0, size)};
+     }},
+    {"points",
+     [](const Box<2>& bounds, Random& random) {
+       return TrialBody{somewhere(bounds, random), Vec<2>(0.0)};
+     }},
+    {"outside",
+     [](const Box<2>& bounds, Random& random) {
+       const Vec<2> size = bounds.size();
+       return TrialBody{somewhere({bounds.lo - size, bounds.hi + size}, random),
+                        random_point<2>(random, 0, 30)};
+     }},
+};
+
+constexpr std::array<Box<2>, 3> kTrialBounds = {
+    Box<2>{Vec<2>(0.0), Vec<2>(64.0)}, Box<2>{{-32, -32}, {32, 32}}, Box<2>{{96, -16}, {224, 48}}};
+
 }  // namespace
 
 // Sizes are such that a body meets about one other; in three dimensions there is more room.
@@ -86,68 +144,6 @@ std::uint64_t count_missing(std::span<const Pair> truth, std::span<const Pair> f
 }
 
 // --- small ones, on which a structure is tried ---
-
-namespace {
-
-constexpr std::int64_t kMostBodies = 24;
-
-struct TrialSort {
-  std::string_view name;
-  TrialBody (*body)(const Box<2>& bounds, Random& random);
-};
-
-Vec<2> somewhere(const Box<2>& bounds, Random& random) {
-  return {random.between(bounds.lo.x, bounds.hi.x), random.between(bounds.lo.y, bounds.hi.y)};
-}
-
-constexpr TrialSort kTrialSorts[] = {
-    {"uniform",
-     [](const Box<2>& bounds, Random& random) {
-       return TrialBody{somewhere(bounds, random), random_point<2>(random, 0, 6)};
-     }},
-    {"clustered",
-     [](const Box<2>& bounds, Random& random) {
-       const double at = random.bits() % 2 == 0 ? 0.15 : 0.64;
-       return TrialBody{bounds.lo + bounds.size() * at + random_point<2>(random, 0, 2),
-                        random_point<2>(random, 0, 1)};
-     }},
-    {"coincident",
-     [](const Box<2>& bounds, Random&) {
-       return TrialBody{bounds.lo + bounds.size() * 0.375, Vec<2>(1.5)};
-     }},
-    {"on borders",  // edges lie exactly on those of cells
-     [](const Box<2>& bounds, Random& random) {
-       TrialBody body;
-       for (int i = 0; i < 2; ++i) {
-         const double cell = bounds.size()[i] / 16;
-         const auto from = static_cast<double>(random.whole(0, 14));
-         const auto cells = static_cast<double>(random.whole(0, 2));
-         body.half[i] = cell * cells / 2;
-         body.center[i] = bounds.lo[i] + cell * from + body.half[i];
-       }
-       return body;
-     }},
-    {"large and small",
-     [](const Box<2>& bounds, Random& random) {
-       const double size = bounds.size().x * geometry::pow(10.0, random.between(-6, 1));
-       return TrialBody{somewhere(bounds, random), random_point<2>(random, 0, size)};
-     }},
-    {"points",
-     [](const Box<2>& bounds, Random& random) {
-       return TrialBody{somewhere(bounds, random), Vec<2>(0.0)};
-     }},
-    {"outside",
-     [](const Box<2>& bounds, Random& random) {
-       const Vec<2> size = bounds.size();
-       return TrialBody{somewhere({bounds.lo - size, bounds.hi + size}, random),
-                        random_point<2>(random, 0, 30)};
-     }},
-};
-
-constexpr std::array<Box<2>, 3> kTrialBounds = {
-    Box<2>{Vec<2>(0.0), Vec<2>(64.0)}, Box<2>{{-32, -32}, {32, 32}}, Box<2>{{96, -16}, {224, 48}}};
-
-}  // namespace
 
 TrialWorld trial_world(std::uint64_t seed, std::uint64_t number) {
   Random random(seed * 0x9e3779b97f4a7c15u + number);

@@ -106,7 +106,7 @@ void BroadPhase<D>::take(std::span<const Proxy<D>> proxies) {
   std::ranges::sort(sorted_, {}, &Proxy<D>::id);
   for (std::size_t i = 1; i < sorted_.size(); ++i)
     if (sorted_[i - 1].id == sorted_[i].id)
-      throw Refused(fmt::format("body {}: it is there twice", sorted_[i].id));
+      throw Refused("body {}: it is there twice", sorted_[i].id);
   replace(sorted_);
 }
 
@@ -237,8 +237,7 @@ void BroadPhase<D>::insert(std::span<const Proxy<D>> proxies, const Watch& watch
     if (!store->names.empty()) last = std::max(last, std::optional(store->names.back()));
   for (const Proxy<D>& proxy : proxies) {
     require_valid(Item<D>{proxy.id, proxy.box});
-    if (last >= proxy.id)
-      throw Refused(fmt::format("body {}: ids must come in ascending order", proxy.id));
+    if (last >= proxy.id) throw Refused("body {}: ids must come in ascending order", proxy.id);
     last = proxy.id;
   }
   if (proxies.empty()) return;
@@ -364,9 +363,8 @@ void BroadPhase<D>::require_room(BodyId number, std::size_t pairs) const {
 
 template <int D>
 void BroadPhase<D>::refuse_more(BodyId number) const {
-  throw Refused(
-      fmt::format("body {}: with it more than {} pairs overlap; take fewer bodies, or part them",
-                  found_names_[number], config_.most_pairs));
+  throw Refused("body {}: with it more than {} pairs overlap; take fewer bodies, or part them",
+                found_names_[number], config_.most_pairs);
 }
 
 // --- looking ---

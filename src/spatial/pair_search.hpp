@@ -25,7 +25,7 @@ class AwakeNodes {
       handles_.push_back(node.handle);
       // There are gaps while bodies are on their way from one place to another.
       if (node.handle >= awake_.size()) awake_.resize(node.handle + std::size_t{1});
-      awake_[node.handle] = std::any_of(node.bodies.begin(), node.bodies.end(), awake);
+      awake_[node.handle] = std::ranges::any_of(node.bodies, awake);
       return true;
     });
     for (std::size_t i = handles_.size(); i-- > 1;)
@@ -55,8 +55,8 @@ class PairSearch {
   void begin(std::span<const Item<D>> bodies, std::span<const ProxyState> states) {
     bodies_ = bodies;
     states_ = states;
-    stirring_ = static_cast<std::size_t>(
-        std::count_if(states.begin(), states.end(), std::mem_fn(&ProxyState::stirs)));
+    stirring_ =
+        static_cast<std::size_t>(std::ranges::count_if(states, std::mem_fn(&ProxyState::stirs)));
     tests = nodes_visited = nodes_skipped = 0;
     found.clear();
   }

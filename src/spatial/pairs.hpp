@@ -1,8 +1,6 @@
 // Candidate pairs: two bodies that share a leaf.
 #pragma once
 
-#include <fmt/format.h>
-
 #include "base/error.hpp"
 #include "base/stop.hpp"
 #include "spatial/structure.hpp"
@@ -16,7 +14,7 @@ struct CandidatePairs {
 
 // Millions of them take seconds: the wish to stop is heard.
 inline void sort_pairs(std::vector<Pair>& pairs) {
-  std::sort(pairs.begin(), pairs.end(), [](const Pair& x, const Pair& y) {
+  std::ranges::sort(pairs, [](const Pair& x, const Pair& y) {
     stop_if_asked();
     return x < y;
   });
@@ -33,10 +31,10 @@ constexpr std::uint64_t testable_pairs(std::uint64_t n, std::uint64_t never_move
 // Throws Refused if more pairs meet than `budget`.
 inline void require_within(std::uint64_t met, std::uint64_t budget) {
   if (met > budget)
-    throw Refused(fmt::format(
+    throw Refused(
         "{} pairs meet in the leaves, the limit is {}; take fewer bodies, or a structure that "
         "parts them better",
-        met, budget));
+        met, budget);
 }
 
 // How many pairs meet in the leaves; needs no memory, so it may be asked before collecting them.

@@ -225,7 +225,7 @@ Found overlap_query(const std::type_identity_t<StructureView<D>>& of, const Volu
   VolumeQuery<D> query{{of, box_of, told}, &volume, &found.ids};
   of.structure->ask(query);
   found.counts = query.counts;
-  std::sort(found.ids.begin(), found.ids.end());
+  std::ranges::sort(found.ids);
   return found;
 }
 

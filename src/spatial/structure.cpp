@@ -121,7 +121,7 @@ std::unique_ptr<Structure<D>> make_structure(StructureKind kind, const Structure
     return one->entry->make_3d(config);
   else if (one->entry->make_2d != nullptr)
     return one->entry->make_2d(config);
-  throw Refused(fmt::format("broad phase: {} needs three dimensions", one->name));
+  throw Refused("broad phase: {} needs three dimensions", one->name);
 }
 template std::unique_ptr<Structure<2>> make_structure(StructureKind, const StructureConfig<2>&);
 template std::unique_ptr<Structure<3>> make_structure(StructureKind, const StructureConfig<3>&);
@@ -133,9 +133,9 @@ void refuse_box(const Item<D>& item) {
     return !std::isfinite(lo) || !std::isfinite(hi) || lo > hi;
   };
   while (i + 1 < D && !is_bad(item.box.lo[i], item.box.hi[i])) ++i;
-  throw Refused(fmt::format(
+  throw Refused(
       "body {}: its box goes from {} to {} on axis {}; both must be finite and in this order",
-      item.id, item.box.lo[i], item.box.hi[i], "xyz"[i]));
+      item.id, item.box.lo[i], item.box.hi[i], "xyz"[i]);
 }
 template void refuse_box(const Item<2>&);
 template void refuse_box(const Item<3>&);

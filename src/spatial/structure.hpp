@@ -99,9 +99,9 @@ struct Tour {
   }
   // The ids in ascending order: as they are if they lie so already, else a sorted copy.
   std::span<const BodyId> ascending(std::span<const BodyId> found) {
-    if (std::is_sorted(found.begin(), found.end())) return found;
+    if (std::ranges::is_sorted(found)) return found;
     ids.assign(found.begin(), found.end());
-    std::sort(ids.begin(), ids.end());
+    std::ranges::sort(ids);
     return ids;
   }
 };

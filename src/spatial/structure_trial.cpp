@@ -1,10 +1,7 @@
 #include "spatial/structure_trial.hpp"
 
-#include "base/clock.hpp"
 #include "base/json_writer.hpp"
 #include "base/random.hpp"
-#include "geometry/random_vec.hpp"
-#include "spatial/box_worlds.hpp"
 #include "spatial/broad_phase.hpp"
 #include "spatial/own_structure.hpp"
 #include "spatial/pairs.hpp"
@@ -137,55 +134,6 @@ struct Shrinking {
     return simpler;
   }
 };
-
-}  // namespace
-
-std::optional<std::string> fault_in(StructureKind kind, const TrialWorld& world) try {
-  stop_if_asked();
-  return fault_on_the_way(kind, world);
-} catch (const StructureFault& broken) {
-  return text_of(broken.fault(), trial_name);
-} catch (const Refused& refused) {
-  return refused.what();
-}
-
-TrialWorld shrunk(StructureKind kind, TrialWorld world) {
-  const bool misses_pair = misses_a_pair(fault_in(kind, world).value_or(""));
-  Shrinking shrinking{kind, std::move(world), misses_pair};
-  shrinking.stand_still();
-  while (shrinking.drop_bodies() || shrinking.simplify_settings()) {
-  }
-  shrinking.stand_still();
-  shrinking.round_bodies();
-  return std::move(shrinking.world);
-}
-
-Trial try_structure(StructureKind kind, std::uint64_t worlds, std::uint64_t seed) {
-  Trial trial{.kind = kind, .worlds = worlds};
-  std::optional<TrialWorld> least;
-  bool least_misses = false;
-  for (std::uint64_t i = 0; i < worlds; ++i) {
-    TrialWorld world = trial_world(seed, i);
-    const auto fault = fault_in(kind, world);
-    if (!fault) continue;
-    ++trial.failed;
-    const bool misses = misses_a_pair(*fault);
-    if (least && (misses < least_misses ||
-                  (misses == least_misses && world.bodies.size() >= least->bodies.size())))
-      continue;
-    least = std::move(world);
-    least_misses = misses;
-  }
-  if (!least) return trial;
-  trial.smallest = shrunk(kind, std::move(*least));
-  trial.fault = fault_in(kind, trial.smallest)
-                    .value_or(
-                        "it fails now and then: its results differ "
-                        "from one run to the next");
-  return trial;
-}
-
-namespace {
 
 constexpr std::uint32_t kBenchCapacity = 8, kBenchDepth = 7;
 
@@ -343,6 +291,51 @@ std::string microseconds(const Timing& time) {
 }
 
 }  // namespace
+
+std::optional<std::string> fault_in(StructureKind kind, const TrialWorld& world) try {
+  stop_if_asked();
+  return fault_on_the_way(kind, world);
+} catch (const StructureFault& broken) {
+  return text_of(broken.fault(), trial_name);
+} catch (const Refused& refused) {
+  return refused.what();
+}
+
+TrialWorld shrunk(StructureKind kind, TrialWorld world) {
+  const bool misses_pair = misses_a_pair(fault_in(kind, world).value_or(""));
+  Shrinking shrinking{kind, std::move(world), misses_pair};
+  shrinking.stand_still();
+  while (shrinking.drop_bodies() || shrinking.simplify_settings()) {
+  }
+  shrinking.stand_still();
+  shrinking.round_bodies();
+  return std::move(shrinking.world);
+}
+
+Trial try_structure(StructureKind kind, std::uint64_t worlds, std::uint64_t seed) {
+  Trial trial{.kind = kind, .worlds = worlds};
+  std::optional<TrialWorld> least;
+  bool least_misses = false;
+  for (std::uint64_t i = 0; i < worlds; ++i) {
+    TrialWorld world = trial_world(seed, i);
+    const auto fault = fault_in(kind, world);
+    if (!fault) continue;
+    ++trial.failed;
+    const bool misses = misses_a_pair(*fault);
+    if (least && (misses < least_misses ||
+                  (misses == least_misses && world.bodies.size() >= least->bodies.size())))
+      continue;
+    least = std::move(world);
+    least_misses = misses;
+  }
+  if (!least) return trial;
+  trial.smallest = shrunk(kind, std::move(*least));
+  trial.fault = fault_in(kind, trial.smallest)
+                    .value_or(
+                        "it fails now and then: its results differ "
+                        "from one run to the next");
+  return trial;
+}
 
 std::uint64_t structure_bench_rows(const StructureBench& bench) {
   return 2 * bench.kinds.size() * bench.bodies.size();

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "base/timing.hpp"
+#include "base/clock.hpp"
 #include "spatial/box_worlds.hpp"
 #include "spatial/structure_kind.hpp"
 

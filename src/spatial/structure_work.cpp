@@ -21,88 +21,6 @@ bool same_movers(std::span<const Proxy<D>> before, std::span<const Proxy<D>> aft
   });
 }
 
-}  // namespace
-
-template <int D>
-PairChain BroadPhase<D>::pair_chain(FunctionRef<bool(BodyId)> awake, std::uint64_t most) const {
-  std::vector<bool> stirring;
-  for (std::size_t i = 0; i < dynamic_.items.size(); ++i)
-    stirring.push_back(!dynamic_.states[i].is_static && awake(dynamic_.names[i]));
-  struct Met {
-    Pair pair;
-    bool overlaps;
-  };
-  std::vector<Met> met;
-  PairChain chain;
-  const auto meet = [&](BodyId i, const Store& store, BodyId j) {
-    require_within(++chain.met, most);
-    const BodyId a = dynamic_.names[i], b = store.names[j];
-    met.push_back(
-        {{std::min(a, b), std::max(a, b)}, overlap(dynamic_.items[i].box, store.items[j].box)});
-  };
-  // What sorts its bodies before it is asked does so in a copy, and stays as it is.
-  const auto dynamic_copy = dynamic_.structure->sorted(), static_copy = static_.structure->sorted();
-  const Structure<D>& of_dynamic = dynamic_copy ? *dynamic_copy : *dynamic_.structure;
-  const Structure<D>& of_static = static_copy ? *static_copy : *static_.structure;
-  chain.besides = of_dynamic.compare([&](BodyId i) -> bool { return stirring[i]; },
-                                     [&](BodyId i, BodyId j) { meet(i, dynamic_, j); });
-  for (std::uint32_t i = 0; i < stirring.size() && !static_.items.empty(); ++i) {
-    std::vector<BodyId> near;
-    if (stirring[i]) chain.besides += of_static.near(dynamic_.items[i].box, near);
-    for (const BodyId j : near) meet(i, static_, j);
-  }
-  std::sort(met.begin(), met.end(), [](const Met& x, const Met& y) {
-    stop_if_asked();
-    return x.pair < y.pair;
-  });
-  for (const Met& both : met) {
-    if (!chain.pairs.empty() && chain.pairs.back() == both.pair) continue;
-    chain.pairs.push_back(both.pair);
-    if (both.overlaps) chain.overlapping.push_back(both.pair);
-  }
-  return chain;
-}
-
-template PairChain BroadPhase<2>::pair_chain(FunctionRef<bool(BodyId)>, std::uint64_t) const;
-template PairChain BroadPhase<3>::pair_chain(FunctionRef<bool(BodyId)>, std::uint64_t) const;
-
-bool counts_its_work(StructureKind kind) {
-  return std::ranges::count(kStructureKinds, kind) > 0 && !traits_of(kind).is_plain;
-}
-
-template <int D>
-StructureWork structure_work(BroadPhaseConfig<D> config, std::span<const Proxy<D>> before,
-                             std::span<const Proxy<D>> after, std::uint64_t most) {
-  config.split_static = true;
-  BroadPhase<D> broad(config);
-  StructureWork work;
-  broad.build(before);
-  const std::uint64_t at_first = dynamic_tests(broad);
-  const std::uint64_t builds = broad.counters().dynamic_builds;
-  work.build = at_first + broad.fixed().counters().box_tests;
-  broad.build(after);
-  // What is built anew begins to count anew, as does a tree that follows its bodies; what stands
-  // goes on.
-  const bool follows = traits_of(config.kind).follows && !same_movers(before, after);
-  const bool anew = follows || broad.counters().dynamic_builds > builds;
-  work.renew = dynamic_tests(broad) - (anew ? 0 : at_first);
-
-  std::unordered_map<BodyId, bool> stirs;
-  for (const Proxy<D>& proxy : after) stirs[proxy.id] = proxy.awake && !proxy.is_static;
-  const PairChain chain = broad.pair_chain([&](BodyId id) { return stirs.at(id); }, most);
-  work.pair = chain.met + chain.besides;
-  work.pairs = chain.pairs.size();
-  work.overlaps = chain.overlapping.size();
-  return work;
-}
-
-template StructureWork structure_work(BroadPhaseConfig<2>, std::span<const Proxy<2>>,
-                                      std::span<const Proxy<2>>, std::uint64_t);
-template StructureWork structure_work(BroadPhaseConfig<3>, std::span<const Proxy<3>>,
-                                      std::span<const Proxy<3>>, std::uint64_t);
-
-namespace {
-
 // What finding all pairs of a body costs, in ns, as measured: to compare it with another one,
 // sixteen at a time; to part it from the others in cells; and how much more a pair costs there,
 // since pairs of all with all come in order.
@@ -160,6 +78,84 @@ std::string percent(double share) {
 }
 
 }  // namespace
+
+template <int D>
+PairChain BroadPhase<D>::pair_chain(FunctionRef<bool(BodyId)> awake, std::uint64_t most) const {
+  std::vector<bool> stirring;
+  for (std::size_t i = 0; i < dynamic_.items.size(); ++i)
+    stirring.push_back(!dynamic_.states[i].is_static && awake(dynamic_.names[i]));
+  struct Met {
+    Pair pair;
+    bool overlaps;
+  };
+  std::vector<Met> met;
+  PairChain chain;
+  const auto meet = [&](BodyId i, const Store& store, BodyId j) {
+    require_within(++chain.met, most);
+    const BodyId a = dynamic_.names[i], b = store.names[j];
+    met.push_back(
+        {{std::min(a, b), std::max(a, b)}, overlap(dynamic_.items[i].box, store.items[j].box)});
+  };
+  // What sorts its bodies before it is asked does so in a copy, and stays as it is.
+  const auto dynamic_copy = dynamic_.structure->sorted(), static_copy = static_.structure->sorted();
+  const Structure<D>& of_dynamic = dynamic_copy ? *dynamic_copy : *dynamic_.structure;
+  const Structure<D>& of_static = static_copy ? *static_copy : *static_.structure;
+  chain.besides = of_dynamic.compare([&](BodyId i) -> bool { return stirring[i]; },
+                                     [&](BodyId i, BodyId j) { meet(i, dynamic_, j); });
+  for (std::uint32_t i = 0; i < stirring.size() && !static_.items.empty(); ++i) {
+    std::vector<BodyId> near;
+    if (stirring[i]) chain.besides += of_static.near(dynamic_.items[i].box, near);
+    for (const BodyId j : near) meet(i, static_, j);
+  }
+  std::ranges::sort(met, [](const Met& x, const Met& y) {
+    stop_if_asked();
+    return x.pair < y.pair;
+  });
+  for (const Met& both : met) {
+    if (!chain.pairs.empty() && chain.pairs.back() == both.pair) continue;
+    chain.pairs.push_back(both.pair);
+    if (both.overlaps) chain.overlapping.push_back(both.pair);
+  }
+  return chain;
+}
+
+template PairChain BroadPhase<2>::pair_chain(FunctionRef<bool(BodyId)>, std::uint64_t) const;
+template PairChain BroadPhase<3>::pair_chain(FunctionRef<bool(BodyId)>, std::uint64_t) const;
+
+bool counts_its_work(StructureKind kind) {
+  return std::ranges::count(kStructureKinds, kind) > 0 && !traits_of(kind).is_plain;
+}
+
+template <int D>
+StructureWork structure_work(BroadPhaseConfig<D> config, std::span<const Proxy<D>> before,
+                             std::span<const Proxy<D>> after, std::uint64_t most) {
+  config.split_static = true;
+  BroadPhase<D> broad(config);
+  StructureWork work;
+  broad.build(before);
+  const std::uint64_t at_first = dynamic_tests(broad);
+  const std::uint64_t builds = broad.counters().dynamic_builds;
+  work.build = at_first + broad.fixed().counters().box_tests;
+  broad.build(after);
+  // What is built anew begins to count anew, as does a tree that follows its bodies; what stands
+  // goes on.
+  const bool follows = traits_of(config.kind).follows && !same_movers(before, after);
+  const bool anew = follows || broad.counters().dynamic_builds > builds;
+  work.renew = dynamic_tests(broad) - (anew ? 0 : at_first);
+
+  std::unordered_map<BodyId, bool> stirs;
+  for (const Proxy<D>& proxy : after) stirs[proxy.id] = proxy.awake && !proxy.is_static;
+  const PairChain chain = broad.pair_chain([&](BodyId id) { return stirs.at(id); }, most);
+  work.pair = chain.met + chain.besides;
+  work.pairs = chain.pairs.size();
+  work.overlaps = chain.overlapping.size();
+  return work;
+}
+
+template StructureWork structure_work(BroadPhaseConfig<2>, std::span<const Proxy<2>>,
+                                      std::span<const Proxy<2>>, std::uint64_t);
+template StructureWork structure_work(BroadPhaseConfig<3>, std::span<const Proxy<3>>,
+                                      std::span<const Proxy<3>>, std::uint64_t);
 
 template <int D>
 StructureChoice<D> choose_structure(std::span<const Item<D>> items,

@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include "draw/layout_check.hpp"
-#include "draw/legend.hpp"
 #include "draw/page.hpp"
 #include "draw/panel.hpp"
 #include "draw/pen.hpp"

@@ -7,7 +7,7 @@
 #include "base/random.hpp"
 #include "draw/body_shapes.hpp"
 #include "draw/draw_list.hpp"
-#include "draw/naming.hpp"
+#include "draw/labels.hpp"
 #include "draw/page.hpp"
 #include "draw/pen.hpp"
 #include "draw/sample_frames.hpp"

@@ -12,7 +12,6 @@
 #include "draw/axis.hpp"
 #include "draw/layout_check.hpp"
 #include "draw/number_text.hpp"
-#include "draw/plot_marks.hpp"
 #include "geometry/not_finite.hpp"
 
 namespace lantern::draw {

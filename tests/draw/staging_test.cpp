@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "draw/naming.hpp"
+#include "draw/labels.hpp"
 #include "draw/page.hpp"
 #include "draw/sample_frames.hpp"
 #include "draw/tree/tree_layout.hpp"

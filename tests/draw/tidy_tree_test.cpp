@@ -1,10 +1,9 @@
-#include "draw/tree/tidy_tree.hpp"
-
 #include <map>
 
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
+#include "draw/tree/tree_layout.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -12,7 +12,6 @@
 #include "base/work.hpp"
 #include "draw/page.hpp"
 #include "draw/sample_frames.hpp"
-#include "draw/tween_shapes.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "measure/peers.hpp"
+#include "measure/solvers.hpp"
 
 namespace lantern::measure {
 

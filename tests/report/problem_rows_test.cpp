@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include "draw/plot_marks.hpp"
+#include "draw/plot.hpp"
 #include "report/sample_rows.hpp"
 
 namespace lantern::report {

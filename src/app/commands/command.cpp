@@ -116,10 +116,6 @@ std::string for_a_shell(const std::string& word) {
 
 Option json_option(bool& json) { return {"--json", &json, "print JSON instead of a table"}; }
 
-Option seed_option(std::uint64_t& seed, const char* help) {
-  return {"--seed", &seed, help, {.value = "S", .most = 0x1p53}};
-}
-
 Option backend_option(std::string& backend, const char* help) {
   return {"--backend", &backend, help, {.words = kBackends}};
 }

@@ -63,7 +63,6 @@ struct JsonOnly {
   bool json = false;
 };
 inline Options json_only(JsonOnly& o) { return {json_option(o.json)}; }
-Option seed_option(std::uint64_t& seed, const char* help);
 Option backend_option(std::string& backend, const char* help = "off-screen OpenGL");
 Option pace_option(std::string& pace, const char* help = "as for render");
 // Before a command, and after one that runs a scenario.

@@ -182,6 +182,19 @@ void owe_answer_if_wanted(const Named& named, int argc, const char* const* argv)
   owe_answer(names.empty() || !named.unknown.empty() ? "error" : names);
 }
 
+struct HelpOptions {
+  Words names;
+};
+
+Options help_options(HelpOptions& o) {
+  return {{"COMMAND", &o.names, "its name, such as: bench step; without one, all commands"}};
+}
+
+int print_help(const HelpOptions& options) {
+  print(help_text(options.names));
+  return kGood;
+}
+
 }  // namespace
 
 void add_commands(CLI::App& app, Run& run) {
@@ -230,23 +243,6 @@ std::string help_text(const Words& names) {
   const std::string name = (before.empty() ? "" : before + " ") + command->get_name();
   return command->get_formatter()->make_help(command, name, CLI::AppFormatMode::Normal);
 }
-
-namespace {
-
-struct HelpOptions {
-  Words names;
-};
-
-Options help_options(HelpOptions& o) {
-  return {{"COMMAND", &o.names, "its name, such as: bench step; without one, all commands"}};
-}
-
-int print_help(const HelpOptions& options) {
-  print(help_text(options.names));
-  return kGood;
-}
-
-}  // namespace
 
 std::vector<Command> help_commands() {
   return {

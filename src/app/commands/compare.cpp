@@ -50,7 +50,7 @@ std::string bytes_of(const fs::path& path) {
 
 Image image_of(const fs::path& path, std::string_view bytes) {
   auto image = decode_png(bytes);
-  if (!image) throw IoError(fmt::format("'{}' is no PNG image, or it is damaged", path.string()));
+  if (!image) throw IoError("'{}' is no PNG image, or it is damaged", path.string());
   return *std::move(image);
 }
 
@@ -78,7 +78,7 @@ Result compare_files(const fs::path& expected, const fs::path& actual, const Com
     const auto compared = compare_facts(before, now);
     for (const auto& [path, bytes] : {std::pair{&expected, &before}, std::pair{&actual, &now}})
       if (!compared && !are_facts(*bytes))
-        throw IoError(fmt::format("'{}' is no JSON object, or it is damaged", path->string()));
+        throw IoError("'{}' is no JSON object, or it is damaged", path->string());
     result.equal = compared->total == 0;
     result.finding = result.equal ? "the same facts" : finding(*compared);
   } else {
@@ -145,7 +145,7 @@ std::vector<Result> compare_two_files(const CompareOptions& o) {
     return path.extension() == ".svg" || path.extension() == ".json";
   };
   if ((is_text(a) || is_text(b)) && a.extension() != b.extension())
-    throw UsageError(fmt::format("'{}' and '{}' are files of two kinds", o.expected, o.actual));
+    throw UsageError("'{}' and '{}' are files of two kinds", o.expected, o.actual);
   Picture picture;
   if (!o.output.empty()) picture = [&] { return make_place(o.output, folder_of(o.output)); };
   return {compare_files(a, b, o, picture)};
@@ -154,11 +154,10 @@ std::vector<Result> compare_two_files(const CompareOptions& o) {
 int compare_paths(const CompareOptions& options) {
   std::error_code error;
   for (const std::string& input : {options.expected, options.actual}) {
-    if (!fs::exists(input, error)) throw IoError(fmt::format("there is no '{}'", input));
+    if (!fs::exists(input, error)) throw IoError("there is no '{}'", input);
     if (!options.output.empty() && fs::equivalent(input, options.output, error))
-      throw UsageError(
-          fmt::format("-o {}: that is what is compared; name another place for the difference",
-                      options.output));
+      throw UsageError("-o {}: that is what is compared; name another place for the difference",
+                       options.output);
   }
   const bool folders = fs::is_directory(options.expected, error);
   if (folders != fs::is_directory(options.actual, error))

@@ -121,9 +121,9 @@ class GoldenRun {
       if (scenario) suite.scenario = scenario->name;
       if (scenario && !files.emplace(scenario->name, file).second)
         throw UsageError(
-            fmt::format("'{}' and '{}' are both scenarios named '{}'; they would have "
-                        "the same golden frames",
-                        files[scenario->name], file, scenario->name));
+            "'{}' and '{}' are both scenarios named '{}'; they would have "
+            "the same golden frames",
+            files[scenario->name], file, scenario->name);
       loaded_.emplace_back(std::move(suite), std::move(scenario));
     }
   }
@@ -195,8 +195,8 @@ class GoldenRun {
 
   void update(GoldenSuite& suite, const Goldens& goldens, const std::string& words) {
     if (!words.empty() && !goldens.selection.takes_all())
-      throw UsageError(fmt::format("{}: the golden frames were made with{}; --update all frames",
-                                   goldens.scenario.name, words));
+      throw UsageError("{}: the golden frames were made with{}; --update all frames",
+                       goldens.scenario.name, words);
     GoldenChanges changes;
     run_it(suite, goldens, *make_golden_update(goldens, changes));
     changes_ = std::move(changes);

@@ -156,27 +156,6 @@ std::string see_also(const CommandPath& path, const std::vector<CommandPath>& al
   return text;
 }
 
-}  // namespace
-
-std::string manual_file(const CommandPath& path) { return path.name("-") + ".1"; }
-
-std::string manual_page(const CommandPath& path, const std::vector<CommandPath>& all) {
-  const std::string title = path.name("-");
-  std::string upper = title;
-  std::ranges::transform(upper, upper.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-  std::string help = path.command->help;
-  if (help.ends_with('.')) help.pop_back();
-  return fmt::format(".TH {} 1 \"\" \"Lantern {}\" \"User Commands\"\n", roff_escaped(upper),
-                     kVersion) +
-         ".SH NAME\n" + roff_escaped(title) + " \\- " + roff_escaped(help) + "\n" +
-         synopsis_of(path) + ".SH DESCRIPTION\n" + paragraph(help + ".") +
-         items_of(path, true, "ARGUMENTS") + items_of(path, false, "OPTIONS") + commands_of(path) +
-         (path.names.size() == 1 ? surroundings() : "") + exit_status() + see_also(path, all);
-}
-
-namespace {
-
 struct ManualOptions {
   Words names;         // of a command; none for the program itself
   std::string folder;  // empty: one page is printed
@@ -203,7 +182,7 @@ int write_manual(const ManualOptions& options) {
       write_stdout(manual_page(path, all));
       return kGood;
     }
-  throw UsageError(fmt::format("there is no '{}'; 'lantern --help' names the commands", whole));
+  throw UsageError("there is no '{}'; 'lantern --help' names the commands", whole);
 }
 
 struct CompletionsOptions {
@@ -330,6 +309,23 @@ int print_reference(const ReferenceOptions& options) {
 }
 
 }  // namespace
+
+std::string manual_file(const CommandPath& path) { return path.name("-") + ".1"; }
+
+std::string manual_page(const CommandPath& path, const std::vector<CommandPath>& all) {
+  const std::string title = path.name("-");
+  std::string upper = title;
+  std::ranges::transform(upper, upper.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  std::string help = path.command->help;
+  if (help.ends_with('.')) help.pop_back();
+  return fmt::format(".TH {} 1 \"\" \"Lantern {}\" \"User Commands\"\n", roff_escaped(upper),
+                     kVersion) +
+         ".SH NAME\n" + roff_escaped(title) + " \\- " + roff_escaped(help) + "\n" +
+         synopsis_of(path) + ".SH DESCRIPTION\n" + paragraph(help + ".") +
+         items_of(path, true, "ARGUMENTS") + items_of(path, false, "OPTIONS") + commands_of(path) +
+         (path.names.size() == 1 ? surroundings() : "") + exit_status() + see_also(path, all);
+}
 
 std::vector<Command> manual_commands() {
   return {command("reference", "Print the scenario language's reference page (Markdown)",

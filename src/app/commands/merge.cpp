@@ -115,8 +115,8 @@ class ShardSet {
           if (const auto inside = folder.find(name)) holds_some |= take(*inside);
     }
     if (!holds_some)
-      throw UsageError(fmt::format(
-          "'{}' holds no shard; give folders that a run with --shard wrote into", path));
+      throw UsageError("'{}' holds no shard; give folders that a run with --shard wrote into",
+                       path);
   }
 
   // Is it a shard's? One that is named twice counts once.
@@ -127,8 +127,8 @@ class ShardSet {
     try {
       found_.push_back({folder, read_record(*folder.read(kShardFile, kMostRecordBytes))});
     } catch (const RefusedFile& why) {
-      throw UsageError(fmt::format("'{}' is no record of a shard that this Lantern can read: {}",
-                                   folder.path(kShardFile).string(), why.what()));
+      throw UsageError("'{}' is no record of a shard that this Lantern can read: {}",
+                       folder.path(kShardFile).string(), why.what());
     }
     return true;
   }
@@ -137,15 +137,15 @@ class ShardSet {
     const FoundShard& first = found_.front();
     for (const FoundShard& one : found_)
       if (const auto words = difference(first.record, one.record))
-        throw UsageError(fmt::format("'{}' and '{}' are no parts of one run: {}", first.path(),
-                                     one.path(), *words));
+        throw UsageError("'{}' and '{}' are no parts of one run: {}", first.path(), one.path(),
+                         *words);
     const auto require_ours = [&](const char* what, std::string_view theirs,
                                   std::string_view ours) {
       if (theirs != ours)
-        throw UsageError(fmt::format(
+        throw UsageError(
             "'{}' was made by another Lantern: its {} is {}, this one's {}; merge with the Lantern "
             "that made it, or make it again",
-            first.path(), what, theirs, ours));
+            first.path(), what, theirs, ours);
     };
     require_ours("version", run().version, kVersion);
     require_ours("source hash", run().sources, kSourceHash);
@@ -203,14 +203,13 @@ Manifest manifest_of(const ShardSet& set, const FoundShard& shard, const ShardIn
     if (!bytes) throw RefusedFile("it is missing");
     Manifest m = read_manifest(*bytes);
     if (m.scenario != input.name)
-      throw RefusedFile(fmt::format("scenario is \"{}\", the record names '{}'", m.scenario.text(),
-                                    input.name.text()));
+      throw RefusedFile("scenario is \"{}\", the record names '{}'", m.scenario.text(),
+                        input.name.text());
     if (!m.finished) throw RefusedFile("finished is false");
     if (m.frames.size() != input.here)
-      throw RefusedFile(
-          fmt::format("it lists {} frames, the record {}", m.frames.size(), input.here));
+      throw RefusedFile("it lists {} frames, the record {}", m.frames.size(), input.here);
     if (fmt::format("{:016x}", m.scenario_hash) != input.text)
-      throw RefusedFile(fmt::format("scenario_hash is another than {}", input.text));
+      throw RefusedFile("scenario_hash is another than {}", input.text);
     if (const auto words = contradiction(m, shard.record)) throw RefusedFile(*words);
     m.in_between_digits = in_between_digits(set.run());
     return m;
@@ -298,8 +297,8 @@ std::optional<MergedSequence> gather(const ShardSet& set, std::size_t index) {
       continue;
     }
     if (head_of(whole->manifest) != head_of(part))
-      throw UsageError(fmt::format("'{}' in '{}' tells of another run than the other shards",
-                                   part.scenario.text(), shard->path()));
+      throw UsageError("'{}' in '{}' tells of another run than the other shards",
+                       part.scenario.text(), shard->path());
     whole->manifest.frames.merge(part.frames);
     std::ranges::move(files, std::back_inserter(whole->files));
   }
@@ -329,8 +328,8 @@ void require_equal(const ShardSet& set, const FoundShard& a, const FoundShard& b
         same = same && whole_bytes(one, file) == whole_bytes(other, file);
     }
     if (!same)
-      throw UsageError(fmt::format("'{}' and '{}' are both shard {}, but differ in '{}'", a.path(),
-                                   b.path(), a.record.shard.text(), first.name.text()));
+      throw UsageError("'{}' and '{}' are both shard {}, but differ in '{}'", a.path(), b.path(),
+                       a.record.shard.text(), first.name.text());
   }
 }
 
@@ -355,7 +354,7 @@ std::size_t write_whole(const ShardSet& set, const Folder& output, const MergedS
       continue;
     }
     const auto bytes = whole_bytes(folder_in_part(set, *file.shard, begun.scenario), file);
-    if (!bytes) throw IoError(fmt::format("'{}' has changed meanwhile", file.name));
+    if (!bytes) throw IoError("'{}' has changed meanwhile", file.name);
     write(file.name, *bytes);
     written.insert(file.name);
   }
@@ -404,8 +403,8 @@ int merge_parts(const MergeOptions& options) {
     if (shard == nullptr) numbers.push_back(i + 1);
     // The whole would stand where a part of it does.
     if (shard != nullptr && is_there && shard->folder.is(Folder(options.output)))
-      throw UsageError(fmt::format("'{}' is the folder of shard {}; give another one for the whole",
-                                   options.output, shard->record.shard.text()));
+      throw UsageError("'{}' is the folder of shard {}; give another one for the whole",
+                       options.output, shard->record.shard.text());
   }
   for (const std::uint32_t number : numbers) complain(set.missing(number));
   JsonWriter json = answer_of("merge");

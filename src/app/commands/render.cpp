@@ -90,9 +90,9 @@ std::vector<Scenario> load_all(const std::vector<std::string>& files, int& code)
     const Scenario& s = scenarios.emplace_back(std::move(*scenario));
     if (!names.insert(s.name).second)
       throw UsageError(
-          fmt::format("two of the files are scenarios named '{}'; they would "
-                      "overwrite each other's frames",
-                      s.name));
+          "two of the files are scenarios named '{}'; they would "
+          "overwrite each other's frames",
+          s.name);
   }
   return scenarios;
 }
@@ -177,7 +177,7 @@ void require_fit(const RenderOptions& options, const Destination& to, std::size_
   const bool is_folder = kind == OutputKind::folder, is_film = kind == OutputKind::film;
   const bool is_stdout = kind == OutputKind::standard_output;
   const auto refuse = [&](const std::string& why) {
-    throw UsageError(fmt::format("-o {}: {}", options.output, why));
+    throw UsageError("-o {}: {}", options.output, why);
   };
   if (is_stdout && files != 1) refuse("writes one frame of one scenario");
   if (is_stdout && options.json)

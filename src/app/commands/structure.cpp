@@ -31,7 +31,7 @@ Options structure_check_options(StructureCheckOptions& o) {
   return {
       {"NAME", &o.names, "structures; the default is all of them"},
       {"--worlds", &o.worlds, "how many worlds", {.value = "N", .least = 1, .most = 10'000'000}},
-      seed_option(o.seed, "of the random worlds"),
+      seed_option("of the random worlds", o.seed),
       {"-o,--output", &o.output, "folder for NAME_fails.toml", {.value = "DIR"}},
       json_option(o.json)};
 }
@@ -52,8 +52,8 @@ std::vector<StructureKind> structures_called(const std::vector<std::string>& nam
     if (!kind || *kind == StructureKind::none)
       throw UsageError(with_suggestion(fmt::format("no structure '{}'", name), name, known));
     if (std::ranges::find(kinds, *kind) == kinds.end())
-      throw UsageError(fmt::format("{}: random flat worlds are not for it; take one of {}", name,
-                                   fmt::join(known, ", ")));
+      throw UsageError("{}: random flat worlds are not for it; take one of {}", name,
+                       fmt::join(known, ", "));
     chosen.push_back(*kind);
   }
   return chosen;
@@ -188,7 +188,7 @@ Options structure_bench_options(StructureBenchOptions& o) {
   return {{"NAME", &o.names, "structures; the default is all of them"},
           {"--bodies", &o.bodies, "how many bodies; the default is 100, 400 and 1600",
            OptionTraits{.value = "N", .least = 2, .most = 1'000'000, .one_each = true}},
-          seed_option(o.seed, "of the random worlds"),
+          seed_option("of the random worlds", o.seed),
           {"--rounds", &o.rounds, "repeats; the median counts", {.least = 1, .most = 1000}},
           {"-o,--output", &o.output, "folder for bench_structure.csv and .json", {.value = "DIR"}},
           memory_option(),

@@ -1,6 +1,5 @@
 #include "app/folders/frame_folder.hpp"
 
-#include <algorithm>
 #include <limits>
 
 #include <fmt/format.h>
@@ -34,7 +33,7 @@ std::optional<FileKind> kind_of(std::string_view file) {
 }
 
 bool are_digits(std::string_view text) {
-  return std::all_of(text.begin(), text.end(), [](char c) { return '0' <= c && c <= '9'; });
+  return std::ranges::all_of(text, [](char c) { return '0' <= c && c <= '9'; });
 }
 
 // What stands between "<scenario>_" and the ending: a frame's number of at least four digits, that

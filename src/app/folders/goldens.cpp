@@ -309,10 +309,9 @@ std::optional<GoldenList> read_golden_list(const Folder& folder) {
     all += line + "\n";
     if (number == 1) {
       if (!line.starts_with(kGoldenFormat))
-        throw IoError(
-            fmt::format("'{}' is not Lantern's: move it, or give --dir another folder", file));
+        throw IoError("'{}' is not Lantern's: move it, or give --dir another folder", file);
       if (line.substr(kGoldenFormat.size()) != kGoldenVersion)
-        throw IoError(fmt::format("'{}' is of a later Lantern: {}", file, line));
+        throw IoError("'{}' is of a later Lantern: {}", file, line);
     } else if (!read_line(line, list)) {
       throw damaged(fmt::format(" in line {}", number));
     }

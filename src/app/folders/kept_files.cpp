@@ -65,7 +65,7 @@ std::string lower_ending(const fs::path& file) {
 }
 
 [[noreturn]] void refuse(const fs::path& file, std::string_view what) {
-  throw UsageError(fmt::format("'{}' is {}; name another file", file.string(), what));
+  throw UsageError("'{}' is {}; name another file", file.string(), what);
 }
 
 // Lantern's own are less deep; the rest is read, and dropped.
@@ -81,10 +81,9 @@ void require_kept_for(KeptFor wanted, const Folder& folder) {
     const Standing found = kept.what == wanted ? Standing::nothing : standing(folder, kept);
     if (!may_be(found)) continue;
     const bool can_be_read = found == Standing::list;
-    throw UsageError(fmt::format("'{}' {} {}, of which {} tells{}; give another folder",
-                                 folder.path().string(), can_be_read ? "holds" : "may hold",
-                                 kept.words, kept.list,
-                                 can_be_read ? "" : ", which is empty or cannot be read"));
+    throw UsageError("'{}' {} {}, of which {} tells{}; give another folder", folder.path().string(),
+                     can_be_read ? "holds" : "may hold", kept.words, kept.list,
+                     can_be_read ? "" : ", which is empty or cannot be read");
   }
 }
 
@@ -123,7 +122,7 @@ JsonMembers::JsonMembers(std::string_view text)
 
 const Json& JsonMembers::at(const char* member) const {
   const auto found = json_->find(member);
-  if (found == json_->end()) throw RefusedFile(fmt::format("{}{} is missing", place_, member));
+  if (found == json_->end()) throw RefusedFile("{}{} is missing", place_, member);
   return *found;
 }
 
@@ -132,7 +131,7 @@ void JsonMembers::refuse(const char* member, std::string_view must) const {
   // What is no UTF-8 becomes U+FFFD.
   std::string value = at(member).dump(-1, ' ', true, Json::error_handler_t::replace);
   if (value.size() > kMostShown) value = value.substr(0, kMostShown) + "…";
-  throw RefusedFile(fmt::format("{}{} is {}: {}", place_, member, value, must));
+  throw RefusedFile("{}{} is {}: {}", place_, member, value, must);
 }
 
 std::string JsonMembers::text(const char* member) const {
@@ -232,7 +231,7 @@ void require_as_written(std::string_view file, std::string_view written) {
   const std::size_t start = file.rfind('\n', static_cast<std::size_t>(here - file.begin()));
   std::string_view text = file.substr(start == file.npos ? 0 : std::min(start + 1, file.size()));
   text = text.substr(0, std::min(text.find('\n'), kMostShown));
-  throw RefusedFile(fmt::format("line {} is not as Lantern writes it: {}", line, printable(text)));
+  throw RefusedFile("line {} is not as Lantern writes it: {}", line, printable(text));
 }
 
 }  // namespace lantern::app

@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "base/file.hpp"
@@ -38,9 +37,9 @@ void require_free(const std::filesystem::path& file);
 
 // A file that is not as Lantern writes it is refused as a whole, for the first member that is
 // otherwise: "frames[3].file is \"../x\": it is \"pong_0003.png\"".
-class RefusedFile : public std::runtime_error {
+class RefusedFile : public Told<std::runtime_error> {
  public:
-  using std::runtime_error::runtime_error;
+  using Told::Told;
 };
 
 // An object of the file. Every call names a member, says what it must be, and throws RefusedFile

@@ -22,9 +22,9 @@ std::optional<Shard> parse_shard(const std::string& words) {
   if (words.empty()) return std::nullopt;
   const auto found = two_numbers_in<std::uint32_t>(words, '/');
   if (!found || found->first < 1 || found->first > found->second || found->second > Shard::kMost)
-    throw UsageError(fmt::format(
+    throw UsageError(
         "--shard {}: give I/N, the I-th of N parts, as 2/4: I from 1 to N, N at most {}", words,
-        Shard::kMost));
+        Shard::kMost);
   return Shard{found->first, found->second};
 }
 
@@ -252,9 +252,9 @@ RenderOptions options_of_shard(const RenderOptions& options) {
   if (!shard) return options;
   if (Destination(options.output, !options.sheet.empty()).kind() != OutputKind::folder)
     throw UsageError(
-        fmt::format("--shard divides a folder of frames, and -o {} is none; make the file "
-                    "on one machine, without --shard",
-                    options.output));
+        "--shard divides a folder of frames, and -o {} is none; make the file "
+        "on one machine, without --shard",
+        options.output);
   RenderOptions of_shard = options;
   const std::string folder = fmt::format("shard-{}-of-{}", shard->number, shard->of);
   of_shard.output = (std::filesystem::path(options.output) / folder).string();

@@ -1,8 +1,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include "app/output/sinks.hpp"
 #include "app/terminal.hpp"
 #include "base/error.hpp"
@@ -92,9 +90,8 @@ class FilmSink : public FileSink {
   // `of` says which step the picture belongs to.
   void show(const Frame& of, const DrawList& list, std::uint64_t moment) {
     if (++pictures_ > InBetweens::kMostPictures)
-      throw UsageError(
-          fmt::format("{}: more than {} pictures; choose fewer frames, or a lower --fps",
-                      of_.scenario.name, InBetweens::kMostPictures));
+      throw UsageError("{}: more than {} pictures; choose fewer frames, or a lower --fps",
+                       of_.scenario.name, InBetweens::kMostPictures);
     as_asked([&] {
       if (!renderer_)
         renderer_ = of_.job.make_renderer(settings_.width, settings_.height, of_.work);

@@ -96,8 +96,7 @@ void for_each_part(std::string_view words, const F& part) {
     part(words.substr(at, open - at), false);
     if (open == words.size()) return;
     const std::size_t close = words.find('}', open);
-    if (close == std::string_view::npos)
-      throw UsageError(fmt::format("-o {}: a {{ without its }}", words));
+    if (close == std::string_view::npos) throw UsageError("-o {}: a {{ without its }}", words);
     part(words.substr(open + 1, close - open - 1), true);
     at = close + 1;
   }
@@ -131,9 +130,9 @@ void InBetweens::require_few(std::optional<std::uint64_t> frames) const {
   if (!wanted() || (number_ <= kMostPictures && known + (known - 1) * number_ <= kMostPictures))
     return;
   throw UsageError(
-      fmt::format("--tween {}: up to {} frames and {} in-betweens before each but the "
-                  "first are more than {} pictures; ask for fewer",
-                  number_, known, number_, lantern::grouped(kMostPictures, " ")));
+      "--tween {}: up to {} frames and {} in-betweens before each but the "
+      "first are more than {} pictures; ask for fewer",
+      number_, known, number_, lantern::grouped(kMostPictures, " "));
 }
 
 RenderJob::RenderJob(const RenderOptions& o)
@@ -258,8 +257,8 @@ Destination::Destination(const std::string& words, bool sheet)
       throw UsageError(with_suggestion(
           fmt::format("-o {}: there is no placeholder {{{}}}", words_, name), name, kPlaceholders));
     if (kind_ == OutputKind::folder)
-      throw UsageError(fmt::format(
-          "-o {}: a placeholder stands in the name of a file, such as {{frame}}.png", words_));
+      throw UsageError("-o {}: a placeholder stands in the name of a file, such as {{frame}}.png",
+                       words_);
   });
   if (!sheet) return;
   if (ending_ != "pdf" && ending_ != "png")
@@ -291,9 +290,8 @@ std::pair<int, int> parse_size(const std::string& text, int most) {
   const auto size = two_numbers_in<int>(text, 'x');
   if (!size || std::min(size->first, size->second) < kLeast ||
       std::max(size->first, size->second) > most)
-    throw UsageError(
-        fmt::format("--size {}: give width x height in pixels, {} to {} each, as 1280x720", text,
-                    kLeast, most));
+    throw UsageError("--size {}: give width x height in pixels, {} to {} each, as 1280x720", text,
+                     kLeast, most);
   return *size;
 }
 
@@ -309,21 +307,20 @@ Selection::Selection(const std::string& frames, const std::string& at,
   const auto read = [&](std::string_view word) {
     const auto index = number_in<std::uint32_t>(word);
     if (!index)
-      throw UsageError(
-          fmt::format("--frames {}: give a frame or a range, as 7, 3-9, 3- or -9", frames));
+      throw UsageError("--frames {}: give a frame or a range, as 7, 3-9, 3- or -9", frames);
     return *index;
   };
   if (!from.empty() || to.empty()) first_ = read(from);
   if (!to.empty()) last_ = read(to);
   if (last_ && first_ > *last_)
-    throw UsageError(fmt::format("--frames {}: the range ends before it begins", frames));
+    throw UsageError("--frames {}: the range ends before it begins", frames);
   if (most_frames && std::max(first_, last_.value_or(0)) >= *most_frames)
     refuse_range(*most_frames);
 }
 
 void Selection::refuse_range(std::uint64_t count) const {
-  throw UsageError(fmt::format(
-      "--frames {}: give a frame or a range within 0-{}, as 7, 3-9, 3- or -9", frames_, count - 1));
+  throw UsageError("--frames {}: give a frame or a range within 0-{}, as 7, 3-9, 3- or -9", frames_,
+                   count - 1);
 }
 
 bool Selection::takes(const Frame& frame) {
@@ -346,8 +343,7 @@ void Selection::require_some() const {
     throw UsageError(
         with_suggestion(fmt::format("--at {}: no frame has this event", at_), at_, known, 40));
   }
-  throw UsageError(
-      fmt::format("--at {}: no frame is chosen; the last one is at {:.6g} s", at_, end_));
+  throw UsageError("--at {}: no frame is chosen; the last one is at {:.6g} s", at_, end_);
 }
 
 }  // namespace lantern::app

@@ -10,7 +10,6 @@
 #include "base/json_writer.hpp"
 #include "base/stop.hpp"
 #include "draw/page.hpp"
-#include "draw/staging.hpp"
 #include "render/pipeline.hpp"
 
 namespace lantern::app {
@@ -55,15 +54,14 @@ FilePlace make_place(const fs::path& file, const fs::path& users) {
   require_free(file);
   Folder folder = users == "." ? Folder("") : Folder::made(users);  // names without ./
   for (const fs::path& part : folder_of(file).lexically_relative(users).lexically_normal()) {
-    if (part == "..")
-      throw UsageError(fmt::format("-o {}: it leads out again by ..", file.string()));
+    if (part == "..") throw UsageError("-o {}: it leads out again by ..", file.string());
     if (!part.empty() && part != ".") folder = folder.inside(part.string());
   }
   return {folder, file.filename().string()};
 }
 
 void Sequence::refuse(const std::string& why) const {
-  throw UsageError(fmt::format("-o {}: {}", job.options.output, why));
+  throw UsageError("-o {}: {}", job.options.output, why);
 }
 
 void FileSink::draw(const Frame& frame, const Staging& staging) {
@@ -268,8 +266,8 @@ class FolderSink : public StagedSink {
     all_[index].in_betweens = count;
     made_.in_betweens += count;
     if (all_.size() + made_.in_betweens > InBetweens::kMostPictures)
-      throw UsageError(fmt::format("{}: more than {} pictures; ask for fewer in-betweens",
-                                   of_.scenario.name, InBetweens::kMostPictures));
+      throw UsageError("{}: more than {} pictures; ask for fewer in-betweens", of_.scenario.name,
+                       InBetweens::kMostPictures);
     for (std::uint64_t k = 1; k <= count; ++k) {
       const std::string file = in_between_file(manifest_, index, k);
       if (folder_->stands(file)) continue;

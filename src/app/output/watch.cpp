@@ -144,10 +144,10 @@ void require_version_place(const FilePlace& page) {
     }
   };
   if (!is_ours())
-    throw UsageError(fmt::format(
+    throw UsageError(
         "'{}' is not Lantern's, and the page is told by it that it was made again; name "
         "another page",
-        place.path().string()));
+        place.path().string());
 }
 
 void tell_version(const FilePlace& page, std::string_view bytes) {
@@ -174,8 +174,7 @@ int watch_scenarios(const RenderOptions& asked) {
   if (Destination(options.output, !options.sheet.empty()).kind() == OutputKind::standard_output)
     throw UsageError("watch draws again and again; -o - takes one picture");
   for (const std::string& file : options.files)
-    if (!std::filesystem::exists(file))
-      throw IoError(fmt::format("'{}' is not there to be watched", file));
+    if (!std::filesystem::exists(file)) throw IoError("'{}' is not there to be watched", file);
   const struct Leftovers {
     ~Leftovers() { forget_versions(); }
   } at_the_end;

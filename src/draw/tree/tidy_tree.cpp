@@ -1,8 +1,7 @@
-#include "draw/tree/tidy_tree.hpp"
-
 #include <algorithm>
 
 #include "base/stop.hpp"
+#include "draw/tree/tree_layout.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -8,7 +8,6 @@
 
 #include "draw/font.hpp"
 #include "draw/panel.hpp"
-#include "draw/tree/tidy_tree.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -248,9 +247,7 @@ std::string short_label(const std::string& label) {
   return dot == std::string::npos ? std::string() : "…" + label.substr(dot + 1);
 }
 
-bool is_long_way(const std::string& label) {
-  return std::count(label.begin(), label.end(), '.') > 2;
-}
+bool is_long_way(const std::string& label) { return std::ranges::count(label, '.') > 2; }
 
 bool has_label_below(const Branch& branch, const FrameNode& node) {
   if (branch.kind == Branch::Kind::folded) return true;

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "draw/body_shapes.hpp"
+#include "draw/labels.hpp"
 #include "draw/marks.hpp"
-#include "draw/naming.hpp"
 
 namespace lantern::draw {
 

@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
-
-#include <fmt/format.h>
 
 #include "base/check.hpp"
 #include "geometry/vec.hpp"
@@ -40,33 +37,6 @@ void add(const Note& note, KeyDoc& doc) {
   if (doc.type == KeyType::texts) doc.type = KeyType::choices_list;
   if (doc.type == KeyType::truth) doc.type = KeyType::choice;
 }
-
-}  // namespace
-
-KeyDoc made(KeyType type, std::string_view name, std::string_view meaning,
-            std::initializer_list<Note> notes) {
-  KeyDoc doc{.key = name, .type = type, .doc = meaning};
-  for (const Note& note : notes) add(note, doc);
-  return doc;
-}
-
-KeyDoc made(const MemberKind& kind, const std::type_info& owner, std::size_t offset,
-            const void* initial, std::string_view name, std::string_view meaning,
-            std::initializer_list<Note> notes) {
-  KeyDoc doc = made(kind.type, name, meaning, notes);
-  if (kind.choices && doc.choices.empty()) doc.choices = kind.choices();
-  doc.owner = &owner;
-  doc.offset = offset;
-  doc.fill = kind.fill;
-  if (doc.required || !doc.otherwise.empty()) return doc;
-  doc.fallback = kind.type == KeyType::truth && doc.type == KeyType::choice
-                     ? fmt::format("\"{}\"", doc.choices[*static_cast<const bool*>(initial)])
-                     : kind.literal(initial, doc.scale);
-  if (doc.fallback == "\"\"" && doc.least > 0) doc.fallback.clear();  // no text may be empty here
-  return doc;
-}
-
-namespace {
 
 // What each panel shows, in its own words.
 std::string_view panels_text() {
@@ -191,6 +161,29 @@ bool in_group(char c, std::string_view group) {
 }
 
 }  // namespace
+
+KeyDoc made(KeyType type, std::string_view name, std::string_view meaning,
+            std::initializer_list<Note> notes) {
+  KeyDoc doc{.key = name, .type = type, .doc = meaning};
+  for (const Note& note : notes) add(note, doc);
+  return doc;
+}
+
+KeyDoc made(const MemberKind& kind, const std::type_info& owner, std::size_t offset,
+            const void* initial, std::string_view name, std::string_view meaning,
+            std::initializer_list<Note> notes) {
+  KeyDoc doc = made(kind.type, name, meaning, notes);
+  if (kind.choices && doc.choices.empty()) doc.choices = kind.choices();
+  doc.owner = &owner;
+  doc.offset = offset;
+  doc.fill = kind.fill;
+  if (doc.required || !doc.otherwise.empty()) return doc;
+  doc.fallback = kind.type == KeyType::truth && doc.type == KeyType::choice
+                     ? fmt::format("\"{}\"", doc.choices[*static_cast<const bool*>(initial)])
+                     : kind.literal(initial, doc.scale);
+  if (doc.fallback == "\"\"" && doc.least > 0) doc.fallback.clear();  // no text may be empty here
+  return doc;
+}
 
 std::string NamePattern::expression() const {
   return fmt::format("^[{}][{}]{{0,{}}}$", first, rest, most - 1);

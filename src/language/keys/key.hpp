@@ -188,31 +188,12 @@ KeyDoc key(M B::*member, std::string_view name, std::string_view meaning, const 
 }
 
 // The parts that the language's list of tables is put together from, each in a file of its own.
-TableDoc world_table();
-TableDoc structure_table();
-TableDoc planes_table();
-TableDoc body_table();
-TableDoc pattern_table();
-TableDoc prototype_table();
-TableDoc map_table();
-TableDoc spring_table();
-TableDoc joint_table();
-TableDoc level_table();
-TableDoc chart_table();
-TableDoc problem_table();
-TableDoc atlas_table();
-TableDoc texture_table();
-TableDoc texture_pattern_table();
-TableDoc element_table();
-TableDoc side_table();
-TableDoc expect_table();
-TableDoc display_table();
-TableDoc view_table();
-TableDoc camera_table();
-TableDoc note_table();
+TableDoc world_table(), structure_table(), planes_table(), body_table(), pattern_table(),
+    prototype_table(), map_table(), spring_table(), joint_table(), level_table(), chart_table(),
+    problem_table(), atlas_table(), texture_table(), texture_pattern_table(), element_table(),
+    side_table(), expect_table(), display_table(), view_table(), camera_table(), note_table(),
+    ruler_table(), code_table();
 KeyDoc note_key();  // of a step
-TableDoc ruler_table();
-TableDoc code_table();
 
 // Those of a table for a body or a pattern: `own` and what both have.
 std::vector<KeyDoc> body_keys(std::vector<KeyDoc> own);

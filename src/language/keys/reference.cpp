@@ -122,8 +122,8 @@ std::string table_section(const TableDoc& table) {
   std::span<const KeyDoc> keys = table.keys;
   if (table.name == "expect") {  // counts have tables of their own
     const auto is_count = [](const KeyDoc& key) { return key.type == KeyType::whole; };
-    keys = keys.first(
-        static_cast<std::size_t>(std::find_if(keys.begin(), keys.end(), is_count) - keys.begin()));
+    keys =
+        keys.first(static_cast<std::size_t>(std::ranges::find_if(keys, is_count) - keys.begin()));
   }
   return fmt::format("\n### {}\n\n{}\n\n{}{}{}", heading(table), table.doc, rows(keys),
                      groups_text(table.groups), shown_of(table));

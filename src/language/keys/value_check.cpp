@@ -135,7 +135,7 @@ class Check {
   void check_choice(const TomlValue& value) {
     const auto* text = std::get_if<std::string>(&value.data);
     if (!text) return wrong_type(value, "a text", "a text stands in \"quotes\"");
-    if (std::find(doc_.choices.begin(), doc_.choices.end(), *text) != doc_.choices.end()) return;
+    if (std::ranges::find(doc_.choices, *text) != doc_.choices.end()) return;
     good_ = false;
     problems_.add(value.where, fmt::format("'{}' cannot be {}", doc_.key, in_quotes(*text)),
                   [&doc = doc_, &written = *text] {

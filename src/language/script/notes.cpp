@@ -105,6 +105,28 @@ class NoteReader {
   const ScriptState& state_;
 };
 
+// Exactly one of a body and a point.
+bool has_one(const TableReader& table, const char* body, const char* point, Draft& draft) {
+  if (table.has(body) != table.has(point)) return true;
+  draft.problems.add(table.has(body) ? table.key_place(point) : table.where(),
+                     fmt::format("a ruler has {} '{}' and '{}'",
+                                 table.has(body) ? "only one of" : "one of", body, point),
+                     fmt::format("'{}' is a body, '{}' a point of the world", body, point));
+  return false;
+}
+
+// As it would be written: with its class if the name has one.
+std::string nearest_function(const std::string& name) {
+  const bool with_class = name.find("::") != name.npos;
+  const std::vector<std::string> functions = code_functions();
+  std::vector<std::string_view> known;
+  for (const std::string_view function : functions) {
+    const std::string_view own = function.substr(with_class ? 0 : function.rfind(':') + 1);
+    if (std::ranges::count(known, own) == 0) known.push_back(own);
+  }
+  return nearest(name, known);
+}
+
 }  // namespace
 
 TableDoc note_table() {
@@ -136,20 +158,6 @@ void read_notes(const TableReader& step, Step& to, Draft& draft, const ScriptSta
   };
   for_each<NoteSpec>(step, "note", draft, read, "a note");
 }
-
-namespace {
-
-// Exactly one of a body and a point.
-bool has_one(const TableReader& table, const char* body, const char* point, Draft& draft) {
-  if (table.has(body) != table.has(point)) return true;
-  draft.problems.add(table.has(body) ? table.key_place(point) : table.where(),
-                     fmt::format("a ruler has {} '{}' and '{}'",
-                                 table.has(body) ? "only one of" : "one of", body, point),
-                     fmt::format("'{}' is a body, '{}' a point of the world", body, point));
-  return false;
-}
-
-}  // namespace
 
 TableDoc ruler_table() {
   using R = RulerSpec;
@@ -185,22 +193,6 @@ std::vector<RulerSpec> read_rulers(const TableReader& step, ScriptReading& scrip
   });
   return rulers;
 }
-
-namespace {
-
-// As it would be written: with its class if the name has one.
-std::string nearest_function(const std::string& name) {
-  const bool with_class = name.find("::") != name.npos;
-  const std::vector<std::string> functions = code_functions();
-  std::vector<std::string_view> known;
-  for (const std::string_view function : functions) {
-    const std::string_view own = function.substr(with_class ? 0 : function.rfind(':') + 1);
-    if (std::ranges::count(known, own) == 0) known.push_back(own);
-  }
-  return nearest(name, known);
-}
-
-}  // namespace
 
 TableDoc code_table() {
   return {"code",

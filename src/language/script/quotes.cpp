@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "base/number.hpp"
+#include "base/printable.hpp"
 #include "language/script/script_reading.hpp"
 
 namespace lantern::language {
@@ -69,67 +70,6 @@ void for_each_piece(std::string_view caption, F&& f) {
   }
 }
 
-}  // namespace
-
-std::string fill_caption(std::string_view caption, const TextLookup& text,
-                         const CountLookup& count) {
-  std::string filled;
-  for_each_piece(caption, [&](const Piece& piece) {
-    if (piece.kind == Piece::Kind::plain) {
-      filled += piece.inside;
-      return;
-    }
-    const Parts parts = parts_of(piece.inside);
-    const auto words = text ? text(parts.name) : std::nullopt;
-    const auto number = count && !words ? count(parts.name) : std::nullopt;
-    if (words)
-      filled += *words;
-    else
-      filled += number ? with_noun(*number, parts) : std::string(piece.written);
-  });
-  return filled;
-}
-
-std::vector<std::string> placeholders_of(std::string_view caption) {
-  std::vector<std::string> names;
-  for_each_piece(caption, [&](const Piece& piece) {
-    if (piece.kind != Piece::Kind::placeholder) return;
-    std::string name(parts_of(piece.inside).name);
-    if (std::find(names.begin(), names.end(), name) == names.end())
-      names.push_back(std::move(name));
-  });
-  return names;
-}
-
-std::vector<CaptionProblem> caption_problems(
-    std::string_view caption, const std::function<Placeholder(std::string_view name)>& kind_of) {
-  std::vector<CaptionProblem> problems;
-  for_each_piece(caption, [&](const Piece& piece) {
-    if (piece.kind == Piece::Kind::plain) return;
-    if (piece.kind == Piece::Kind::lone_brace) {
-      const char* message =
-          piece.written == "{" ? "a '{' without its '}'" : "a '}' without its '{'";
-      problems.push_back({piece.offset, message, {}});
-      return;
-    }
-    const Parts parts = parts_of(piece.inside);
-    const Placeholder kind = kind_of(parts.name);
-    if (parts.name.empty())
-      problems.push_back({piece.offset, "an empty placeholder", {}});
-    else if (kind == Placeholder::unknown)
-      problems.push_back({piece.offset, {}, std::string(parts.name)});
-    else if (kind == Placeholder::text && parts.one)
-      problems.push_back({piece.offset,
-                          fmt::format("'{}' is a text, not a count: it takes no noun", parts.name),
-                          {}});
-    else if ((parts.one && parts.one->empty()) || (parts.many && parts.many->empty()))
-      problems.push_back({piece.offset, "a placeholder whose noun is missing", {}});
-  });
-  return problems;
-}
-
-namespace {
-
 constexpr std::size_t kMostNoted = 64;  // each costs time on every frame
 
 // Names that can be counted or quoted here, for suggestions.
@@ -171,6 +111,62 @@ void tell_not_counted(const Named& number, const std::string& why, Draft& draft)
 }
 
 }  // namespace
+
+std::string fill_caption(std::string_view caption, const TextLookup& text,
+                         const CountLookup& count) {
+  std::string filled;
+  for_each_piece(caption, [&](const Piece& piece) {
+    if (piece.kind == Piece::Kind::plain) {
+      filled += piece.inside;
+      return;
+    }
+    const Parts parts = parts_of(piece.inside);
+    const auto words = text ? text(parts.name) : std::nullopt;
+    const auto number = count && !words ? count(parts.name) : std::nullopt;
+    if (words)
+      filled += *words;
+    else
+      filled += number ? with_noun(*number, parts) : std::string(piece.written);
+  });
+  return filled;
+}
+
+std::vector<std::string> placeholders_of(std::string_view caption) {
+  std::vector<std::string> names;
+  for_each_piece(caption, [&](const Piece& piece) {
+    if (piece.kind != Piece::Kind::placeholder) return;
+    std::string name(parts_of(piece.inside).name);
+    if (std::ranges::find(names, name) == names.end()) names.push_back(std::move(name));
+  });
+  return names;
+}
+
+std::vector<CaptionProblem> caption_problems(
+    std::string_view caption, const std::function<Placeholder(std::string_view name)>& kind_of) {
+  std::vector<CaptionProblem> problems;
+  for_each_piece(caption, [&](const Piece& piece) {
+    if (piece.kind == Piece::Kind::plain) return;
+    if (piece.kind == Piece::Kind::lone_brace) {
+      const char* message =
+          piece.written == "{" ? "a '{' without its '}'" : "a '}' without its '{'";
+      problems.push_back({piece.offset, message, {}});
+      return;
+    }
+    const Parts parts = parts_of(piece.inside);
+    const Placeholder kind = kind_of(parts.name);
+    if (parts.name.empty())
+      problems.push_back({piece.offset, "an empty placeholder", {}});
+    else if (kind == Placeholder::unknown)
+      problems.push_back({piece.offset, {}, std::string(parts.name)});
+    else if (kind == Placeholder::text && parts.one)
+      problems.push_back({piece.offset,
+                          fmt::format("'{}' is a text, not a count: it takes no noun", parts.name),
+                          {}});
+    else if ((parts.one && parts.one->empty()) || (parts.many && parts.many->empty()))
+      problems.push_back({piece.offset, "a placeholder whose noun is missing", {}});
+  });
+  return problems;
+}
 
 bool check_counted(const Named& written, Draft& draft, const ScriptState* state) {
   if (is_of_other_side(written.name, draft)) return true;

@@ -2,7 +2,6 @@
 // here and not when the scenario runs.
 #include "language/script/script_reading.hpp"
 
-#include <algorithm>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -225,25 +224,6 @@ class ScriptReader {
   bool told_ending_ = false;
 };
 
-}  // namespace
-
-void read_script(const TableReader& file, Draft& draft) {
-  if (file.has("step") && file.tables("step").empty() && !draft.problems.any())
-    draft.problems.add(file.place("step"), "the script has no step",
-                       "add [[step]] with do = \"show\"");
-  draft.scenario.headline = read_headline(file, draft, nullptr);
-  ScriptReader reader(draft);
-  for (const TomlValue* value : file.tables("step")) reader.read(*value);
-  draft.scenario.most_frames = reader.state().frames;
-  draft.scenario.world_steps = reader.state().ticks;
-  if (draft.scenario.chart && !draft.scenario.chart->over_time() && !reader.state().has_plot &&
-      !draft.problems.any())
-    draft.problems.add(file.place("chart"), "no step adds anything to the chart",
-                       "give steps a label in 'plot'");
-}
-
-namespace {
-
 std::vector<VerbDoc> made_verbs() {
   std::vector<VerbDoc> all = {verb<Show>({.doc = "Nothing happens; the caption speaks."})};
   for (auto part : {verbs_of_bodies(), verbs_of_time(), verbs_of_structures(), verbs_of_levels(),
@@ -261,6 +241,21 @@ std::vector<VerbDoc> made_verbs() {
 }
 
 }  // namespace
+
+void read_script(const TableReader& file, Draft& draft) {
+  if (file.has("step") && file.tables("step").empty() && !draft.problems.any())
+    draft.problems.add(file.place("step"), "the script has no step",
+                       "add [[step]] with do = \"show\"");
+  draft.scenario.headline = read_headline(file, draft, nullptr);
+  ScriptReader reader(draft);
+  for (const TomlValue* value : file.tables("step")) reader.read(*value);
+  draft.scenario.most_frames = reader.state().frames;
+  draft.scenario.world_steps = reader.state().ticks;
+  if (draft.scenario.chart && !draft.scenario.chart->over_time() && !reader.state().has_plot &&
+      !draft.problems.any())
+    draft.problems.add(file.place("chart"), "no step adds anything to the chart",
+                       "give steps a label in 'plot'");
+}
 
 std::span<const VerbDoc> known_verbs() {
   static const std::vector<VerbDoc> verbs = made_verbs();

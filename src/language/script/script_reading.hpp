@@ -148,10 +148,7 @@ VerbDoc verb(TableDoc table,
 std::span<const VerbDoc> known_verbs();
 
 // The parts of that list.
-std::vector<VerbDoc> verbs_of_bodies();
-std::vector<VerbDoc> verbs_of_time();
-std::vector<VerbDoc> verbs_of_structures();
-std::vector<VerbDoc> verbs_of_levels();
-std::vector<VerbDoc> verbs_of_atlases();
+std::vector<VerbDoc> verbs_of_bodies(), verbs_of_time(), verbs_of_structures(), verbs_of_levels(),
+    verbs_of_atlases();
 
 }  // namespace lantern::language

@@ -87,6 +87,80 @@ KeyDoc at_key() {
              range(-kFar, kFar), or_else("the centre"));
 }
 
+// Counts the world steps and frames of the seconds that `key` gives. `every` is the step's own.
+void count_time(const TableReader& table, const char* key, int every, ScriptReading& script) {
+  const std::uint64_t ticks = script.read_ticks(table, key);
+  const auto stride =
+      static_cast<std::uint64_t>(every > 0 ? every : script.draft.scenario.world.frame_every);
+  script.frames = (ticks + stride - 1) / stride;
+  const bool had_room = script.state.ticks <= kMostWorldSteps;
+  script.state.ticks += ticks;
+  if (script.state.ticks > kMostWorldSteps && had_room)
+    table.bad_value(key,
+                    fmt::format("the steps up to here have {} time steps in all, the limit is {}",
+                                script.state.ticks, kMostWorldSteps));
+}
+
+void read_run(Run& run, const TableReader& table, ScriptReading& script) {
+  const std::uint64_t before = script.state.ticks;
+  count_time(table, "seconds", run.every, script);
+  script.state.least_ticks += script.state.ticks - before;
+}
+
+void read_wait(Wait& wait, const TableReader& table, ScriptReading& script) {
+  count_time(table, "at_most", wait.every, script);
+  ++script.state.least_ticks;
+  const std::vector<Named> written = table.names("bodies");
+  wait.bodies = script.bodies.present(written);
+  if (!table.is_good("event") || !table.has("bodies")) return;
+  if (wait.event == Wait::Event::asleep) return script.require_sleep(table.place("event"));
+  script.require_contacts(table.place("event"));
+  if (written.empty() && wait.bodies.empty()) return;
+  for (const Named& name : written)
+    if (script.draft.bodies.find(name.name)) one_body(name, script.draft);
+  // A range stands for several.
+  const bool has_range = std::ranges::any_of(
+      written, [&](const Named& name) { return name.name.find("..") != name.name.npos; });
+  const std::size_t count = has_range ? wait.bodies.size() : written.size();
+  if (count != 2)
+    table.bad_value(
+        "bodies",
+        fmt::format("{} of them cannot {}: it takes two", count, *table.get<std::string>("event")),
+        "as bodies = [\"ball\", \"wall\"]");
+}
+
+void read_phases(Phases&, const TableReader& table, ScriptReading& script) {
+  constexpr std::uint64_t kMostPhases = 5;
+  script.frames = kMostPhases;
+  const bool looks = std::ranges::any_of(table.names("events"), [](const Named& event) {
+    return event.name == "approach" || event.name == "impact";
+  });
+  if (looks) script.require_contacts(table.place("events"));
+  if (looks) script.frames += kMostLooks;
+  ++script.state.ticks;
+  ++script.state.least_ticks;
+}
+
+void read_solve_by(SolveBy&, const TableReader& table, ScriptReading& script) {
+  script.require_contacts(table.place("do"));
+}
+
+template <class V>
+KeyDoc every_key() {
+  return key(&V::every, "every", "World steps from one frame to the next.", range(1, kMostEvery),
+             in("steps"), or_else("the world's `frame_every`"));
+}
+
+KeyDoc phase_events() {
+  KeyDoc events = events_key(
+      {"broad_phase", "boxes", "narrow_phase", "approach", "impact", "solve", "integrate"});
+  events.doc =
+      "Only these give frames: those named, else all but `approach` and `impact`. An `approach` is "
+      "a look at the two bodies of the step's first impact on the way to its moment.";
+  events.otherwise = "all but two";
+  return events;
+}
+
 }  // namespace
 
 std::vector<VerbDoc> verbs_of_bodies() {
@@ -170,84 +244,6 @@ std::uint64_t ScriptReading::read_ticks(const TableReader& table, const char* ke
   }
   return 1;
 }
-
-namespace {
-
-// Counts the world steps and frames of the seconds that `key` gives. `every` is the step's own.
-void count_time(const TableReader& table, const char* key, int every, ScriptReading& script) {
-  const std::uint64_t ticks = script.read_ticks(table, key);
-  const auto stride =
-      static_cast<std::uint64_t>(every > 0 ? every : script.draft.scenario.world.frame_every);
-  script.frames = (ticks + stride - 1) / stride;
-  const bool had_room = script.state.ticks <= kMostWorldSteps;
-  script.state.ticks += ticks;
-  if (script.state.ticks > kMostWorldSteps && had_room)
-    table.bad_value(key,
-                    fmt::format("the steps up to here have {} time steps in all, the limit is {}",
-                                script.state.ticks, kMostWorldSteps));
-}
-
-void read_run(Run& run, const TableReader& table, ScriptReading& script) {
-  const std::uint64_t before = script.state.ticks;
-  count_time(table, "seconds", run.every, script);
-  script.state.least_ticks += script.state.ticks - before;
-}
-
-void read_wait(Wait& wait, const TableReader& table, ScriptReading& script) {
-  count_time(table, "at_most", wait.every, script);
-  ++script.state.least_ticks;
-  const std::vector<Named> written = table.names("bodies");
-  wait.bodies = script.bodies.present(written);
-  if (!table.is_good("event") || !table.has("bodies")) return;
-  if (wait.event == Wait::Event::asleep) return script.require_sleep(table.place("event"));
-  script.require_contacts(table.place("event"));
-  if (written.empty() && wait.bodies.empty()) return;
-  for (const Named& name : written)
-    if (script.draft.bodies.find(name.name)) one_body(name, script.draft);
-  // A range stands for several.
-  const bool has_range = std::ranges::any_of(
-      written, [&](const Named& name) { return name.name.find("..") != name.name.npos; });
-  const std::size_t count = has_range ? wait.bodies.size() : written.size();
-  if (count != 2)
-    table.bad_value(
-        "bodies",
-        fmt::format("{} of them cannot {}: it takes two", count, *table.get<std::string>("event")),
-        "as bodies = [\"ball\", \"wall\"]");
-}
-
-void read_phases(Phases&, const TableReader& table, ScriptReading& script) {
-  constexpr std::uint64_t kMostPhases = 5;
-  script.frames = kMostPhases;
-  const bool looks = std::ranges::any_of(table.names("events"), [](const Named& event) {
-    return event.name == "approach" || event.name == "impact";
-  });
-  if (looks) script.require_contacts(table.place("events"));
-  if (looks) script.frames += kMostLooks;
-  ++script.state.ticks;
-  ++script.state.least_ticks;
-}
-
-void read_solve_by(SolveBy&, const TableReader& table, ScriptReading& script) {
-  script.require_contacts(table.place("do"));
-}
-
-template <class V>
-KeyDoc every_key() {
-  return key(&V::every, "every", "World steps from one frame to the next.", range(1, kMostEvery),
-             in("steps"), or_else("the world's `frame_every`"));
-}
-
-KeyDoc phase_events() {
-  KeyDoc events = events_key(
-      {"broad_phase", "boxes", "narrow_phase", "approach", "impact", "solve", "integrate"});
-  events.doc =
-      "Only these give frames: those named, else all but `approach` and `impact`. An `approach` is "
-      "a look at the two bodies of the step's first impact on the way to its moment.";
-  events.otherwise = "all but two";
-  return events;
-}
-
-}  // namespace
 
 std::vector<VerbDoc> verbs_of_time() {
   using S = SolveBy;

@@ -165,6 +165,56 @@ void read_pair(V& verb, const TableReader& table, ScriptReading& script) {
   verb.b = found[1];
 }
 
+// Verbs of a level and of an atlas, as they are read: `compile`, `locate`, `order` and `see`;
+// `pack`, `ask_room` and `draw`.
+template <class V>
+void require_compiled(V&, const TableReader& table, ScriptReading& script) {
+  if (!script.state.past.has<CompileLevel>())
+    table.bad_value("do", fmt::format("'{}' needs the compiled level", V::kTraits.name),
+                    "add a step with do = \"compile\" before");
+}
+
+void read_see(See& see, const TableReader& table, ScriptReading& script) {
+  require_compiled(see, table, script);
+  if (!see.eye || !table.is_good("eye") || !script.draft.has_world) return;
+  if (!contains(flat(script.draft.scenario.world.bounds), *see.eye))
+    table.bad_value("eye",
+                    fmt::format("[{}, {}] lies outside of the world", see.eye->x, see.eye->y));
+}
+
+template <class V>
+KeyDoc point_key(Vec<2> V::*member, std::string_view name, std::string_view meaning) {
+  return key(member, name, meaning, range(-kFar, kFar), written("[x, y]"), must());
+}
+
+void read_pack(Pack& pack, const TableReader& table, ScriptReading& script) {
+  pack.textures =
+      script.textures.take(table.names("textures"), script.state.packed, true, "is packed already");
+  if (pack.each && !pack.textures.empty()) script.frames = pack.textures.size();
+}
+
+void read_ask_room(AskRoom& ask, const TableReader& table, ScriptReading&) {
+  const auto size = table.get<Vec<2>>("size").value_or(Vec<2>(1.0));
+  ask.width = static_cast<int>(size.x);
+  ask.height = static_cast<int>(size.y);
+}
+
+void read_draw(DrawScreen& draw, const TableReader& table, ScriptReading& script) {
+  const ScenarioSpec& s = script.draft.scenario;
+  if (s.elements.empty())
+    return table.bad_value("do", "there is no [[element]] to draw",
+                           "add [[element]] with texture = \"…\" and at = [0, 0]");
+  if (script.state.past.times<DrawScreen>() >= kMostWays)
+    table.bad_value("do", fmt::format("more than {} steps draw the screen", kMostWays));
+  if (draw.from != DrawScreen::From::atlas) return;
+  for (const ElementSpec& element : s.elements)
+    if (!script.state.packed[element.texture])
+      return table.bad_value(
+          "from",
+          fmt::format("the texture '{}' is not in the atlas yet", s.textures[element.texture].name),
+          "pack it in a step before");
+}
+
 }  // namespace
 
 std::vector<VerbDoc> verbs_of_structures() {
@@ -242,60 +292,6 @@ std::vector<VerbDoc> verbs_of_structures() {
            .keys = {pair_key(), pace_key(), events_key({"support", "simplex"})}},
           read_pair<SearchDistance>)};
 }
-
-// Verbs of a level and of an atlas, as they are read: `compile`, `locate`, `order` and `see`;
-// `pack`, `ask_room` and `draw`.
-namespace {
-
-template <class V>
-void require_compiled(V&, const TableReader& table, ScriptReading& script) {
-  if (!script.state.past.has<CompileLevel>())
-    table.bad_value("do", fmt::format("'{}' needs the compiled level", V::kTraits.name),
-                    "add a step with do = \"compile\" before");
-}
-
-void read_see(See& see, const TableReader& table, ScriptReading& script) {
-  require_compiled(see, table, script);
-  if (!see.eye || !table.is_good("eye") || !script.draft.has_world) return;
-  if (!contains(flat(script.draft.scenario.world.bounds), *see.eye))
-    table.bad_value("eye",
-                    fmt::format("[{}, {}] lies outside of the world", see.eye->x, see.eye->y));
-}
-
-template <class V>
-KeyDoc point_key(Vec<2> V::*member, std::string_view name, std::string_view meaning) {
-  return key(member, name, meaning, range(-kFar, kFar), written("[x, y]"), must());
-}
-
-void read_pack(Pack& pack, const TableReader& table, ScriptReading& script) {
-  pack.textures =
-      script.textures.take(table.names("textures"), script.state.packed, true, "is packed already");
-  if (pack.each && !pack.textures.empty()) script.frames = pack.textures.size();
-}
-
-void read_ask_room(AskRoom& ask, const TableReader& table, ScriptReading&) {
-  const auto size = table.get<Vec<2>>("size").value_or(Vec<2>(1.0));
-  ask.width = static_cast<int>(size.x);
-  ask.height = static_cast<int>(size.y);
-}
-
-void read_draw(DrawScreen& draw, const TableReader& table, ScriptReading& script) {
-  const ScenarioSpec& s = script.draft.scenario;
-  if (s.elements.empty())
-    return table.bad_value("do", "there is no [[element]] to draw",
-                           "add [[element]] with texture = \"…\" and at = [0, 0]");
-  if (script.state.past.times<DrawScreen>() >= kMostWays)
-    table.bad_value("do", fmt::format("more than {} steps draw the screen", kMostWays));
-  if (draw.from != DrawScreen::From::atlas) return;
-  for (const ElementSpec& element : s.elements)
-    if (!script.state.packed[element.texture])
-      return table.bad_value(
-          "from",
-          fmt::format("the texture '{}' is not in the atlas yet", s.textures[element.texture].name),
-          "pack it in a step before");
-}
-
-}  // namespace
 
 std::vector<VerbDoc> verbs_of_levels() {
   return {

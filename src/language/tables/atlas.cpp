@@ -74,7 +74,7 @@ void read_texture_pattern(const TableReader& table, TexturePatternSpec& pattern,
     texture.where = draft.position(table.where());
   }
   if (pattern.order == PatternOrder::tallest_first)
-    std::stable_sort(made.begin(), made.end(), [](const TextureSpec& a, const TextureSpec& b) {
+    std::ranges::stable_sort(made, [](const TextureSpec& a, const TextureSpec& b) {
       return a.height != b.height ? a.height > b.height : a.width > b.width;
     });
 

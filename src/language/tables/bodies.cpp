@@ -189,6 +189,13 @@ const char* size_key(const TableReader& table) {
   return "radius";
 }
 
+KeyDoc color_key() {
+  return key(
+      &BodySpec::color, "color",
+      "1 red, 2 pink, 3 yellow, 4 blue, 5 green, 6 sky, 7 orange, 8 violet, in the light theme.",
+      range(1, 8), one_of({"red", "pink", "yellow", "blue", "green", "sky", "orange", "violet"}));
+}
+
 }  // namespace
 
 void read_body(const TomlValue& value, Draft& draft, bool declared) {
@@ -278,17 +285,6 @@ std::vector<KeyDoc> body_keys(std::vector<KeyDoc> first) {
   first.insert(first.end(), shared.begin(), shared.end());
   return first;
 }
-
-namespace {
-
-KeyDoc color_key() {
-  return key(
-      &BodySpec::color, "color",
-      "1 red, 2 pink, 3 yellow, 4 blue, 5 green, 6 sky, 7 orange, 8 violet, in the light theme.",
-      range(1, 8), one_of({"red", "pink", "yellow", "blue", "green", "sky", "orange", "violet"}));
-}
-
-}  // namespace
 
 TableDoc body_table() {
   using B = BodySpec;

@@ -104,15 +104,9 @@ void for_each(const TableReader& from, std::string_view key, Draft& draft, F&& f
 }
 
 // Each reads its part of the file into the draft, in this order.
-void read_world(const TableReader& file, Draft& draft);
-void read_display(const TableReader& file, Draft& draft);
-void read_bodies(const TableReader& file, Draft& draft);
-void read_links(const TableReader& file, Draft& draft);
-void read_level(const TableReader& file, Draft& draft);
-void read_chart(const TableReader& file, Draft& draft);
-void read_problem(const TableReader& file, Draft& draft);
-void read_atlas(const TableReader& file, Draft& draft);
-void read_script(const TableReader& file, Draft& draft);
+using ReadPart = void(const TableReader& file, Draft& draft);
+ReadPart read_world, read_display, read_bodies, read_links, read_level, read_chart, read_problem,
+    read_atlas, read_script;
 
 // Notices what the file says for nothing. It must have been read without a mistake.
 void notice_idle(const TableReader& file, Draft& draft);
@@ -189,8 +183,6 @@ std::uint64_t derived_seed(const TableReader& table, const std::string& name, co
 // spatial::choose_structure takes for all bodies as the file places them, and why. Without a world
 // nothing happens.
 void choose_structures(Draft& draft);
-
-// The sides of a scenario while it is read, and the names by which they are quoted.
 
 // What a file says to one of its sides: a scenario file without sides.
 struct SideFile {

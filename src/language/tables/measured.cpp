@@ -47,7 +47,7 @@ void read_lines(const TableReader& table, ChartSpec& chart, Draft& draft) {
   if (const auto bars = table.named("bars")) y = {*bars};
   for (const Named& number : y) {
     check_number(number, draft);
-    if (std::find(chart.y.begin(), chart.y.end(), number.name) != chart.y.end())
+    if (std::ranges::find(chart.y, number.name) != chart.y.end())
       draft.problems.add(number.where,
                          fmt::format("{} stands twice in 'y'", in_quotes(number.name)));
     chart.y.push_back(number.name);
@@ -56,6 +56,37 @@ void read_lines(const TableReader& table, ChartSpec& chart, Draft& draft) {
   if (chart.y.size() > kMostLines)
     table.bad_value(
         "y", fmt::format("{} lines in one chart, the limit is {}", chart.y.size(), kMostLines));
+}
+
+// One of each name, but for the numbers.
+std::vector<Method> made() {
+  std::vector<Method> methods;
+  const auto add = [&]<class E>(std::optional<E> Method::*member, E first) {
+    const auto all = names(first);
+    for (auto i = static_cast<std::size_t>(first); i < all.size(); ++i) {
+      Method& method = methods.emplace_back();
+      method.name = all[i];
+      method.*member = static_cast<E>(i);
+    }
+  };
+  add(&Method::integrator, Integrator());
+  add(&Method::rotation, RotationMethod());
+  add(&Method::contacts, ContactMethod::impulse);
+  return methods;
+}
+
+const std::vector<Method>& known() {
+  static const std::vector<Method> methods = made();
+  return methods;
+}
+
+// "16": nothing if it is no such number.
+template <class Number>
+std::optional<Number> number_of(std::string_view text) {
+  Number number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
 }
 
 }  // namespace
@@ -130,41 +161,6 @@ void read_problem(const TableReader& file, Draft& draft) {
         draft.scenario.problem = std::move(problem);
       });
 }
-
-namespace {
-
-// One of each name, but for the numbers.
-std::vector<Method> made() {
-  std::vector<Method> methods;
-  const auto add = [&]<class E>(std::optional<E> Method::*member, E first) {
-    const auto all = names(first);
-    for (auto i = static_cast<std::size_t>(first); i < all.size(); ++i) {
-      Method& method = methods.emplace_back();
-      method.name = all[i];
-      method.*member = static_cast<E>(i);
-    }
-  };
-  add(&Method::integrator, Integrator());
-  add(&Method::rotation, RotationMethod());
-  add(&Method::contacts, ContactMethod::impulse);
-  return methods;
-}
-
-const std::vector<Method>& known() {
-  static const std::vector<Method> methods = made();
-  return methods;
-}
-
-// "16": nothing if it is no such number.
-template <class Number>
-std::optional<Number> number_of(std::string_view text) {
-  Number number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
-}
-
-}  // namespace
 
 std::optional<Method> method_named(std::string_view name) {
   const std::size_t colon = name.find(':');

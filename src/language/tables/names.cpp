@@ -94,60 +94,6 @@ void unroll_range(const Named& range, const Names& names, std::string_view kind,
   }
 }
 
-}  // namespace
-
-std::vector<Named> without_ranges(const std::vector<Named>& written, const Names& names,
-                                  std::string_view kind, Problems& problems) {
-  std::vector<Named> found;
-  for (const Named& name : written)
-    if (name.name.find(kDots) != name.name.npos)
-      unroll_range(name, names, kind, problems, found);
-    else
-      found.push_back(name);
-  return found;
-}
-
-int cycled_color(std::int64_t color, std::size_t index) {
-  return color == 0 ? static_cast<int>(1 + index % 8) : static_cast<int>(color);
-}
-
-std::uint64_t derived_seed(const TableReader& table, const std::string& name, const Draft& draft) {
-  if (const auto seed = table.get<std::uint64_t>("seed")) return *seed;
-  return Hash().add(draft.scenario.seed).add(std::string_view(name)).value();
-}
-
-std::optional<std::size_t> one_body(const Named& body, Draft& draft) {
-  const NamedRange* range = draft.bodies.find(body.name);
-  if (!range) {
-    draft.problems.add_unknown(body.where, "body", body.name,
-                               [&known = draft.bodies] { return known.declared(); });
-    return std::nullopt;
-  }
-  if (range->count == 1) return range->first;
-  draft.problems.add(body.where, fmt::format("'{}' is a pattern, not a body", body.name),
-                     fmt::format("its bodies are '{0}1' to '{0}{1}'", body.name, range->count));
-  return std::nullopt;
-}
-
-void note_follower(const TableReader& table, std::size_t count, Draft& draft) {
-  if (const auto name = table.named("follow"))
-    draft.followers.push_back({draft.scenario.bodies.size(), count, *name});
-}
-
-void find_the_followed(Draft& draft) {
-  auto& bodies = draft.scenario.bodies;
-  for (const Follower& f : draft.followers) {
-    const auto followed = one_body(f.followed, draft);
-    if (!followed) continue;
-    if (f.first <= *followed && *followed < f.first + f.count)
-      draft.problems.add(f.followed.where, "a body cannot follow itself",
-                         "name another one in 'follow'");
-    for (std::size_t i = f.first; i < f.first + f.count; ++i) bodies[i].follows = *followed;
-  }
-}
-
-namespace {
-
 // Of each of these, a body has one: its own stands against a prototype's.
 constexpr std::array<std::array<std::string_view, 4>, 5> kRivals = {{
     {"radius", "half_size", "capsule", "ground"},
@@ -232,6 +178,56 @@ class Chains {
 };
 
 }  // namespace
+
+std::vector<Named> without_ranges(const std::vector<Named>& written, const Names& names,
+                                  std::string_view kind, Problems& problems) {
+  std::vector<Named> found;
+  for (const Named& name : written)
+    if (name.name.find(kDots) != name.name.npos)
+      unroll_range(name, names, kind, problems, found);
+    else
+      found.push_back(name);
+  return found;
+}
+
+int cycled_color(std::int64_t color, std::size_t index) {
+  return color == 0 ? static_cast<int>(1 + index % 8) : static_cast<int>(color);
+}
+
+std::uint64_t derived_seed(const TableReader& table, const std::string& name, const Draft& draft) {
+  if (const auto seed = table.get<std::uint64_t>("seed")) return *seed;
+  return Hash().add(draft.scenario.seed).add(std::string_view(name)).value();
+}
+
+std::optional<std::size_t> one_body(const Named& body, Draft& draft) {
+  const NamedRange* range = draft.bodies.find(body.name);
+  if (!range) {
+    draft.problems.add_unknown(body.where, "body", body.name,
+                               [&known = draft.bodies] { return known.declared(); });
+    return std::nullopt;
+  }
+  if (range->count == 1) return range->first;
+  draft.problems.add(body.where, fmt::format("'{}' is a pattern, not a body", body.name),
+                     fmt::format("its bodies are '{0}1' to '{0}{1}'", body.name, range->count));
+  return std::nullopt;
+}
+
+void note_follower(const TableReader& table, std::size_t count, Draft& draft) {
+  if (const auto name = table.named("follow"))
+    draft.followers.push_back({draft.scenario.bodies.size(), count, *name});
+}
+
+void find_the_followed(Draft& draft) {
+  auto& bodies = draft.scenario.bodies;
+  for (const Follower& f : draft.followers) {
+    const auto followed = one_body(f.followed, draft);
+    if (!followed) continue;
+    if (f.first <= *followed && *followed < f.first + f.count)
+      draft.problems.add(f.followed.where, "a body cannot follow itself",
+                         "name another one in 'follow'");
+    for (std::size_t i = f.first; i < f.first + f.count; ++i) bodies[i].follows = *followed;
+  }
+}
 
 const TomlTable* Prototypes::find(const std::string& name) const {
   const auto found = keys_.find(name);

@@ -40,6 +40,79 @@ bool overlap(const Box<3>& a, const Box<3>& b, int dimension) {
   return true;
 }
 
+struct PatternSpec {
+  std::size_t count = 1;
+  Arrange arrange = Arrange::random;
+  double gap = 0;
+  double speed = 0;
+  int color = 0;  // 0: each the next
+};
+
+// Where a pattern's centres may be: as given, or so that its bodies lie in the world. A stack
+// stands in the middle, on the world's floor.
+Box<3> read_region(const TableReader& table, const BodySpec& body, bool stack, const Draft& draft) {
+  const Box<3>& bounds = draft.scenario.world.bounds;
+  const Vec<3> half = bounding_box(body.shape, Vec<3>(0.0), orientation_of(body)).hi;
+  Box<3> region;
+  for (int i = 0; i < 3; ++i) {
+    const double middle = bounds.center()[i];
+    const bool in_the_middle = stack && i != 1;
+    region.lo[i] = in_the_middle ? middle : std::min(bounds.lo[i] + half[i], middle);
+    region.hi[i] = in_the_middle ? middle : std::max(bounds.hi[i] - half[i], middle);
+  }
+  region.lo = table.get<Vec<3>>("min").value_or(region.lo);
+  if (stack) {
+    if (table.is_good("max"))
+      table.bad_key("max", "a stack has no 'max'",
+                    "it is as high as its bodies; 'min' is the place of the lowest");
+    return {region.lo, region.lo};
+  }
+  region.hi = table.get<Vec<3>>("max").value_or(region.hi);
+  if (is_valid(region)) return region;
+  const auto text = [&](const Vec<3>& v) {
+    return draft.dimension == 3 ? fmt::format("[{}, {}, {}]", v.x, v.y, v.z)
+                                : fmt::format("[{}, {}]", v.x, v.y);
+  };
+  table.bad_value(table.has("max") ? "max" : "min",
+                  fmt::format("no centre lies between {} and {}", text(region.lo), text(region.hi)),
+                  "'max' lies to the upper right of 'min'");
+  return bounds;
+}
+
+void tell_no_room(const TableReader& table, std::size_t placed, std::size_t count) {
+  table.bad_value(
+      "count",
+      fmt::format("{} of {} bodies found a place apart from each other and from what never moves",
+                  placed, count),
+      "give them more room from 'min' to 'max', make them smaller, or take arrange = \"grid\"");
+}
+
+// The bodies of a pattern, in their order, each like `like` but for place, velocity and colour.
+void unroll(const BodySpec& like, const PatternSpec& pattern, const TableReader& table,
+            Draft& draft) {
+  const int dimension = draft.scenario.world.dimension;
+  Random random(derived_seed(table, like.name, draft));
+  const Box<3> region = read_region(table, like, pattern.arrange == Arrange::stack, draft);
+  Placement places({pattern.arrange, region, pattern.count, pattern.gap, dimension}, like,
+                   draft.scenario.bodies);
+  const double speed = like.brain == Brain::follow ? 0 : pattern.speed;
+  bool has_room = true;
+  for (std::size_t i = 0; i < pattern.count; ++i) {
+    const auto place = has_room ? places.next(random) : std::nullopt;
+    if (!place && std::exchange(has_room, false)) tell_no_room(table, i, pattern.count);
+    BodySpec body = like;
+    body.name = fmt::format("{}{}", like.name, i + 1);
+    body.color = cycled_color(pattern.color, i);
+    body.position = place.value_or(region.lo);
+    if (speed > 0)
+      body.velocity = speed * (dimension == 2 ? solid(random_direction<2>(random))
+                                              : random_direction<3>(random));
+    const NamedRange range{draft.scenario.bodies.size(), 1, table.place("name")};
+    draft.bodies.add(body.name, range, false, draft.problems);
+    draft.scenario.bodies.push_back(std::move(body));
+  }
+}
+
 }  // namespace
 
 Occupied::Occupied(const Box<3>& region, int dimension) : region_(region) {
@@ -174,83 +247,6 @@ bool Placement::is_free(const Vec<3>& place) const {
     return !radius_ || glm::length(box.center() - place) < 2 * *radius_ + clear;
   });
 }
-
-namespace {
-
-struct PatternSpec {
-  std::size_t count = 1;
-  Arrange arrange = Arrange::random;
-  double gap = 0;
-  double speed = 0;
-  int color = 0;  // 0: each the next
-};
-
-// Where a pattern's centres may be: as given, or so that its bodies lie in the world. A stack
-// stands in the middle, on the world's floor.
-Box<3> read_region(const TableReader& table, const BodySpec& body, bool stack, const Draft& draft) {
-  const Box<3>& bounds = draft.scenario.world.bounds;
-  const Vec<3> half = bounding_box(body.shape, Vec<3>(0.0), orientation_of(body)).hi;
-  Box<3> region;
-  for (int i = 0; i < 3; ++i) {
-    const double middle = bounds.center()[i];
-    const bool in_the_middle = stack && i != 1;
-    region.lo[i] = in_the_middle ? middle : std::min(bounds.lo[i] + half[i], middle);
-    region.hi[i] = in_the_middle ? middle : std::max(bounds.hi[i] - half[i], middle);
-  }
-  region.lo = table.get<Vec<3>>("min").value_or(region.lo);
-  if (stack) {
-    if (table.is_good("max"))
-      table.bad_key("max", "a stack has no 'max'",
-                    "it is as high as its bodies; 'min' is the place of the lowest");
-    return {region.lo, region.lo};
-  }
-  region.hi = table.get<Vec<3>>("max").value_or(region.hi);
-  if (is_valid(region)) return region;
-  const auto text = [&](const Vec<3>& v) {
-    return draft.dimension == 3 ? fmt::format("[{}, {}, {}]", v.x, v.y, v.z)
-                                : fmt::format("[{}, {}]", v.x, v.y);
-  };
-  table.bad_value(table.has("max") ? "max" : "min",
-                  fmt::format("no centre lies between {} and {}", text(region.lo), text(region.hi)),
-                  "'max' lies to the upper right of 'min'");
-  return bounds;
-}
-
-void tell_no_room(const TableReader& table, std::size_t placed, std::size_t count) {
-  table.bad_value(
-      "count",
-      fmt::format("{} of {} bodies found a place apart from each other and from what never moves",
-                  placed, count),
-      "give them more room from 'min' to 'max', make them smaller, or take arrange = \"grid\"");
-}
-
-// The bodies of a pattern, in their order, each like `like` but for place, velocity and colour.
-void unroll(const BodySpec& like, const PatternSpec& pattern, const TableReader& table,
-            Draft& draft) {
-  const int dimension = draft.scenario.world.dimension;
-  Random random(derived_seed(table, like.name, draft));
-  const Box<3> region = read_region(table, like, pattern.arrange == Arrange::stack, draft);
-  Placement places({pattern.arrange, region, pattern.count, pattern.gap, dimension}, like,
-                   draft.scenario.bodies);
-  const double speed = like.brain == Brain::follow ? 0 : pattern.speed;
-  bool has_room = true;
-  for (std::size_t i = 0; i < pattern.count; ++i) {
-    const auto place = has_room ? places.next(random) : std::nullopt;
-    if (!place && std::exchange(has_room, false)) tell_no_room(table, i, pattern.count);
-    BodySpec body = like;
-    body.name = fmt::format("{}{}", like.name, i + 1);
-    body.color = cycled_color(pattern.color, i);
-    body.position = place.value_or(region.lo);
-    if (speed > 0)
-      body.velocity = speed * (dimension == 2 ? solid(random_direction<2>(random))
-                                              : random_direction<3>(random));
-    const NamedRange range{draft.scenario.bodies.size(), 1, table.place("name")};
-    draft.bodies.add(body.name, range, false, draft.problems);
-    draft.scenario.bodies.push_back(std::move(body));
-  }
-}
-
-}  // namespace
 
 TableDoc pattern_table() {
   using P = PatternSpec;

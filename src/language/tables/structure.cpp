@@ -100,6 +100,31 @@ void check_kind(const TableReader& table, const StructureSpec& s, const Draft& d
                     "take kind = \"quadtree\", or a world of three dimensions");
 }
 
+template <int D>
+Box<D> in_world(const Box<3>& box) {
+  Box<D> flat;
+  for (int i = 0; i < D; ++i) {
+    flat.lo[i] = box.lo[i];
+    flat.hi[i] = box.hi[i];
+  }
+  return flat;
+}
+
+template <int D>
+void choose(const ScenarioSpec& scenario, StructureSpec& structure) {
+  std::vector<Item<D>> items;
+  for (const BodySpec& body : scenario.bodies) {
+    const Box<D> box = in_world<D>(bounding_box(body.shape, body.position, orientation_of(body)));
+    if (is_valid(box)) items.push_back({static_cast<BodyId>(items.size()), box});
+  }
+  const StructureChoice<D> choice = choose_structure<D>(items, StructureConfig<D>());
+  structure.kind = choice.kind;
+  structure.cell = choice.config.cell;
+  structure.levels = choice.config.levels;
+  structure.open = choice.config.open;
+  structure.why = choice.why;
+}
+
 }  // namespace
 
 TableDoc structure_table() {
@@ -208,35 +233,6 @@ void read_structures(const TableReader& file, Draft& draft) {
                          "add a [[body]] or a [[pattern]]");
   }
 }
-
-namespace {
-
-template <int D>
-Box<D> in_world(const Box<3>& box) {
-  Box<D> flat;
-  for (int i = 0; i < D; ++i) {
-    flat.lo[i] = box.lo[i];
-    flat.hi[i] = box.hi[i];
-  }
-  return flat;
-}
-
-template <int D>
-void choose(const ScenarioSpec& scenario, StructureSpec& structure) {
-  std::vector<Item<D>> items;
-  for (const BodySpec& body : scenario.bodies) {
-    const Box<D> box = in_world<D>(bounding_box(body.shape, body.position, orientation_of(body)));
-    if (is_valid(box)) items.push_back({static_cast<BodyId>(items.size()), box});
-  }
-  const StructureChoice<D> choice = choose_structure<D>(items, StructureConfig<D>());
-  structure.kind = choice.kind;
-  structure.cell = choice.config.cell;
-  structure.levels = choice.config.levels;
-  structure.open = choice.config.open;
-  structure.why = choice.why;
-}
-
-}  // namespace
 
 void check_structures(const TableReader& file, Draft& draft) {
   constexpr double kMostCells = 2e6;

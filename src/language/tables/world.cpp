@@ -67,6 +67,87 @@ void check_land(const TableReader& world, const WorldSpec& w, int dimension) {
     world.bad_value("land", fmt::format("{} corners in all, the limit is {}", corners, kMostWalls));
 }
 
+constexpr const char* kGiveView = "a part of it: view = { at = [4, 3], width = 6 }";
+constexpr const char* kGiveCamera = "its part is camera = { eye = [9, 6, 9], target = [2, 2, 2] }";
+
+// What [world] and [display] both say.
+constexpr std::pair<const char*, const char*> kTwice[] = {{"boxes", "show_boxes"},
+                                                          {"arrows", "show_velocities"},
+                                                          {"depths", "show_depths"},
+                                                          {"forces", "show_forces"},
+                                                          {"coordinates", "show_coordinates"}};
+
+// Depths are of contacts.
+void check_depths(const TableReader& table, const Display& display, const Draft& draft) {
+  if (table.truth("depths") && display.depths && draft.dimension != 0 &&
+      !draft.scenario.has_contacts())
+    table.bad_key("depths", kNothingTouches, kGiveContacts);
+}
+
+std::optional<ViewSpec> checked(const TableReader& table, const ViewSpec& view,
+                                const Draft& draft) {
+  if (table.has("at") != table.has("width")) {
+    const char* given = table.has("at") ? "at" : "width";
+    table.bad_key(
+        given, fmt::format("'view' has '{}' but no '{}'", given, table.has("at") ? "width" : "at"),
+        "'at' and 'width' go together; view = {} shows all");
+    return std::nullopt;
+  }
+  if (!view.at || !table.is_good("width")) return view;
+  const Box<3>& bounds = draft.scenario.world.bounds;
+  if (!contains(bounds, *view.at))
+    table.bad_value("at", "the view's middle lies outside the world",
+                    fmt::format("the world reaches from [{:.6g}, {:.6g}] to [{:.6g}, {:.6g}]",
+                                bounds.lo.x, bounds.lo.y, bounds.hi.x, bounds.hi.y));
+  else if (view.width > bounds.size().x)
+    table.bad_value(
+        "width",
+        fmt::format("the view is wider than the world, which is {:.6g} wide", bounds.size().x),
+        "view = {} shows all of it");
+  return view;
+}
+
+std::optional<CameraSpec> checked(const TableReader& table, const CameraSpec& camera) {
+  if (!table.is_good("eye") || !table.is_good("target")) return std::nullopt;
+  if (camera.eye != camera.target) return camera;
+  table.bad_value("target", "the camera looks at itself", "'target' is what it looks at");
+  return std::nullopt;
+}
+
+// Is there a world of so many dimensions? Else says so at the step's key.
+bool has_world(const TableReader& step, const char* key, int dimension, const Draft& draft) {
+  if (!draft.has_world) {
+    step.bad_key(key, fmt::format("'{}' needs a [world], the scenario has none", key),
+                 "leave it out");
+    return false;
+  }
+  if (draft.dimension == dimension || draft.dimension == 0) return draft.dimension != 0;
+  if (dimension == 2)
+    step.bad_key(key, fmt::format("a 3D world has no '{}'", key), kGiveCamera);
+  else
+    step.bad_key(key, fmt::format("a 2D world has no '{}'", key), kGiveView);
+  return false;
+}
+
+// Walls of no length have no line.
+void check_loops(const LevelSpec& level, const TableReader& table) {
+  std::size_t walls = 0, number = 0;
+  for (const auto& loop : level.loops) {
+    ++number;
+    walls += loop.size();
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      if (loop[i] == loop[(i + 1) % loop.size()]) {
+        table.bad_value("loops",
+                        fmt::format("polygon {} has the corner [{}, {}] twice in a row", number,
+                                    loop[i].x, loop[i].y),
+                        "the last corner is joined to the first by itself");
+        break;
+      }
+  }
+  if (walls > kMostWalls)
+    table.bad_value("loops", fmt::format("{} walls in all, the limit is {}", walls, kMostWalls));
+}
+
 }  // namespace
 
 TableDoc world_table() {
@@ -186,72 +267,6 @@ void read_world(const TableReader& file, Draft& draft) {
   read_structures(file, draft);
 }
 
-namespace {
-
-constexpr const char* kGiveView = "a part of it: view = { at = [4, 3], width = 6 }";
-constexpr const char* kGiveCamera = "its part is camera = { eye = [9, 6, 9], target = [2, 2, 2] }";
-
-// What [world] and [display] both say.
-constexpr std::pair<const char*, const char*> kTwice[] = {{"boxes", "show_boxes"},
-                                                          {"arrows", "show_velocities"},
-                                                          {"depths", "show_depths"},
-                                                          {"forces", "show_forces"},
-                                                          {"coordinates", "show_coordinates"}};
-
-// Depths are of contacts.
-void check_depths(const TableReader& table, const Display& display, const Draft& draft) {
-  if (table.truth("depths") && display.depths && draft.dimension != 0 &&
-      !draft.scenario.has_contacts())
-    table.bad_key("depths", kNothingTouches, kGiveContacts);
-}
-
-std::optional<ViewSpec> checked(const TableReader& table, const ViewSpec& view,
-                                const Draft& draft) {
-  if (table.has("at") != table.has("width")) {
-    const char* given = table.has("at") ? "at" : "width";
-    table.bad_key(
-        given, fmt::format("'view' has '{}' but no '{}'", given, table.has("at") ? "width" : "at"),
-        "'at' and 'width' go together; view = {} shows all");
-    return std::nullopt;
-  }
-  if (!view.at || !table.is_good("width")) return view;
-  const Box<3>& bounds = draft.scenario.world.bounds;
-  if (!contains(bounds, *view.at))
-    table.bad_value("at", "the view's middle lies outside the world",
-                    fmt::format("the world reaches from [{:.6g}, {:.6g}] to [{:.6g}, {:.6g}]",
-                                bounds.lo.x, bounds.lo.y, bounds.hi.x, bounds.hi.y));
-  else if (view.width > bounds.size().x)
-    table.bad_value(
-        "width",
-        fmt::format("the view is wider than the world, which is {:.6g} wide", bounds.size().x),
-        "view = {} shows all of it");
-  return view;
-}
-
-std::optional<CameraSpec> checked(const TableReader& table, const CameraSpec& camera) {
-  if (!table.is_good("eye") || !table.is_good("target")) return std::nullopt;
-  if (camera.eye != camera.target) return camera;
-  table.bad_value("target", "the camera looks at itself", "'target' is what it looks at");
-  return std::nullopt;
-}
-
-// Is there a world of so many dimensions? Else says so at the step's key.
-bool has_world(const TableReader& step, const char* key, int dimension, const Draft& draft) {
-  if (!draft.has_world) {
-    step.bad_key(key, fmt::format("'{}' needs a [world], the scenario has none", key),
-                 "leave it out");
-    return false;
-  }
-  if (draft.dimension == dimension || draft.dimension == 0) return draft.dimension != 0;
-  if (dimension == 2)
-    step.bad_key(key, fmt::format("a 3D world has no '{}'", key), kGiveCamera);
-  else
-    step.bad_key(key, fmt::format("a 2D world has no '{}'", key), kGiveView);
-  return false;
-}
-
-}  // namespace
-
 TableDoc display_table() {
   using D = Display;
   return {
@@ -345,29 +360,6 @@ void read_look(const TableReader& step, Step& to, Draft& draft) {
         "'camera'");
   if (step.is_good("orbit")) has_world(step, "orbit", 3, draft);
 }
-
-namespace {
-
-// Walls of no length have no line.
-void check_loops(const LevelSpec& level, const TableReader& table) {
-  std::size_t walls = 0, number = 0;
-  for (const auto& loop : level.loops) {
-    ++number;
-    walls += loop.size();
-    for (std::size_t i = 0; i < loop.size(); ++i)
-      if (loop[i] == loop[(i + 1) % loop.size()]) {
-        table.bad_value("loops",
-                        fmt::format("polygon {} has the corner [{}, {}] twice in a row", number,
-                                    loop[i].x, loop[i].y),
-                        "the last corner is joined to the first by itself");
-        break;
-      }
-  }
-  if (walls > kMostWalls)
-    table.bad_value("loops", fmt::format("{} walls in all, the limit is {}", walls, kMostWalls));
-}
-
-}  // namespace
 
 TableDoc level_table() {
   using L = LevelSpec;

@@ -14,8 +14,6 @@
 #include <variant>
 #include <vector>
 
-#include "base/printable.hpp"
-
 namespace lantern::language {
 
 // A line and a column of a file, both from 1; columns count letters, not bytes. {0, 0} is the file

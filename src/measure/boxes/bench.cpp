@@ -324,8 +324,7 @@ class Bench {
     const std::string what =
         fmt::format("{} with {} bodies and about {:.2g} pairs", name, bodies, pairs);
     const auto most = static_cast<double>(BroadPhaseConfig<2>().most_pairs);
-    if (pairs > most)
-      throw Refused(fmt::format("{}: the limit is {:.2g} pairs; take fewer bodies", what, most));
+    if (pairs > most) throw Refused("{}: the limit is {:.2g} pairs; take fewer bodies", what, most);
     const auto n = static_cast<double>(bodies), runs = static_cast<double>(all_.size() + 1);
     const double bytes =
         64 * n * static_cast<double>(frames_for(bodies)) + runs * (500 * n + 40 * pairs);

@@ -7,8 +7,6 @@
 
 namespace lantern::measure {
 
-// Who takes part in `bench pairs`, and what is to be found.
-
 // What a contestant can be set to. Two numbers whose neighbours are like it: of our trees the
 // capacity 2^first and the depth limit `second`, of others the place in a list.
 struct BoxSetting {

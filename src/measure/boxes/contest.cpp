@@ -6,7 +6,7 @@
 #include "base/stop.hpp"
 #include "measure/boxes/bench.hpp"
 #include "measure/broad_phase_cost.hpp"
-#include "measure/peers.hpp"
+#include "measure/solvers.hpp"
 #include "spatial/box_table.hpp"
 #include "spatial/query.hpp"
 
@@ -120,7 +120,7 @@ class Asked : public BoxRun {
     for (std::uint32_t i = 0; i < kQuestions; ++i) {
       ids_.clear();
       ask(i);
-      std::sort(ids_.begin(), ids_.end());
+      std::ranges::sort(ids_);
       for (const BodyId id : ids_) found_.push_back({i, id});
     }
   }
@@ -313,7 +313,7 @@ void BoxTruth::force_sample(Boxes<D> boxes) {
       truth_.push_back({std::min(boxes[i].id, boxes[j].id), std::max(boxes[i].id, boxes[j].id)});
     }
   }
-  std::sort(truth_.begin(), truth_.end());
+  std::ranges::sort(truth_);
 }
 
 template <int D>

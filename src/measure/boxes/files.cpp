@@ -6,7 +6,6 @@
 #include "base/number.hpp"
 #include "base/random.hpp"
 #include "base/stop.hpp"
-#include "base/suggest.hpp"
 #include "geometry/flat.hpp"
 #include "geometry/random_vec.hpp"
 #include "measure/boxes/worlds.hpp"
@@ -51,8 +50,7 @@ BoxScene scene_of(const fs::path& file, int dimension, std::vector<std::vector<F
                   std::uint64_t seed) {
   const std::size_t bodies = frames[0].size();
   if (bodies < 2)
-    throw Refused(
-        fmt::format("{}: it has fewer than two boxes, so there is no pair", file.string()));
+    throw Refused("{}: it has fewer than two boxes, so there is no pair", file.string());
   BoxScene scene{
       file.stem().string(), fmt::format("the {} boxes of {}", bodies, file.string()), {}};
   if (dimension == 2)

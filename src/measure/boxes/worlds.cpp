@@ -253,10 +253,10 @@ BoxScene box_scene_of(const Scenario& scenario) {
   Frame fullest;
   Work work;
   direct(scenario, Pace::step, work, [&](const Frame& frame) {
-    if (frame.bodies.size() > fullest.bodies.size() &&
-        (fullest.bodies.empty() || !traits_of(scenario.steps[frame.step].verb).passes_time))
+    const bool passes = traits_of(scenario.steps[frame.step].verb).passes_time;
+    if (frame.bodies.size() > fullest.bodies.size() && (fullest.bodies.empty() || !passes))
       fullest = frame;
-    return fullest.bodies.empty() || !traits_of(scenario.steps[frame.step].verb).passes_time;
+    return fullest.bodies.empty() || !passes;
   });
   if (fullest.bodies.size() < 2)
     throw ScenarioError(diagnose(scenario, {scenario.file, 0, 0},
@@ -310,11 +310,9 @@ BoxStage stage_of(const BoxWorkload& workload, std::size_t bodies, std::uint64_t
   const std::size_t frames = workload.task == BoxTask::pairs ? frames_for(bodies) : 1;
   BoxStage stage{std::string(workload.name), workload.task,
                  boxes_of(workload, bodies, frames, seed), Questions<2>{}};
-  if (workload.task == BoxTask::pairs) return stage;
-  if (stage.dimension() == 2)
-    stage.questions = random_questions(std::get<BoxUpdates<2>>(stage.scene.boxes).bounds, seed);
-  else
-    stage.questions = random_questions(std::get<BoxUpdates<3>>(stage.scene.boxes).bounds, seed);
+  if (workload.task != BoxTask::pairs)
+    std::visit([&](const auto& all) { stage.questions = random_questions(all.bounds, seed); },
+               stage.scene.boxes);
   return stage;
 }
 

@@ -288,7 +288,7 @@ ChainMotion::ChainMotion(const Column& masses, const Column& stiffnesses,
   LANTERN_CHECK(n > 0 && (stiffnesses.size() == n || stiffnesses.size() == n + 1), ==, true);
   for (const long double m : masses) root_mass_.push_back(std::sqrt(m));
   const auto all_equal = [](const Column& v) {
-    return std::all_of(v.begin(), v.end(), [&](long double x) { return x == v.front(); });
+    return std::ranges::all_of(v, [&](long double x) { return x == v.front(); });
   };
   if (stiffnesses.size() == n + 1 && all_equal(masses) && all_equal(stiffnesses))
     find_uniform_modes(n, masses.front(), stiffnesses.front());

@@ -2,7 +2,6 @@
 // method of Dormand and Prince in long double. Nothing of the engine is used.
 #pragma once
 
-#include <memory>
 #include <optional>
 
 #include <glm/vec2.hpp>

@@ -5,8 +5,6 @@
 namespace lantern::measure {
 namespace {
 
-// --- bodies that are thrown along level ground ---
-
 // A body that is thrown along level ground, and what brakes it.
 struct Thrown {
   std::size_t body = 0;
@@ -147,8 +145,6 @@ class SlipThenRoll : public ErrorMetric {
   Worst& speed_ = norm("v", "1", "largest error of a velocity, over the first speed");
 };
 
-// --- bodies that are put on a slope ---
-
 // Blocks and balls that are put on a slope. A block stays iff tan a <= mu, else it slides with
 // g (sin a - mu cos a). A ball of inertia k m r^2 rolls with g sin a / (1 + k) iff
 // tan a <= mu (1 + k) / k, else it slips, and slides as a block does.
@@ -224,8 +220,6 @@ class Incline : public ErrorMetric {
   Worst& wrong_ = norm("class", "bodies",
                        "how many stay, slide, roll or slip at the end that should do the opposite");
 };
-
-// --- what rolls and slides on a plate that slides itself ---
 
 // A plate on level or sloping ground, which is pulled, and balls and boxes on it, all along one
 // line and from rest. With gravity g along it, and N = m g across, a rider takes from the plate

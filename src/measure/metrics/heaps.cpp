@@ -49,9 +49,8 @@ class Burdens {
 
 std::vector<std::size_t> from_below(const Scenario& scenario, const Vec<3>& up) {
   std::vector<std::size_t> bodies = moving_bodies(scenario);
-  std::stable_sort(bodies.begin(), bodies.end(), [&](std::size_t a, std::size_t b) {
-    return glm::dot(scenario.bodies[a].position, up) < glm::dot(scenario.bodies[b].position, up);
-  });
+  std::ranges::stable_sort(
+      bodies, {}, [&](std::size_t i) { return glm::dot(scenario.bodies[i].position, up); });
   return bodies;
 }
 

@@ -6,8 +6,6 @@
 
 namespace lantern::measure {
 
-// --- bodies on joints ---
-
 std::vector<BodyState> first_states(const Scenario& scenario) {
   std::vector<BodyState> states(scenario.bodies.size());
   for (std::size_t i = 0; i < states.size(); ++i) {

@@ -24,11 +24,21 @@ Vec<3> nearest_axis(const Vec<3>& along) {
   return axis;
 }
 
+const Problem& row_of_problem(const Scenario& scenario) {
+  if (!scenario.problem) throw Refused("the scenario has no [problem]");
+  for (const auto problems : {smooth_problems, joints_problems, impacts_problems, ground_problems,
+                              heaps_problems, tumble_problems})
+    for (const Problem& one : problems())
+      if (one.solution == scenario.problem->solution) return one;
+  LANTERN_CHECK(to_string(scenario.problem->solution), ==, std::string_view("a known problem"));
+  return smooth_problems().front();
+}
+
 }  // namespace
 
 void refuse_problem(const Scenario& scenario, std::string_view why) {
-  throw Refused(fmt::format("'{}' is no problem of kind {}: {}", scenario.name,
-                            to_string(scenario.problem->solution), why));
+  throw Refused("'{}' is no problem of kind {}: {}", scenario.name,
+                to_string(scenario.problem->solution), why);
 }
 
 std::vector<std::size_t> dynamic_bodies(const Scenario& scenario) {
@@ -56,40 +66,6 @@ double mass_of_body(const Scenario& scenario, std::size_t body) {
   if (spec.mass > 0) return spec.mass;
   return scenario.world.dimension == 3 ? mass_of<3>(spec.shape, spec.density).mass
                                        : mass_of<2>(in_dimension<2>(spec.shape), spec.density).mass;
-}
-
-Tie read_tie(const Scenario& scenario, const LinkSpec& link) {
-  Tie tie;
-  tie.a = link.a;
-  const bool at_point = !link.b;
-  if (link.at_a != Vec<3>(0.0) || (!at_point && link.at_b != Vec<3>(0.0)))
-    refuse_problem(scenario, "a spring or rod does not end at its bodies' centres");
-  Vec<3> end = link.at_b;
-  if (link.b) {
-    tie.b = link.b;
-    end = scenario.bodies[*link.b].position;
-    // The moving one first.
-    if (scenario.bodies[tie.a].kind != BodyKind::dynamic_body) std::swap(tie.a, *tie.b);
-    const BodySpec& other = scenario.bodies[*tie.b];
-    if (other.kind == BodyKind::kinematic_body)
-      refuse_problem(scenario, fmt::format("body '{}' is kinematic", other.name));
-    if (other.kind == BodyKind::static_body) {
-      end = other.position;
-      tie.b.reset();
-    }
-  }
-  if (scenario.bodies[tie.a].kind != BodyKind::dynamic_body)
-    refuse_problem(scenario, "nothing moves on one of the springs or rods");
-  tie.anchor = end;
-  const Vec<3> other = tie.b ? scenario.bodies[*tie.b].position : end;
-  tie.rest_length = link.rest_length
-                        ? static_cast<long double>(*link.rest_length)
-                        : glm::length(LongVec(other) - LongVec(scenario.bodies[tie.a].position));
-  return tie;
-}
-
-bool parallel(const LongVec& a, const LongVec& b) {
-  return glm::length(glm::cross(a, b)) <= 1e-15L * glm::length(a) * glm::length(b);
 }
 
 std::vector<std::size_t> moving_bodies(const Scenario& scenario) {
@@ -211,20 +187,6 @@ double roundness(const Scenario& scenario) { return scenario.world.dimension == 
 bool are_parallel(const Vec<3>& a, const Vec<3>& b) {
   return glm::length(glm::cross(a, b)) <= 1e-12 * glm::length(a) * glm::length(b);
 }
-
-namespace {
-
-const Problem& row_of_problem(const Scenario& scenario) {
-  if (!scenario.problem) throw Refused("the scenario has no [problem]");
-  for (const auto problems : {smooth_problems, joints_problems, impacts_problems, ground_problems,
-                              heaps_problems, tumble_problems})
-    for (const Problem& one : problems())
-      if (one.solution == scenario.problem->solution) return one;
-  LANTERN_CHECK(to_string(scenario.problem->solution), ==, std::string_view("a known problem"));
-  return smooth_problems().front();
-}
-
-}  // namespace
 
 MetricMaker metrics_of(const Scenario& scenario) {
   return row_of_problem(scenario).metrics(scenario);

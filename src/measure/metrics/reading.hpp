@@ -58,20 +58,7 @@ void require_nothing_else(const Scenario& scenario, bool may_attract = false);
 // As the engine has it.
 double mass_of_body(const Scenario& scenario, std::size_t body);
 
-// A spring or rod as the engine makes it: between the centres of bodies, or a centre and a fixed
-// point.
-struct Tie {
-  std::size_t a = 0;
-  std::optional<std::size_t> b;  // a dynamic body; none: it ends at `anchor`
-  LongVec anchor{0.0L};
-  long double rest_length = 0;
-};
-
-// Refuses an end that is off a body's centre or on a kinematic body.
-Tie read_tie(const Scenario& scenario, const LinkSpec& link);
-
-// Whether both point along one line, exactly but for rounding; zero does with any.
-bool parallel(const LongVec& a, const LongVec& b);
+// Whether both point along one line, but for rounding; zero does with any.
 bool are_parallel(const Vec<3>& a, const Vec<3>& b);
 
 // --- bodies in contact ---

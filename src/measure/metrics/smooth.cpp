@@ -6,7 +6,49 @@
 namespace lantern::measure {
 namespace {
 
-// --- bodies that never touch, each against its closed form ---
+// A spring or rod as the engine makes it: between the centres of bodies, or a centre and a fixed
+// point.
+struct Tie {
+  std::size_t a = 0;
+  std::optional<std::size_t> b;  // a dynamic body; none: it ends at `anchor`
+  LongVec anchor{0.0L};
+  long double rest_length = 0;
+};
+
+// Refuses an end that is off a body's centre or on a kinematic body.
+Tie read_tie(const Scenario& scenario, const LinkSpec& link) {
+  Tie tie;
+  tie.a = link.a;
+  if (link.at_a != Vec<3>(0.0) || (link.b && link.at_b != Vec<3>(0.0)))
+    refuse_problem(scenario, "a spring or rod does not end at its bodies' centres");
+  Vec<3> end = link.at_b;
+  if (link.b) {
+    tie.b = link.b;
+    end = scenario.bodies[*link.b].position;
+    // The moving one first.
+    if (scenario.bodies[tie.a].kind != BodyKind::dynamic_body) std::swap(tie.a, *tie.b);
+    const BodySpec& other = scenario.bodies[*tie.b];
+    if (other.kind == BodyKind::kinematic_body)
+      refuse_problem(scenario, fmt::format("body '{}' is kinematic", other.name));
+    if (other.kind == BodyKind::static_body) {
+      end = other.position;
+      tie.b.reset();
+    }
+  }
+  if (scenario.bodies[tie.a].kind != BodyKind::dynamic_body)
+    refuse_problem(scenario, "nothing moves on one of the springs or rods");
+  tie.anchor = end;
+  const Vec<3> other = tie.b ? scenario.bodies[*tie.b].position : end;
+  tie.rest_length = link.rest_length
+                        ? static_cast<long double>(*link.rest_length)
+                        : glm::length(LongVec(other) - LongVec(scenario.bodies[tie.a].position));
+  return tie;
+}
+
+// Whether both point along one line, exactly but for rounding; zero does with any.
+bool parallel(const LongVec& a, const LongVec& b) {
+  return glm::length(glm::cross(a, b)) <= 1e-15L * glm::length(a) * glm::length(b);
+}
 
 MetricMaker projectile_metric(const Scenario& scenario) {
   struct Flight {
@@ -286,8 +328,8 @@ std::optional<LongVec> follow(const Scenario& scenario, std::vector<Bond>& bonds
     if (bond != first && !bond->tie.b) return bond->tie.anchor;
     if (bond != first) at = bond->tie.a == at ? *bond->tie.b : bond->tie.a;
     row.bodies.push_back(at);
-    bond = std::find_if(bonds.begin(), bonds.end(),
-                        [&](const Bond& b) { return !b.used && (b.tie.a == at || b.tie.b == at); });
+    bond = std::ranges::find_if(
+        bonds, [&](const Bond& b) { return !b.used && (b.tie.a == at || b.tie.b == at); });
   }
   return std::nullopt;
 }

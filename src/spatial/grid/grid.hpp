@@ -20,8 +20,6 @@
 #include <bit>
 #include <type_traits>
 
-#include <fmt/format.h>
-
 #include "geometry/elementary.hpp"
 #include "spatial/grid/grid_cells.hpp"
 #include "spatial/grid/grid_table.hpp"
@@ -87,16 +85,14 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
   explicit Grid(const StructureConfig<D>& config) : config_(config) {
     if (!is_valid(config_.bounds)) throw Refused("grid: its bounds are not finite or inverted");
     if (config_.cell != 0 && !(config_.cell >= 1e-100 && config_.cell <= 1e100))
-      throw Refused(fmt::format(
-          "grid: cell is {}, must be 0 (as suits the bodies) or 1e-100 ... 1e100", config_.cell));
+      throw Refused("grid: cell is {}, must be 0 (as suits the bodies) or 1e-100 ... 1e100",
+                    config_.cell);
     if (config_.levels == 0 || config_.levels > kMostLevels)
-      throw Refused(
-          fmt::format("grid: levels is {}, must be 1 ... {}", config_.levels, kMostLevels));
+      throw Refused("grid: levels is {}, must be 1 ... {}", config_.levels, kMostLevels);
     cut(config_.cell == 0 ? 1 : config_.cell);
     if (config_.cell != 0 && !config_.open && rasters_[0].cells() > kMostCells)
-      throw Refused(
-          fmt::format("grid: {:.3g} cells of {} are too many; take larger ones, or an open grid",
-                      rasters_[0].cells(), config_.cell));
+      throw Refused("grid: {:.3g} cells of {} are too many; take larger ones, or an open grid",
+                    rasters_[0].cells(), config_.cell);
   }
 
   // Tells make_child, test and store of the cells that the body reaches: whoever is told looks at

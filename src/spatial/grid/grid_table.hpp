@@ -161,7 +161,7 @@ struct GridLevel {
     const double most = 64 + 8.0 * count;
     folded = cells > most;
     while (cells > most) {
-      std::int64_t& longest = *std::max_element(fold.begin(), fold.end());
+      std::int64_t& longest = *std::ranges::max_element(fold);
       if (longest <= kLeastFold) break;
       const std::int64_t less =
           prime_up_to(std::max(kLeastFold, std::min(longest / 2, std::int64_t{16} * count)));
@@ -302,7 +302,7 @@ class GridTable : CountsAllocations {
     allocations_ += table_.places() != places;
     for (std::uint32_t k = 0; k < items.size(); ++k)
       if (level_of_[k] != kLarge) table_.set(start_[slot_of_[k] + 1]++, k, items[k].box);
-    std::sort(large_.begin(), large_.end(), [&](std::uint32_t a, std::uint32_t b) {
+    std::ranges::sort(large_, [&](std::uint32_t a, std::uint32_t b) {
       const double x = items[a].box.lo[0], y = items[b].box.lo[0];
       return x < y || (x == y && items[a].id < items[b].id);
     });

@@ -15,8 +15,7 @@ LevelBsp::LevelBsp(std::span<const Wall> walls, const Box<2>& bounds)
 
 void LevelBsp::require_eye(const Vec<2>& eye) {
   for (int i = 0; i < 2; ++i)
-    if (!std::isfinite(eye[i]))
-      throw Refused(fmt::format("level: the eye's {} is not finite", "xy"[i]));
+    if (!std::isfinite(eye[i])) throw Refused("level: the eye's {} is not finite", "xy"[i]);
 }
 
 std::optional<LevelBsp::Place> LevelBsp::locate(const Vec<2>& point) const {
@@ -53,6 +52,36 @@ namespace {
 
 enum class Side { back, front, cut, on };
 
+[[noreturn]] void refuse(const Wall& wall, std::size_t index, const std::string& why) {
+  const std::string name = wall.name.empty() ? "" : fmt::format(" ({})", wall.name);
+  throw Refused("wall {}{}: {}", index, name, why);
+}
+
+// Whether the ray from the point to the right meets the edge. Half open, so that a corner between
+// two edges counts once.
+bool ray_meets(const Vec<2>& p, const Vec<2>& a, const Vec<2>& b) {
+  if ((a.y > p.y) == (b.y > p.y)) return false;
+  return p.x < a.x + (b.x - a.x) * ((p.y - a.y) / (b.y - a.y));
+}
+
+bool is_floor(const Vec<2>& p, std::span<const std::vector<Vec<2>>> loops) {
+  bool odd = false;
+  for (const auto& loop : loops)
+    for (std::size_t i = 0; i < loop.size(); ++i)
+      if (ray_meets(p, loop[i], loop[(i + 1) % loop.size()])) odd = !odd;
+  return odd;
+}
+
+void require_loop(const std::vector<Vec<2>>& loop, std::size_t index) {
+  if (loop.size() < 3) throw Refused("loop {}: it needs at least three corners", index);
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    if (!std::isfinite(loop[i].x) || !std::isfinite(loop[i].y))
+      throw Refused("loop {}: corner {} is not finite", index, i);
+    if (loop[i] == loop[(i + 1) % loop.size()])
+      throw Refused("loop {}: corner {} and the next one are equal", index, i);
+  }
+}
+
 }  // namespace
 
 // Builds a level from the root down, what lies behind a line before what lies in front.
@@ -88,11 +117,11 @@ class LevelCompiler {
     for (const auto& [name, weight] : {std::pair{"balance_weight", config_.balance_weight},
                                        std::pair{"cut_weight", config_.cut_weight}})
       if (!std::isfinite(weight) || weight < 0)
-        throw Refused(fmt::format("level: its {} must be finite and not negative", name));
+        throw Refused("level: its {} must be finite and not negative", name);
     if (config_.most_candidates == 0)
       throw Refused("level: its most_candidates must be at least 1");
     if (config_.most_depth > kDeepestBsp)
-      throw Refused(fmt::format("level: its most_depth must be at most {}", kDeepestBsp));
+      throw Refused("level: its most_depth must be at most {}", kDeepestBsp);
   }
 
   void tell(const LevelEvent& event) const {
@@ -116,8 +145,8 @@ class LevelCompiler {
 
   void add_piece(std::vector<std::uint32_t>& list, const WallPiece& piece) {
     if (level_.pieces_.size() >= config_.most_pieces)
-      throw Refused(fmt::format("wall {}: with it the level has more than {} pieces of wall",
-                                piece.wall, config_.most_pieces));
+      throw Refused("wall {}: with it the level has more than {} pieces of wall", piece.wall,
+                    config_.most_pieces);
     list.push_back(static_cast<std::uint32_t>(level_.pieces_.size()));
     level_.pieces_.push_back(piece);
   }
@@ -217,8 +246,8 @@ class LevelCompiler {
       children[slot].region = level_.grid_.clipped(node.region, node.plane, slot == 1);
     }
     if (children[0].depth > config_.most_depth)
-      throw Refused(fmt::format("wall {}: with its line the level's tree is deeper than {}",
-                                level_.nodes_[handle].chosen.wall, config_.most_depth));
+      throw Refused("wall {}: with its line the level's tree is deeper than {}",
+                    level_.nodes_[handle].chosen.wall, config_.most_depth);
     const std::vector<std::uint32_t> pieces = std::move(level_.nodes_[handle].pieces);
     level_.nodes_[handle].pieces.clear();
     stop_if_asked();
@@ -291,47 +320,12 @@ LevelBsp compile_level(std::span<const Wall> walls, const Box<2>& bounds, const 
   return LevelCompiler(walls, bounds, config, observer).run();
 }
 
-namespace {
-
-[[noreturn]] void refuse(const Wall& wall, std::size_t index, const std::string& why) {
-  const std::string name = wall.name.empty() ? "" : fmt::format(" ({})", wall.name);
-  throw Refused(fmt::format("wall {}{}: {}", index, name, why));
-}
-
-// Whether the ray from the point to the right meets the edge. Half open, so that a corner between
-// two edges counts once.
-bool ray_meets(const Vec<2>& p, const Vec<2>& a, const Vec<2>& b) {
-  if ((a.y > p.y) == (b.y > p.y)) return false;
-  return p.x < a.x + (b.x - a.x) * ((p.y - a.y) / (b.y - a.y));
-}
-
-bool is_floor(const Vec<2>& p, std::span<const std::vector<Vec<2>>> loops) {
-  bool odd = false;
-  for (const auto& loop : loops)
-    for (std::size_t i = 0; i < loop.size(); ++i)
-      if (ray_meets(p, loop[i], loop[(i + 1) % loop.size()])) odd = !odd;
-  return odd;
-}
-
-void require_loop(const std::vector<Vec<2>>& loop, std::size_t index) {
-  if (loop.size() < 3)
-    throw Refused(fmt::format("loop {}: it needs at least three corners", index));
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    if (!std::isfinite(loop[i].x) || !std::isfinite(loop[i].y))
-      throw Refused(fmt::format("loop {}: corner {} is not finite", index, i));
-    if (loop[i] == loop[(i + 1) % loop.size()])
-      throw Refused(fmt::format("loop {}: corner {} and the next one are equal", index, i));
-  }
-}
-
-}  // namespace
-
 LevelGrid::LevelGrid(const Box<2>& bounds) {
   if (!is_valid(bounds)) throw Refused("level: its bounds are not finite or inverted");
   double largest = 0;
   for (int i = 0; i < 2; ++i) {
     if (bounds.lo[i] == bounds.hi[i])
-      throw Refused(fmt::format("level: its bounds have no extent on axis {}", "xy"[i]));
+      throw Refused("level: its bounds have no extent on axis {}", "xy"[i]);
     largest = std::max({largest, std::abs(bounds.lo[i]), std::abs(bounds.hi[i])});
   }
   int exponent = 0;

@@ -2,8 +2,6 @@
 #include <cmath>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "base/error.hpp"
 #include "base/stop.hpp"
 #include "spatial/level/level_bsp.hpp"
@@ -202,8 +200,8 @@ class SightFinder {
   LevelVisibility run(const VisibilityObserver& observer) {
     const std::size_t n = level_.sectors().size();
     if (n > config_.most_sectors)
-      throw Refused(fmt::format("level: it has {} sectors, its visibility is found of at most {}",
-                                n, config_.most_sectors));
+      throw Refused("level: it has {} sectors, its visibility is found of at most {}", n,
+                    config_.most_sectors);
     found_.sectors = static_cast<std::uint32_t>(n);
     found_.seen.assign(n * n, 0);
     for (std::size_t i = 0; i < n; ++i) found_.seen[i * n + i] = 1;
@@ -230,8 +228,8 @@ class SightFinder {
       if (p == came_by) continue;
       stop_if_asked();
       if (++found_.portals_tested > config_.most_tests)
-        throw Refused(fmt::format("level: its visibility takes more than {} tests of portals",
-                                  config_.most_tests));
+        throw Refused("level: its visibility takes more than {} tests of portals",
+                      config_.most_tests);
       const Portal& portal = found_.portals[p];
       const bool forth = portal.a == sector;  // from a's side the line's end is on the left
       const Beam::Bounds before = beam_.bounds();

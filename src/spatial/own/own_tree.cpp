@@ -177,7 +177,7 @@ class OwnFlat final : public StructureOf<OwnFlat, 2> {
     const OwnView::Node& node = view_.nodes()[index];
     tour.ids.clear();
     for (const BodyId place : view_.bodies(node)) tour.ids.push_back(ids_[place]);
-    std::sort(tour.ids.begin(), tour.ids.end());
+    std::ranges::sort(tour.ids);
     NodeView<2> view = tour.view(node.handle, parent, node.slot, node.depth, node.leaf, node.box);
     view.slack = view_.slack();
     view.bodies = tour.ids;

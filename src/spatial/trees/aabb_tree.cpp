@@ -234,8 +234,7 @@ void AabbTree<D>::build_of_leaves() {
 template <int D>
 void AabbTree<D>::require_places(std::size_t count) const {
   if (count > Node::kMostBodies)
-    throw Refused(fmt::format("AABB tree: {} bodies are more than it can hold, {}", count,
-                              Node::kMostBodies));
+    throw Refused("AABB tree: {} bodies are more than it can hold, {}", count, Node::kMostBodies);
 }
 
 // --- mending ---

@@ -45,7 +45,7 @@ class AabbTree final : public StructureOf<AabbTree<D>, D>, CountsAllocations {
   explicit AabbTree(const StructureConfig<D>& config = {})
       : margin_(config.margin), following_(config.following) {
     if (!(margin_ >= 0 && std::isfinite(margin_)))
-      throw Refused(fmt::format("AABB tree: margin is {}, must be finite and at least 0", margin_));
+      throw Refused("AABB tree: margin is {}, must be finite and at least 0", margin_);
     clear();
   }
 

@@ -81,9 +81,7 @@ class Bsp final : public StructureOf<Bsp<D>, D> {
   // The leaf at the plane's place becomes an inner node with two leaves.
   void add_plane(std::uint32_t index) {
     const BspPlane<D>& p = planes_[index];
-    const auto refuse = [&](const char* why) {
-      throw Refused(fmt::format("BSP: plane {} {}", index, why));
-    };
+    const auto refuse = [&](const char* why) { throw Refused("BSP: plane {} {}", index, why); };
     if (!is_finite(p.plane.normal)) refuse("has a normal that is not finite");
     if (p.plane.normal == Vec<D>(0.0)) refuse("has a normal of zero length");
     if (!std::isfinite(p.plane.offset)) refuse("has an offset that is not finite");
@@ -111,9 +109,9 @@ class Bsp final : public StructureOf<Bsp<D>, D> {
     if (node.is_leaf()) {
       if (entries_ == most_entries_)
         throw Refused(
-            fmt::format("body {}: with it the BSP's leaves hold more than {} entries; "
-                        "use fewer planes or bodies",
-                        item.id, most_entries_));
+            "body {}: with it the BSP's leaves hold more than {} entries; "
+            "use fewer planes or bodies",
+            item.id, most_entries_);
       contents_.append(node.contents, item.id);
       ++entries_;
       observer(Event{Event::Kind::store, handle, item.id, node.contents.count, 0});

@@ -91,7 +91,7 @@ class KdCuts : CountsAllocations {
       spread[axis] = most - least;
       axes[axis] = axis;
     }
-    std::sort(axes.begin(), axes.end(), [&](int a, int b) {
+    std::ranges::sort(axes, [&](int a, int b) {
       return spread[a] > spread[b] || (spread[a] == spread[b] && a < b);
     });
     return axes;
@@ -140,8 +140,8 @@ class KdCuts : CountsAllocations {
       append(lower_, items_[i].box.lo[axis]);
       append(upper_, items_[i].box.hi[axis]);
     }
-    std::sort(lower_.begin(), lower_.end());
-    std::sort(upper_.begin(), upper_.end());
+    std::ranges::sort(lower_);
+    std::ranges::sort(upper_);
     tests += upper_.size();
     std::optional<KdCut> best;
     std::size_t back = 0;
@@ -168,8 +168,7 @@ class KdTree final : public StructureOf<KdTree<D>, D>, CountsAllocations {
   explicit KdTree(const StructureConfig<D>& config) : config_(config) {
     if (config.capacity == 0) throw Refused("kD-tree: capacity is 0, must be at least 1");
     if (config.max_depth > kDeepest)
-      throw Refused(
-          fmt::format("kD-tree: max_depth is {}, the limit is {}", config.max_depth, kDeepest));
+      throw Refused("kD-tree: max_depth is {}, the limit is {}", config.max_depth, kDeepest);
     clear();
   }
 
@@ -188,8 +187,7 @@ class KdTree final : public StructureOf<KdTree<D>, D>, CountsAllocations {
     deepest_ = box_tests_ = 0;
     cuts_.tests = 0;
     for (const Item<D>& item : items) append(items_, item);
-    std::sort(items_.begin(), items_.end(),
-              [](const Item<D>& a, const Item<D>& b) { return a.id < b.id; });
+    std::ranges::sort(items_, {}, &Item<D>::id);
     for (std::uint32_t i = 0; i < items_.size(); ++i) append(work_, i);
     entries_expected_ = items_.size();
     append(nodes_, Node{});
@@ -204,9 +202,7 @@ class KdTree final : public StructureOf<KdTree<D>, D>, CountsAllocations {
   // box. An object that was decisive for a box does not fit after any move outward; then, "if that
   // object moves in any way, the tree must be rebuilt". False for a body that is not there.
   bool fits(const Item<D>& moved) const override {
-    const auto stored =
-        std::lower_bound(items_.begin(), items_.end(), moved.id,
-                         [](const Item<D>& item, BodyId id) { return item.id < id; });
+    const auto stored = std::ranges::lower_bound(items_, moved.id, {}, &Item<D>::id);
     if (stored == items_.end() || stored->id != moved.id || !is_valid(moved.box)) return false;
     return fits_below(0, stored->box, moved.box);
   }

@@ -5,8 +5,6 @@
 
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "lecture/quad_tree.hpp"
 #include "spatial/trees/orthtree.hpp"
 
@@ -134,11 +132,11 @@ class LectureQuadtree final : public StructureOf<LectureQuadtree, 2> {
 
   void require_room(std::uint64_t wanted, const char* what, BodyId body) const {
     if (wanted <= config_.most_entries) return;
-    throw Refused(fmt::format(
+    throw Refused(
         "body {}: with it the tree needs more than {} {} ({} nodes, {} entries); lower max_depth "
         "({}) or raise capacity ({})",
         body, config_.most_entries, what, counters_.nodes, counters_.entries, config_.max_depth,
-        config_.capacity));
+        config_.capacity);
   }
 
   static NodeHandle handle(const Node& node) { return static_cast<NodeHandle>(node.number); }

@@ -5,8 +5,6 @@
 #include <bit>
 #include <limits>
 
-#include <fmt/format.h>
-
 #include "base/error.hpp"
 #include "spatial/structure.hpp"
 
@@ -158,7 +156,7 @@ class LeafArray {
     }
     const std::size_t block = values_.size();
     if (block + room > std::numeric_limits<std::uint32_t>::max())
-      throw Refused(fmt::format("the leaves need more than {} places", block));
+      throw Refused("the leaves need more than {} places", block);
     const std::size_t capacity = values_.capacity();
     values_.resize(block + room);
     allocations_ += values_.capacity() != capacity;

@@ -139,13 +139,12 @@ class Orthtree final : public StructureOf<Orthtree<D>, D>, CountsAllocations {
     for (int i = 0; i < D; ++i)
       if (!is_valid(config.bounds) || !(config.bounds.lo[i] < config.bounds.hi[i]))
         throw Refused(
-            fmt::format("tree: its bounds go from {} to {} on axis {}; they must be "
-                        "finite and have an extent",
-                        config.bounds.lo[i], config.bounds.hi[i], "xyz"[i]));
+            "tree: its bounds go from {} to {} on axis {}; they must be "
+            "finite and have an extent",
+            config.bounds.lo[i], config.bounds.hi[i], "xyz"[i]);
     if (config.capacity == 0) throw Refused("tree: capacity is 0, must be at least 1");
     if (config.max_depth > kDeepest)
-      throw Refused(
-          fmt::format("tree: max_depth is {}, the limit is {}", config.max_depth, kDeepest));
+      throw Refused("tree: max_depth is {}, the limit is {}", config.max_depth, kDeepest);
     config.most_entries = std::min(config.most_entries, kMost);
     return config;
   }
@@ -312,11 +311,11 @@ class Orthtree final : public StructureOf<Orthtree<D>, D>, CountsAllocations {
   void require_room(std::uint64_t wanted, const char* what) const {
     if (wanted <= config_.most_entries) return;
     throw Refused(
-        fmt::format("body {}: with it the tree needs more than {} {} ({} bodies, {} "
-                    "nodes, {} entries); lower max_depth ({}), raise capacity ({}) or "
-                    "turn on the no-progress stop",
-                    items_.back().id, config_.most_entries, what, items_.size(), nodes_.size(),
-                    entries_, config_.max_depth, config_.capacity));
+        "body {}: with it the tree needs more than {} {} ({} bodies, {} "
+        "nodes, {} entries); lower max_depth ({}), raise capacity ({}) or "
+        "turn on the no-progress stop",
+        items_.back().id, config_.most_entries, what, items_.size(), nodes_.size(), entries_,
+        config_.max_depth, config_.capacity);
   }
 
   // --- looking ---
@@ -342,8 +341,7 @@ class Orthtree final : public StructureOf<Orthtree<D>, D>, CountsAllocations {
       view.first = node.contents.count == 0 ? kNone : node.contents.first;
       view.room = contents_.room(node.contents);
     }
-    if (!std::is_sorted(tour.ids.begin(), tour.ids.end()))
-      std::sort(tour.ids.begin(), tour.ids.end());
+    if (!std::ranges::is_sorted(tour.ids)) std::ranges::sort(tour.ids);
     view.bodies = tour.ids;
     if (!f(std::as_const(view)) || view.leaf) return;
     const Vec<D> mid = Halves::middle(at.bounds);

@@ -132,7 +132,7 @@ class SortAndSweep final : public StructureOf<SortAndSweep<D>, D>, CountsAllocat
   void take(Tour<D> tour, F&& f) const {
     tour.ids.clear();
     for (const Item<D>& item : items_) tour.ids.push_back(item.id);
-    std::sort(tour.ids.begin(), tour.ids.end());
+    std::ranges::sort(tour.ids);
     f(NodeView<D>{.box = box_, .bodies = tour.ids});
   }
 
