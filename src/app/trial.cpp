@@ -72,5 +72,7 @@ void Trials::see(const Players<D>& players) {
 
 template SettingTrial try_out(const World<2>&, double, double);
 template SettingTrial try_out(const World<3>&, double, double);
+template void Trials::see(const Players<2>&);
+template void Trials::see(const Players<3>&);
 
 }  // namespace lantern::app

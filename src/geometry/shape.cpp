@@ -4,8 +4,7 @@ namespace lantern::geometry {
 namespace {
 
 template <int D>
-Vec<D> enveloping_half_size(const Rotation<D>& orientation, const Vec<D>& half_size) {
-  const Mat<D> r = matrix(orientation);
+Vec<D> enveloping_half_size(const Mat<D>& r, const Vec<D>& half_size) {
   Vec<D> half{0.0};
   for (int column = 0; column < D; ++column)
     for (int row = 0; row < D; ++row) half[row] += std::abs(r[column][row]) * half_size[column];
@@ -28,15 +27,21 @@ Box<D> box_of_half_space(const Vec<D>& normal, const Vec<D>& position) {
 }  // namespace
 
 template <int D>
-Box<D> bounding_box(const Shape<D>& shape, const Vec<D>& position, const Rotation<D>& orientation) {
+Box<D> bounding_box(const Shape<D>& shape, const Vec<D>& position, const Mat<D>& axes) {
   return visit_shape<D>(
       shape,
       [&](const Core<D>& core) {
         const bool turned = core.turns && core.half != Vec<D>(0.0);
-        const Vec<D> half = turned ? enveloping_half_size(orientation, core.half) : core.half;
+        const Vec<D> half = turned ? enveloping_half_size<D>(axes, core.half) : core.half;
         return Box<D>::around(position, half + Vec<D>(core.radius));
       },
       [&](const HalfSpace<D>& space) { return box_of_half_space(space.normal, position); });
+}
+
+template <int D>
+Box<D> bounding_box(const Shape<D>& shape, const Vec<D>& position, const Rotation<D>& orientation) {
+  const bool turned = turns<D>(shape) && !std::holds_alternative<Sphere>(shape);
+  return bounding_box(shape, position, turned ? matrix(orientation) : Mat<D>(1.0));
 }
 
 template <int D>
@@ -67,6 +72,7 @@ double thickness(const Shape<D>& shape) {
 
 #define LANTERN_INSTANTIATE(D)                                                      \
   template Box<D> bounding_box(const Shape<D>&, const Vec<D>&, const Rotation<D>&); \
+  template Box<D> bounding_box(const Shape<D>&, const Vec<D>&, const Mat<D>&);      \
   template double turning_reach<D>(const Shape<D>&);                                \
   template double thickness<D>(const Shape<D>&);
 

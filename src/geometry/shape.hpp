@@ -104,6 +104,9 @@ inline constexpr double kEndless = 1e150;
 template <int D>
 Box<D> bounding_box(const Shape<D>& shape, const Vec<D>& position,
                     const Rotation<D>& orientation = {});
+// The same by its axes (columns), which are those of the world if it does not turn.
+template <int D>
+Box<D> bounding_box(const Shape<D>& shape, const Vec<D>& position, const Mat<D>& axes);
 
 // How far the surface of a body can be from its centre, as far as turning moves it: how fast it can
 // move because the body turns, per radian. 0 for what does not turn, and for spheres.

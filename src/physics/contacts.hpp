@@ -32,6 +32,10 @@ struct Contact {
 // features, and those of points that are gone go to the first one.
 template <int D>
 void renew_record(Contact<D>& record, const Manifold<D>& manifold) {
+  if (record.manifold.count == 0) {
+    record.manifold = manifold;
+    return;
+  }
   Contact<D> renewed;
   renewed.a = record.a;
   renewed.b = record.b;

@@ -29,17 +29,26 @@ struct StepSettings {
 };
 constexpr StepSettings kStepSettings;
 
+// A body before the step, as each pair that it is in asks for it.
 template <int D>
-double slack(const Body<D>& body) {
-  const double t = thickness<D>(body.shape);
-  return t < kEndless ? t * kStepSettings.slack : 0;
-}
+struct Look {
+  Look(const Body<D>& body, double h)
+      : axes(axes_of(body)),
+        velocity(velocity_of(body)),
+        turning(turning_way(body, h)),
+        thick(thickness<D>(body.shape)) {}
 
-// How far a surface may come if no force acts.
-template <int D>
-double coasting_reach(const Body<D>& body, double h) {
-  return slack(body) + turning_way(body, h) + glm::length(velocity_of(body)) * h;
-}
+  Mat<D> axes;
+  Vec<D> velocity;
+  double turning;  // how far its surface turns
+  double thick;
+
+  // How far its surface may come if no force acts.
+  double coasting_reach(double h) const {
+    const double slack = thick < kEndless ? thick * kStepSettings.slack : 0;
+    return slack + turning + glm::length(velocity) * h;
+  }
+};
 
 }  // namespace
 
@@ -56,7 +65,7 @@ struct World<D>::Step : World<D>::StepIslands {
   Scratch<Increment<D>> anew = {};  // increments anew, since bodies woke in this step
   Scratch<Proxy<D>> boxes = {};     // of bodies, enlarged by how far each may come
   std::uint64_t narrow_pairs = 0;   // of the broad phase's, looked at by the narrow phase
-  Scratch<Mat<D>> axes = {};        // of bodies, as the narrow phase sees them
+  Scratch<Look<D>> looks = {};      // at bodies
   bool struck = false;              // an impact was located
   Outcome& outcome = world.cleared_outcome();
 
@@ -84,9 +93,7 @@ struct World<D>::Step : World<D>::StepIslands {
   }
 
   void refresh_boxes() {
-    if (!collides()) return;
-    require_boxes();
-    if (looks_for_contacts()) boxes = enlarged_boxes();
+    if (collides()) boxes = enlarged_boxes(true);
   }
 
   void broad_phase() {
@@ -103,9 +110,7 @@ struct World<D>::Step : World<D>::StepIslands {
     near.clear();
     narrow_pairs = 0;
     manifolds.clear();
-    axes.clear();
     if (outcome.pairs.empty()) return;
-    for (const Body<D>& body : moved) axes.push_back(axes_of(body));
     const Scratch<Pair> joined = joined_pairs();
     auto touch = world.touching_.begin();  // in order of ids, as the pairs are
     for (const Pair& pair : outcome.pairs) {
@@ -232,19 +237,17 @@ struct World<D>::Step : World<D>::StepIslands {
     return anew.empty() ? world.ahead_->increments : anew;
   }
 
-  // What looking ahead asks for.
-  void require_boxes() const {
-    for (std::size_t i = 0; i < moved.size(); ++i)
-      if (!is_valid(enlarged_box(i)))
-        throw Refused(fmt::format("body '{}': position overflows in step {}", moved[i].name,
-                                  world.work_.steps + 1));
-  }
-
-  Scratch<Proxy<D>> enlarged_boxes() const {
+  // If they are `required`, throws Refused for one that is beyond all numbers.
+  Scratch<Proxy<D>> enlarged_boxes(bool required = false) const {
     Scratch<Proxy<D>> proxies;
-    for (std::size_t i = 0; i < moved.size(); ++i)
-      if (moved[i].collides)
-        proxies.push_back({moved[i].id, enlarged_box(i), !moved[i].moves(), moved[i].stirs()});
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      const Body<D>& body = moved[i];
+      const Box<D> box = enlarged_box(i);
+      if (required && !is_valid(box))
+        throw Refused(fmt::format("body '{}': position overflows in step {}", body.name,
+                                  world.work_.steps + 1));
+      if (body.collides) proxies.push_back({body.id, box, !body.moves(), body.stirs()});
+    }
     return proxies;
   }
 
@@ -288,11 +291,13 @@ struct World<D>::Step : World<D>::StepIslands {
       return i == j || std::ranges::binary_search(joined, ids) ||
              std::ranges::binary_search(near, both, {}, places);
     };
+    Scratch<Box<D>> now;  // if any went so far
     for (std::uint32_t i = 0; i < moved.size(); ++i) {
       if (!moved[i].is_pushed() || !moved[i].collides || !strayed(i)) continue;
-      const Box<D> box = moved[i].box();
+      if (now.empty())
+        for (const Body<D>& body : moved) now.push_back(body.box());
       for (std::uint32_t j = 0; j < moved.size(); ++j) {
-        if (!moved[j].collides || !overlap(box, moved[j].box()) || known(i, j)) continue;
+        if (!overlap(now[i], now[j]) || !moved[j].collides || known(i, j)) continue;
         ++world.work_.narrow_tests;
         if (collide(placed(moved[i]), placed(moved[j]), 0)) return true;
       }
@@ -310,17 +315,21 @@ struct World<D>::Step : World<D>::StepIslands {
 
   void find_reach() {
     reach.resize(moved.size());
+    looks.clear();
     for (std::size_t i = 0; i < moved.size(); ++i) {
-      const Body<D>& body = moved[i];
+      looks.emplace_back(moved[i], h);
       const Increment<D>& increment = increments()[i];
-      const double way =
-          coasting_reach(body, h) + glm::length(increment.kick) * h + glm::length(increment.drift);
+      const double way = looks[i].coasting_reach(h) + glm::length(increment.kick) * h +
+                         glm::length(increment.drift);
       reach[i] = std::max(reach[i], way);
     }
   }
 
   Box<D> enlarged_box(std::size_t place) const {
-    const Box<D> box = moved[place].box();
+    const Body<D>& body = moved[place];
+    const Box<D> box = place < looks.size()
+                           ? bounding_box(body.shape, body.position, looks[place].axes)
+                           : body.box();
     return {box.lo - Vec<D>(reach[place]), box.hi + Vec<D>(reach[place])};
   }
 
@@ -346,18 +355,20 @@ struct World<D>::Step : World<D>::StepIslands {
     const Body<D>& a = moved[found.a];
     const Body<D>& b = moved[found.b];
     if (!a.is_dynamic() && !b.is_dynamic()) return std::nullopt;
-    const double way = way_of(a, b, h);
+    const Look<D>&look_a = looks[found.a], &look_b = looks[found.b];
+    const double way =
+        glm::length(look_b.velocity - look_a.velocity) * h + look_a.turning + look_b.turning;
     // An impact with a third body may turn either of them towards the other.
     found.reach = reach[found.a] + reach[found.b];
     ++narrow_pairs;
     ++world.work_.narrow_tests;
     const auto manifold =
-        collide<D>({a.shape, a.position, a.orientation, axes[found.a]},
-                   {b.shape, b.position, b.orientation, axes[found.b]}, found.reach);
+        collide<D>({a.shape, a.position, a.orientation, look_a.axes},
+                   {b.shape, b.position, b.orientation, look_b.axes}, found.reach);
     if (!manifold) return std::nullopt;
     found.restitution = std::max(a.material.restitution, b.material.restitution);
     found.friction = std::sqrt(a.material.friction * b.material.friction);
-    const double thin = thinner(a, b);
+    const double thin = std::min(look_a.thick, look_b.thick);
     const bool held =
         world.config_.wanted_error > 0.0 && world.config_.contacts == ContactMethod::soft;
     const double fast = held ? kStepSettings.fast_quick : kStepSettings.fast;
@@ -426,7 +437,8 @@ void World<D>::store(std::span<const BodyId> ids, double h,
   Scratch<Proxy<D>> proxies;
   for (const BodyId id : ids) {
     const Body<D>& body = bodies_[index_of(id)];
-    const Vec<D> reach(config_.contacts == ContactMethod::none ? 0 : coasting_reach(body, h));
+    const Vec<D> reach(
+        config_.contacts == ContactMethod::none ? 0 : Look<D>(body, h).coasting_reach(h));
     const Box<D> box = body.box();
     proxies.push_back({id, {box.lo - reach, box.hi + reach}, !body.moves(), body.stirs()});
   }
@@ -445,7 +457,7 @@ void World<D>::look_ahead(double h, const typename BroadPhase<D>::Watch& watch) 
   const WorldWork before = work_;
   try {
     step.find_forces();
-    step.require_boxes();
+    step.enlarged_boxes(true);
     ahead_->force_evaluations = work_.force_evaluations - before.force_evaluations;
   } catch (const Refused&) {
     ahead_.reset();

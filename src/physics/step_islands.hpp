@@ -49,6 +49,8 @@ struct World<D>::StepIslands {
   Scratch<std::uint32_t> local_place = {};  // of each body in the island that was gathered last
   Scratch<double> farthest = {};            // of each body, in its island
   Scratch<Touch<D>> touching = {};
+  Pair last = {};                        // of these
+  bool in_order = true;                  // of ids are they
   Scratch<std::uint32_t> touch_of = {};  // of each near pair; kNone: it did not touch
 
   std::uint32_t place_of(BodyId id) const { return static_cast<std::uint32_t>(world.index_of(id)); }
@@ -196,8 +198,10 @@ struct World<D>::StepIslands {
       stop_if_asked();
       const IslandPair<D>& pair = island.pairs[i];
       if (!pair.touched) continue;
+      in_order = in_order && (touching.empty() || last < pair.record.pair());
+      last = pair.record.pair();
       touch_of[group.pairs[i]] = static_cast<std::uint32_t>(touching.size());
-      touching.push_back(pair);
+      touching.push_back({pair.record, pair.remembered(), pair.seconds});
     }
   }
 
@@ -208,13 +212,14 @@ struct World<D>::StepIslands {
     world.work_.asleep = 0;
     if (world.config_.may_sleep && !(forces.gravitation > 0)) {
       Scratch<std::uint8_t> restless(moved.size()), held(moved.size());
-      for (const Touch<D>& touch : touching)
-        for (const BodyId id : {touch.record.a, touch.record.b}) {
-          held[root[place_of(id)]] = true;
-          const BodyId other = id == touch.record.a ? touch.record.b : touch.record.a;
-          if (!moved[place_of(id)].is_dynamic() && moved[place_of(id)].stirs())
-            restless[root[place_of(other)]] = true;
+      for (std::size_t k = 0; k < near.size(); ++k) {
+        if (touch_of[k] == kNone) continue;
+        const auto [a, b] = std::pair(near[k].a, near[k].b);
+        for (const std::uint32_t i : {a, b}) {
+          held[root[i]] = true;
+          if (!moved[i].is_dynamic() && moved[i].stirs()) restless[root[i == a ? b : a]] = true;
         }
+      }
       for (const auto& entry : world.joints_)
         for (const BodyId id : {entry.second.a, entry.second.b}) held[root[place_of(id)]] = true;
       for (std::size_t i = 0; i < moved.size(); ++i) {
@@ -245,10 +250,10 @@ struct World<D>::StepIslands {
     const auto rests = [&](BodyId id) {
       return !world.bodies_[place_of(id)].stirs() && !moved[place_of(id)].stirs();
     };
-    for (const Touch<D>& touch : world.touching_)
-      if (rests(touch.record.a) && rests(touch.record.b)) slept.push_back(touch);
-    const auto pair_of = [](const Touch<D>& touch) { return touch.record.pair(); };
-    if (slept.empty() && std::ranges::is_sorted(touching, {}, pair_of)) return;
+    if (std::ranges::any_of(world.bodies_, &Body<D>::asleep))
+      for (const Touch<D>& touch : world.touching_)
+        if (rests(touch.record.a) && rests(touch.record.b)) slept.push_back(touch);
+    if (slept.empty() && in_order) return;
     ordered.reserve(touching.size() + slept.size());
     auto next = slept.begin();
     for (std::size_t i = 0; i < near.size(); ++i) {
@@ -274,13 +279,11 @@ struct World<D>::StepIslands {
     pair.fast = from.fast;
     pair.located = from.located;
     pair.pressed = !from.located;
-    if (from.touch != nullptr) {
-      pair.memory = from.touch->memory;
-      pair.seconds = from.touch->seconds;
-    }
+    pair.before = from.touch;
     pair.record.a = moved[from.a].id;
     pair.record.b = moved[from.b].id;
-    if (from.manifold != kNone) pair.seen = &manifolds[from.manifold];
+    if (from.manifold != kNone) pair.found = &manifolds[from.manifold];
+    pair.look_back();
   }
 
   // Slow, and slow for another second if it is accelerated as in this step: a pendulum at its

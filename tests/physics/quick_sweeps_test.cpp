@@ -182,12 +182,8 @@ struct Swept {
     const auto fill_one = [&](Four& four, double lo, double hi) {
       fill(std::span(&four, 1), lo, hi);
     };
-    const auto fill_row = [&](QuickRow<D>& row) {
-      for (auto* fours : {&row.turn_a, &row.turn_b, &row.gained_a, &row.gained_b})
-        fill(*fours, -1, 1);
-    };
     const auto fill_impulse = [&](QuickImpulse& impulse, double lo) {
-      for (Four* four : {&impulse.now, &impulse.moved, &impulse.way}) fill_one(*four, lo, 1);
+      for (Four* four : {&impulse.now, &impulse.way}) fill_one(*four, lo, 1);
     };
     for (std::size_t g = 0; g < groups.size(); ++g) {
       QuickGroup<D>& group = groups[g];
@@ -196,15 +192,22 @@ struct Swept {
         group.a[i] = i < 3 ? static_cast<std::uint32_t>(8 * g) + i : 24;
         group.b[i] = i < 3 ? static_cast<std::uint32_t>(8 * g + 4) + i : 24;
       }
-      fill_one(group.friction, 0, 1);
-      if (g == 0) group.friction = {};
+      group.friction = group.inverse_mass_a = group.inverse_mass_b = {};
+      group.inertia_a = group.inertia_b = {};
+      group.normal = {};
+      group.across = {};
+      group.rubs = g != 0;
+      if (group.rubs) fill_one(group.friction, 0, 1);
+      fill(group.inertia_a, 0.5, 2);
+      fill(group.inertia_b, 0.5, 2);
       fill_one(group.inverse_mass_a, 0.5, 2);
       fill_one(group.inverse_mass_b, 0.5, 2);
       fill(group.normal, -1, 1);
       for (auto& across : group.across) fill(across, -1, 1);
       for (QuickPoint<D>& point : group.room) {
-        fill_row(point.normal);
-        for (auto& row : point.tangent) fill_row(row);
+        point = {};
+        fill(point.arm_a, -1, 1);
+        fill(point.arm_b, -1, 1);
         fill_one(point.normal_mass, 0.2, 1);
         fill_one(point.tangent_mass, 0.2, 1);
         fill_one(point.bias, -1, 1);
@@ -256,6 +259,129 @@ void same_on_every_processor() {
 TEST(QuickVectors, FindTheSameOnEveryProcessor) {
   same_on_every_processor<2>();
   same_on_every_processor<3>();
+}
+
+// One contact of a group, by what each number means.
+template <int D>
+struct PlainContact {
+  const QuickGroup<D>& group;
+  std::size_t lane;
+  std::array<SolverBody<D>, 2> bodies = {}, pushed = {};
+
+  Vec<D> vector(const std::array<Four, D>& fours) const {
+    Vec<D> v;
+    for (int i = 0; i < D; ++i) v[i] = fours[static_cast<std::size_t>(i)].lane[lane];
+    return v;
+  }
+  static SolverBody<D> body(const QuickBody<D>& from, std::size_t at) {
+    SolverBody<D> body;
+    for (std::size_t i = 0; i < D; ++i) body.velocity[static_cast<int>(i)] = from.motion[at + i];
+    for (std::size_t i = 0; i < QuickBody<D>::kSpin; ++i)
+      spin_component(body.spin, static_cast<int>(i)) = from.motion[at + D + i];
+    return body;
+  }
+  void resist(SolverBody<D>& body, const Four& mass,
+              const std::array<Four, QuickBody<D>::kInertia>& inertia) const {
+    body.inverse_mass = mass.lane[lane];
+    const auto at = [&](std::size_t i) { return inertia[i].lane[lane]; };
+    if constexpr (D == 2)
+      body.inverse_inertia = at(0);
+    else
+      body.inverse_inertia = Mat<3>(Vec<3>(at(0), at(3), at(4)), Vec<3>(at(3), at(1), at(5)),
+                                    Vec<3>(at(4), at(5), at(2)));
+  }
+  PlainContact(const QuickGroup<D>& g, std::size_t l, const std::vector<QuickBody<D>>& all)
+      : group(g), lane(l) {
+    for (auto* both : {&bodies, &pushed}) {
+      const std::size_t from = both == &bodies ? 0 : QuickBody<D>::kPushed;
+      *both = {body(all[group.a[lane]], from), body(all[group.b[lane]], from)};
+      resist((*both)[0], group.inverse_mass_a, group.inertia_a);
+      resist((*both)[1], group.inverse_mass_b, group.inertia_b);
+    }
+  }
+  Vec<D> slip(const std::array<SolverBody<D>, 2>& of, const QuickPoint<D>& p) const {
+    return relative_velocity(of[0], vector(p.arm_a), of[1], vector(p.arm_b));
+  }
+  void apply(std::array<SolverBody<D>, 2>& to, const QuickPoint<D>& p, const Vec<D>& impulse) {
+    to[0].apply(-impulse, vector(p.arm_a));
+    to[1].apply(impulse, vector(p.arm_b));
+  }
+
+  // As ContactRows solves them; returns the impulses.
+  std::vector<double> sweep() {
+    std::vector<double> impulses;
+    const Vec<D> normal = vector(group.normal);
+    std::vector<double> presses;
+    for (std::size_t i = 0; i < group.points; ++i) {
+      const QuickPoint<D>& p = group.room[i];
+      const double mass = p.normal_mass.lane[lane], old = p.pn.now.lane[lane];
+      const double speed = glm::dot(slip(bodies, p), normal);
+      const double apart = glm::dot(slip(pushed, p), normal);
+      const double pn = std::max(old + (p.bias.lane[lane] - speed) * mass, 0.0);
+      const double before = p.push.lane[lane];
+      const double push = std::max(before + (p.wanted_push.lane[lane] - apart) * mass, -pn);
+      apply(bodies, p, normal * (pn - old));
+      apply(pushed, p, normal * (push - before));
+      presses.push_back(pn);
+      impulses.insert(impulses.end(), {pn, push});
+    }
+    for (std::size_t i = 0; group.rubs && i < group.points; ++i) {
+      const QuickPoint<D>& p = group.room[i];
+      const double mass = p.tangent_mass.lane[lane];
+      const double most = group.friction.lane[lane] * presses[i];
+      const Vec<D> now = slip(bodies, p), now_pushed = slip(pushed, p);
+      std::array<double, D - 1> wanted{};
+      double square = 0;
+      for (std::size_t k = 0; k < D - 1; ++k) {
+        wanted[k] = p.pt[k].now.lane[lane] - glm::dot(now, vector(group.across[k])) * mass;
+        square += wanted[k] * wanted[k];
+      }
+      const double share = std::min(1.0, most / std::sqrt(square));
+      for (std::size_t k = 0; k < D - 1; ++k) {
+        const Vec<D> along = vector(group.across[k]);
+        apply(bodies, p, along * (wanted[k] * share - p.pt[k].now.lane[lane]));
+        if (share == 1) apply(pushed, p, -along * (glm::dot(now_pushed, along) * mass));
+        impulses.push_back(wanted[k] * share);
+      }
+    }
+    return impulses;
+  }
+};
+
+template <int D>
+void solves_as_rows_do() {
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    Swept<D> swept(seed);
+    swept.sweep.goes_on = false;
+    const Swept<D> before = swept;
+    quick_vectors<D>().front().sweep(swept.groups, swept.bodies.data(), swept.sweep);
+    for (std::size_t g = 0; g < before.groups.size(); ++g)
+      for (std::size_t lane = 0; lane + 1 < kQuickLanes; ++lane) {
+        const QuickGroup<D>& group = swept.groups[g];
+        PlainContact<D> plain(before.groups[g], lane, before.bodies);
+        const std::vector<double> impulses = plain.sweep();
+        auto impulse = impulses.begin();
+        for (std::size_t i = 0; i < group.points; ++i) {
+          EXPECT_NEAR(group.room[i].pn.now.lane[lane], *impulse++, 1e-12);
+          EXPECT_NEAR(group.room[i].push.lane[lane], *impulse++, 1e-12);
+        }
+        for (std::size_t i = 0; group.rubs && i < group.points; ++i)
+          for (std::size_t k = 0; k < D - 1; ++k)
+            EXPECT_NEAR(group.room[i].pt[k].now.lane[lane], *impulse++, 1e-12);
+        const PlainContact<D> found(group, lane, swept.bodies);
+        for (std::size_t i = 0; i < 2; ++i)
+          for (const auto& [x, y] : {std::pair(plain.bodies[i], found.bodies[i]),
+                                     std::pair(plain.pushed[i], found.pushed[i])}) {
+            EXPECT_LT(glm::length(x.velocity - y.velocity), 1e-11);
+            EXPECT_LT(std::sqrt(dot(x.spin - y.spin, x.spin - y.spin)), 1e-11);
+          }
+      }
+  }
+}
+
+TEST(QuickVectors, SolveContactsAsRowsDo) {
+  solves_as_rows_do<2>();
+  solves_as_rows_do<3>();
 }
 
 TEST(QuickOrder, LeadsEachBodyFromAboveDown) {

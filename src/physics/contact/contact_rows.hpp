@@ -59,27 +59,27 @@ struct RowSettings {
 inline constexpr RowSettings kRowSettings;
 
 template <int D>
-struct ContactPoint {
-  std::uint32_t feature = 0;
+struct ContactPoint {  // made in `set_points`; there is room for more of them than there are
+  std::uint32_t feature;
   // From a body's centre to its surface: what turns with it (in its own axes) and what does not (a
   // ball that rolls keeps its lowest point).
-  Vec<D> core_a{0.0}, core_b{0.0}, round_a{0.0}, round_b{0.0};
-  Vec<D> arm_a{0.0}, arm_b{0.0};  // to the point where impulses act, in the world's axes
-  double share = 0.5;             // where impulses act, from a's surface (0) to b's (1)
-  double offset = 0;              // of the separation, against what the arms say
-  double separation = 0;
-  double gap = 0;                   // the same while they do not touch, else 0
-  double inverse_normal_mass = 0;   // effective
-  double inverse_tangent_mass = 0;  // in the direction in which it is largest
-  Vec<D> coupling{0.0};             // slip by a normal impulse of 1, where that is much
-  double pn = 0;                    // normal impulse of this sub-step, N s
-  Vec<D> pt{0.0};                   // friction impulse of this sub-step
-  double bounce = 0;                // wanted speed of parting
-  Vec<D> slip{0.0};                 // across the normal, before this sub-step's forces
-  Vec<D> kicked_slip{0.0};          // and after them
-  Vec<D> wanted_slip{0.0};          // mean over this sub-step, if it sticks
-  double correction = 0;            // impulse that pushes out penetration, along the normal
-  bool sticks = false;
+  Vec<D> core_a, core_b, round_a, round_b;
+  Vec<D> arm_a, arm_b;  // to the point where impulses act, in the world's axes
+  double share;         // where impulses act, from a's surface (0) to b's (1)
+  double offset;        // of the separation, against what the arms say
+  double separation;
+  double gap;                   // the same while they do not touch, else 0
+  double inverse_normal_mass;   // effective
+  double inverse_tangent_mass;  // in the direction in which it is largest
+  Vec<D> coupling;              // slip by a normal impulse of 1, where that is much
+  double pn;                    // normal impulse of this sub-step, N s
+  Vec<D> pt;                    // friction impulse of this sub-step
+  double bounce;                // wanted speed of parting
+  Vec<D> slip;                  // across the normal, before this sub-step's forces
+  Vec<D> kicked_slip;           // and after them
+  Vec<D> wanted_slip;           // mean over this sub-step, if it sticks
+  double correction;            // impulse that pushes out penetration, along the normal
+  bool sticks;
 
   // The mean speed of parting, over `h` seconds, that a point which presses should have.
   double wanted_mean_speed(double h) const {
@@ -106,6 +106,8 @@ struct ContactRows {
   std::array<ContactPoint<D>, Manifold<D>::kMostPoints> room;
   int count = 0;
 
+  ContactRows() {}  // NOLINT: room that nobody reads is not cleared
+
   std::span<ContactPoint<D>> points() { return {room.data(), static_cast<std::size_t>(count)}; }
   std::span<const ContactPoint<D>> points() const {
     return {room.data(), static_cast<std::size_t>(count)};
@@ -115,22 +117,34 @@ struct ContactRows {
   void set_points(const Manifold<D>& manifold, const Body<D>& body_a, const Body<D>& body_b,
                   const Mat<D>& axes_a, const Mat<D>& axes_b, const Contact<D>* remembered,
                   double scale) {
+    const Solid solid_a = solid_of(body_a.shape), solid_b = solid_of(body_b.shape);
     normal = manifold.normal;
     count = manifold.count;
     shallow = kRowSettings.shallow * thinner(body_a, body_b);
     for (int i = 0; i < manifold.count; ++i) {
       const auto at = static_cast<std::size_t>(i);
       const ManifoldPoint<D>& from = manifold.room[at];
-      ContactPoint<D>& p = room[at] = {};
+      ContactPoint<D>& p = room[at];
       p.feature = from.feature;
-      p.round_a = normal * roundness(body_a.shape);
-      p.round_b = normal * -roundness(body_b.shape);
+      p.separation = p.gap = p.inverse_normal_mass = p.inverse_tangent_mass = 0;
+      p.pn = p.bounce = p.correction = 0;
+      p.arm_a = p.arm_b = p.pt = p.slip = p.kicked_slip = p.wanted_slip = Vec<D>(0.0);
+      p.sticks = false;
+      p.round_a = normal * solid_a.radius;
+      p.round_b = normal * -solid_b.radius;
       const Vec<D> half_gap = normal * (from.separation / 2);
       const Vec<D> to_a = from.position - half_gap - body_a.position;
       const Vec<D> to_b = from.position + half_gap - body_b.position;
       p.core_a = (to_a - p.round_a) * axes_a;  // a vector times a matrix: by its inverse
       p.core_b = (to_b - p.round_b) * axes_b;
-      p.share = where_impulses_act(body_a, p.core_a, body_b, p.core_b);
+      // While bodies slide or roll on each other, the corner (or the round side) of one of them
+      // moves over the face of the other: where it is now, they touch. Where edges cross it is half
+      // way.
+      const bool corner_a = solid_a.is_corner(p.core_a), corner_b = solid_b.is_corner(p.core_b);
+      p.share = corner_a != corner_b       ? (corner_b ? 1 : 0)
+                : body_a.inverse_mass == 0 ? 1
+                : body_b.inverse_mass == 0 ? 0
+                                           : 0.5;
       p.offset =
           from.separation - glm::dot(normal, (body_b.position - body_a.position) + to_b - to_a);
     }
@@ -143,6 +157,7 @@ struct ContactRows {
   void refresh(const Body<D>& body_a, const Body<D>& body_b, const Mat<D>& axes_a,
                const Mat<D>& axes_b, const SolverBody<D>& solver_a, const SolverBody<D>& solver_b,
                double threshold, double touching) {
+    const auto along = tangents(normal);
     for (ContactPoint<D>& p : points()) {
       const Vec<D> to_a = axes_a * p.core_a + p.round_a, to_b = axes_b * p.core_b + p.round_b;
       const Vec<D> gap = (body_b.position - body_a.position) + to_b - to_a;
@@ -152,7 +167,7 @@ struct ContactRows {
       p.arm_b = to_b - gap * (1 - p.share);
       p.inverse_normal_mass = inverse_effective_mass(solver_a, p.arm_a, solver_b, p.arm_b, normal);
       if (friction > 0) {
-        p.inverse_tangent_mass = softest(solver_a, solver_b, p);
+        p.inverse_tangent_mass = softest(solver_a, solver_b, p, along);
         p.coupling = coupling(solver_a, solver_b, p);
       }
       const Vec<D> velocity = relative_velocity(solver_a, p.arm_a, solver_b, p.arm_b);
@@ -316,43 +331,34 @@ struct ContactRows {
 
   Vec<D> across(const Vec<D>& v) const { return v - normal * glm::dot(v, normal); }
 
-  // How far the surface is from the part of the body that turns.
-  static double roundness(const Shape<D>& shape) {
-    return visit_shape<D>(
-        shape, [](const Core<D>& core) { return core.radius; },
-        [](const HalfSpace<D>&) { return 0.0; });
-  }
+  // A body's core.
+  struct Solid {
+    Vec<D> half{0.0};
+    double radius = 0;  // how far the surface is from the part of the body that turns
+    double near = -1;   // so near to a corner of the core is at it; a half-space has none
 
-  // Whether a point of a body's core, in its own axes, is one of its corners: a sphere's centre, an
-  // end of a capsule's segment.
-  static bool is_corner(const Shape<D>& shape, const Vec<D>& point) {
+    // Of a point in the body's own axes. A sphere's centre is one, an end of a capsule's segment.
+    bool is_corner(const Vec<D>& point) const {
+      for (int i = 0; i < D; ++i)
+        if (std::abs(std::abs(point[i]) - half[i]) > near) return false;
+      return true;
+    }
+  };
+  static Solid solid_of(const Shape<D>& shape) {
     return visit_shape<D>(
         shape,
-        [&](const Core<D>& core) {
+        [](const Core<D>& core) {
           double size = core.radius;
           for (int i = 0; i < D; ++i) size = std::max(size, core.half[i]);
-          for (int i = 0; i < D; ++i)
-            if (std::abs(std::abs(point[i]) - core.half[i]) > kRowSettings.corner * size)
-              return false;
-          return true;
+          return Solid{core.half, core.radius, kRowSettings.corner * size};
         },
-        [](const HalfSpace<D>&) { return false; });
-  }
-
-  // While bodies slide or roll on each other, the corner (or the round side) of one of them moves
-  // over the face of the other: where it is now, they touch. Where edges cross it is half way.
-  static double where_impulses_act(const Body<D>& a, const Vec<D>& core_a, const Body<D>& b,
-                                   const Vec<D>& core_b) {
-    const bool corner_a = is_corner(a.shape, core_a), corner_b = is_corner(b.shape, core_b);
-    if (corner_a != corner_b) return corner_b ? 1 : 0;
-    return a.inverse_mass == 0 ? 1 : b.inverse_mass == 0 ? 0 : 0.5;
+        [](const HalfSpace<D>&) { return Solid{}; });
   }
 
   // The inverse of the least effective mass across the normal. With it a sweep never overshoots,
   // and where it stops, friction points exactly against the slip.
-  double softest(const SolverBody<D>& body_a, const SolverBody<D>& body_b,
-                 const ContactPoint<D>& p) const {
-    const auto along = tangents(normal);
+  double softest(const SolverBody<D>& body_a, const SolverBody<D>& body_b, const ContactPoint<D>& p,
+                 const std::array<Vec<D>, D - 1>& along) const {
     if constexpr (D == 2) {
       return inverse_effective_mass(body_a, p.arm_a, body_b, p.arm_b, along[0]);
     } else {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -18,16 +19,22 @@
 
 namespace lantern::physics {
 
-// The state of a body as constraints see it.
+// The state of a body as constraints see it; `axes` are its own.
 template <int D>
-SolverBody<D> solver_body_of(const Body<D>& body) {
+SolverBody<D> solver_body_of(const Body<D>& body, const Mat<D>& axes) {
   SolverBody<D> solved;
-  solved.velocity = body.moves() ? body.velocity : Vec<D>(0.0);
-  if (body.asleep) solved.velocity = Vec<D>(0.0);
-  if (turns<D>(body.shape) && body.moves()) solved.spin = angular_velocity(body);
-  if (!body.is_pushed()) return solved;
+  if (body.moves() && !body.asleep) solved.velocity = body.velocity;
+  if (!body.is_dynamic()) {
+    if (turns<D>(body.shape)) solved.spin = body.kinematic_spin;
+    return solved;
+  }
+  const bool turning = turns<D>(body.shape);
+  const Inertia<D> inverse =
+      turning ? world_inverse_inertia(body, axes) : world_inverse_inertia(body);
+  if (turning) solved.spin = inverse * body.angular_momentum;
+  if (body.asleep) return solved;
   solved.inverse_mass = body.inverse_mass;
-  if (body.inverse_inertia != Spin<D>(0.0)) solved.inverse_inertia = world_inverse_inertia(body);
+  if (body.inverse_inertia != Spin<D>(0.0)) solved.inverse_inertia = inverse;
   return solved;
 }
 
@@ -54,6 +61,7 @@ double way_of(const Body<D>& a, const Body<D>& b, double h) {
 // Two bodies that may touch during the step.
 template <int D>
 struct IslandPair : Touch<D> {  // what it remembers, and what the step tells
+  IslandPair() {}               // NOLINT: see ContactRows
   ContactRows<D> rows;
   double fast = 0;       // what goes farther in a step is located
   bool located = false;  // bouncing or fast: their impacts are located in time
@@ -62,8 +70,25 @@ struct IslandPair : Touch<D> {  // what it remembers, and what the step tells
   double slow = 0;       // approaches slower than this are no impacts
   double reach = 0;      // how near they must be to be looked at
   bool touched = false;
-  const Manifold<D>* seen = nullptr;  // how they lie, within `reach`; null once they have moved
+  const Manifold<D>* seen = nullptr;   // how they lie, within `reach`; null once they have moved
+  const Manifold<D>* found = nullptr;  // the same when the step began
+  const Touch<D>* before = nullptr;    // what the step before remembers, if they touched in it
+  bool renewed = false;                // the memory is of this step
 
+  // As if nothing of the step had been yet.
+  void begin() {
+    this->record = {.a = this->record.a, .b = this->record.b, .manifold = {}};
+    touched = renewed = false;
+    rows.count = 0;
+    look_back();
+  }
+  void look_back() {
+    this->seconds = before ? before->seconds : 0;
+    seen = found;
+  }
+  const Contact<D>& remembered() const {
+    return renewed || !before ? this->memory : before->memory;
+  }
   bool may_press() const { return rows.count > 0; }
   void record_impulses() {
     for (std::size_t i = 0; i < rows.points().size(); ++i) {
@@ -86,20 +111,30 @@ struct Island {
   double joint_seconds = 0;
 
   // Scratch, kept for its memory.
-  Scratch<Mat<D>> axes;  // of the bodies where they are
+  Scratch<Mat<D>> axes;               // of the bodies where they are
+  Scratch<Rotation<D>> orientations;  // that the axes are of
   Scratch<SolverBody<D>> solver_bodies;
   Scratch<Increment<D>> increments;
   Scratch<Motion<D>> kicked;  // after the forces, before the constraints
   JointBlock<D> joint_block;
 
+  // Only of those that have turned since they were asked for last.
   void find_axes() {
-    axes.clear();
-    for (const Body<D>& body : bodies) axes.push_back(axes_of(body));
+    const bool known = axes.size() == bodies.size();
+    axes.resize(bodies.size());
+    orientations.resize(bodies.size());
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      if (known && std::memcmp(&orientations[i], &bodies[i].orientation, sizeof(Rotation<D>)) == 0)
+        continue;
+      axes[i] = axes_of(bodies[i]);
+      orientations[i] = bodies[i].orientation;
+    }
   }
   void set_solver_bodies() {
     find_axes();
     solver_bodies.clear();
-    for (const Body<D>& body : bodies) solver_bodies.push_back(solver_body_of(body));
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+      solver_bodies.push_back(solver_body_of(bodies[i], axes[i]));
   }
 
   // As the narrow phase sees the body where `find_axes` was asked last.

@@ -147,10 +147,14 @@ class QuickSweeps {
   static constexpr std::size_t kTangents = D - 1;
   static constexpr double kFewest = 10, kEach = 0.4;  // sweeps, and for each body of a stack
 
-  // Of a vector, a spin or a motion.
+  // Of a vector or a motion, and of an inertia.
   template <class T>
   static auto numbers_of(const T& x) {
     return std::bit_cast<std::array<double, sizeof(T) / sizeof(double)>>(x);
+  }
+  static std::array<double, 1> numbers_of_inertia(double x) { return {x}; }
+  static std::array<double, 6> numbers_of_inertia(const Mat<3>& m) {
+    return {m[0][0], m[1][1], m[2][2], m[0][1], m[0][2], m[1][2]};
   }
   static void set(auto& to, std::size_t lane, const auto& value) {
     for (std::size_t i = 0; i < to.size(); ++i) to[i].lane[lane] = numbers_of(value)[i];
@@ -193,7 +197,11 @@ class QuickSweeps {
       if (order_.is_full(i)) {
         for (std::size_t k = 0; k < most; ++k) group.room[k].push = {};
       } else {
-        group = {};
+        for (std::size_t k = 0; k < most; ++k) group.room[k] = {};
+        group.friction = group.inverse_mass_a = group.inverse_mass_b = {};
+        group.inertia_a = group.inertia_b = {};
+        group.normal = {};
+        group.across = {};
         group.a.fill(static_cast<std::uint32_t>(island.bodies.size()));
         group.b = group.a;
       }
@@ -227,25 +235,17 @@ class QuickSweeps {
     group.friction.lane[lane] = rows.friction;
     group.inverse_mass_a.lane[lane] = a.inverse_mass;
     group.inverse_mass_b.lane[lane] = b.inverse_mass;
+    set(group.inertia_a, lane, numbers_of_inertia(a.inverse_inertia));
+    set(group.inertia_b, lane, numbers_of_inertia(b.inverse_inertia));
     const std::array<Vec<D>, kTangents> across = tangents(rows.normal);
     set(group.normal, lane, rows.normal);
     for (std::size_t k = 0; k < kTangents; ++k) set(group.across[k], lane, across[k]);
-    // Sets a row, along which there are an impulse and a push to begin with.
-    const auto set_row = [&](const ContactPoint<D>& p, const Vec<D>& direction, QuickRow<D>& to,
-                             double begins, double push) {
-      const Spin<D> turn_a = cross(p.arm_a, direction), turn_b = cross(p.arm_b, direction);
-      const Spin<D> gained_a = a.inverse_inertia * turn_a, gained_b = b.inverse_inertia * turn_b;
-      set(to.turn_a, lane, turn_a);
-      set(to.turn_b, lane, turn_b);
-      set(to.gained_a, lane, gained_a);
-      set(to.gained_b, lane, gained_b);
-      const auto begin = [&](std::size_t from, double x) {
-        if (x == 0) return;
-        add(bodies_[rows.a], from, {-direction * (x * a.inverse_mass), -gained_a * x});
-        add(bodies_[rows.b], from, {direction * (x * b.inverse_mass), gained_b * x});
-      };
-      begin(0, begins);
-      begin(Body::kPushed, push);
+    const auto begin_with = [&](const ContactPoint<D>& p, const Vec<D>& impulse, std::size_t from) {
+      if (impulse == Vec<D>(0.0)) return;
+      add(bodies_[rows.a], from,
+          {-impulse * a.inverse_mass, -(a.inverse_inertia * cross(p.arm_a, impulse))});
+      add(bodies_[rows.b], from,
+          {impulse * b.inverse_mass, b.inverse_inertia * cross(p.arm_b, impulse)});
     };
     for (std::size_t i = 0; i < rows.points().size(); ++i) {
       const ContactPoint<D>& p = rows.room[i];
@@ -259,12 +259,13 @@ class QuickSweeps {
       double& push = point.push.lane[lane];
       push = std::max(push * (1 - kRowSettings.pushed_out), -p.pn);
       point.pn.now.lane[lane] = p.pn;
-      set_row(p, rows.normal, point.normal, p.pn, push);
+      set(point.arm_a, lane, p.arm_a);
+      set(point.arm_b, lane, p.arm_b);
+      begin_with(p, rows.normal * p.pn + p.pt, 0);
+      begin_with(p, rows.normal * push, Body::kPushed);
       point.tangent_mass.lane[lane] = inverse(p.inverse_tangent_mass);
-      for (std::size_t k = 0; k < kTangents; ++k) {
+      for (std::size_t k = 0; k < kTangents; ++k)
         point.pt[k].now.lane[lane] = glm::dot(p.pt, across[k]);
-        set_row(p, across[k], point.tangent[k], point.pt[k].now.lane[lane], 0);
-      }
     }
   }
 
@@ -350,7 +351,10 @@ class QuickSweeps {
   void bring_back(ContactRows<D>& rows, const QuickGroup<D>& group, std::size_t lane, double share,
                   Island<D>& island) {
     SolverBody<D>&a = island.solver_bodies[rows.a], &b = island.solver_bodies[rows.b];
-    const std::array<Vec<D>, kTangents> across = tangents(rows.normal);
+    std::array<Vec<D>, kTangents> across;
+    for (std::size_t k = 0; k < kTangents; ++k)
+      for (int i = 0; i < D; ++i)
+        across[k][i] = group.across[k][static_cast<std::size_t>(i)].lane[lane];
     for (std::size_t i = 0; i < rows.points().size(); ++i) {
       ContactPoint<D>& p = rows.room[i];
       const QuickPoint<D>& point = group.room[i];

@@ -81,58 +81,62 @@ class Contacts {
   HWY_INLINE void SolveNormal(QuickPoint<D>& p, const QuickSweep& sweep, Vector& largest,
                               Vector& squared) {
     const Vector mass = Get(p.normal_mass, lane_);
-    const Vector old = Begin(p.pn, sweep), speed = Speed<0>(group_.normal, p.normal);
-    const Vector pushed = Speed<QuickBody<D>::kPushed>(group_.normal, p.normal);
+    Vector way;
+    const Vector old = Begin(p.pn, sweep, way), speed = Along(group_.normal, Slip<0>(p));
+    const Vector pushed = Along(group_.normal, Slip<QuickBody<D>::kPushed>(p));
     const Vector pn = hn::Max(old + (Get(p.bias, lane_) - speed) * mass, Zero());
     const Vector old_push = Get(p.push, lane_);
     const Vector push =
         hn::Max(old_push + (Get(p.wanted_push, lane_) - pushed) * mass, hn::Neg(pn));
-    End(p.pn, pn, pn - old, mass, largest, squared);
+    End(p.pn, pn, pn - old, way, mass, largest, squared);
     Put(push, p.push, lane_);
-    Apply<0>(group_.normal, p.normal, pn - old);
-    Apply<QuickBody<D>::kPushed>(group_.normal, p.normal, push - old_push);
+    Apply<0>(p, Times(group_.normal, pn - old));
+    Apply<QuickBody<D>::kPushed>(p, Times(group_.normal, push - old_push));
   }
 
   // What sticks is not pushed along, either. Counts the rows of points that press.
   HWY_INLINE void SolveFriction(QuickPoint<D>& p, QuickSweep& sweep, Vector& largest,
                                 Vector& squared) {
-    Vector old[D - 1], wanted[D - 1], hold[D - 1];
+    Vector old[D - 1], way[D - 1], wanted[D - 1], hold[D - 1];
     const Vector mass = Get(p.tangent_mass, lane_);
     const Vector most = Get(group_.friction, lane_) * Get(p.pn.now, lane_);
     Vector length = Zero();
     Mask presses = hn::Gt(most, Zero());
+    const Arrow slip = Slip<0>(p), pushed = Slip<QuickBody<D>::kPushed>(p);
     for (std::size_t k = 0; k < D - 1; ++k) {
-      old[k] = Begin(p.pt[k], sweep);
+      old[k] = Begin(p.pt[k], sweep, way[k]);
       presses = hn::Or(presses, hn::Ne(old[k], Zero()));
-      wanted[k] = old[k] - Speed<0>(group_.across[k], p.tangent[k]) * mass;
-      hold[k] = hn::Neg(Speed<QuickBody<D>::kPushed>(group_.across[k], p.tangent[k]) * mass);
+      wanted[k] = old[k] - Along(group_.across[k], slip) * mass;
+      hold[k] = hn::Neg(Along(group_.across[k], pushed) * mass);
       length = D == 2 ? hn::Abs(wanted[k]) : length + wanted[k] * wanted[k];
     }
     if constexpr (D == 3) length = hn::Sqrt(length);
     sweep.friction_rows += hn::CountTrue(Lanes(), presses) * (D - 1);
     const Mask sticks = hn::And(hn::Le(length, most), presses);
+    Arrow by{}, by_push{};
     for (std::size_t k = 0; k < D - 1; ++k) {
       const Vector kept =
           D == 2 ? hn::Max(hn::Min(wanted[k], most), hn::Neg(most))
                  : hn::IfThenElse(hn::Le(length, most), wanted[k], wanted[k] * (most / length));
-      End(p.pt[k], kept, kept - old[k], mass, largest, squared);
-      Apply<0>(group_.across[k], p.tangent[k], kept - old[k]);
-      Apply<QuickBody<D>::kPushed>(group_.across[k], p.tangent[k],
-                                   hn::IfThenElseZero(sticks, hold[k]));
+      End(p.pt[k], kept, kept - old[k], way[k], mass, largest, squared);
+      AddTo(by, group_.across[k], kept - old[k]);
+      AddTo(by_push, group_.across[k], hn::IfThenElseZero(sticks, hold[k]));
     }
+    Apply<0>(p, by);
+    Apply<QuickBody<D>::kPushed>(p, by_push);
   }
 
   HWY_INLINE void AddWork(const QuickPoint<D>& p, Vector& before, Vector& after,
                           Vector& wanted) const {
-    const auto add = [&](const Four& impulse, const std::array<Four, D>& direction,
-                         const QuickRow<D>& row) HWY_ATTR {
-      const Vector size = Get(impulse, lane_);
-      before = before + size * Speed<0>(direction, row);
-      after = after + size * Speed<QuickBody<D>::kPushed>(direction, row);
-    };
     wanted = wanted + Get(p.pn.now, lane_) * Get(p.bias, lane_);
-    add(p.pn.now, group_.normal, p.normal);
-    for (std::size_t k = 0; k < D - 1; ++k) add(p.pt[k].now, group_.across[k], p.tangent[k]);
+    Arrow impulse = Times(group_.normal, Get(p.pn.now, lane_));
+    for (std::size_t k = 0; k < D - 1; ++k)
+      AddTo(impulse, group_.across[k], Get(p.pt[k].now, lane_));
+    const Arrow slip = Slip<0>(p), pushed = Slip<QuickBody<D>::kPushed>(p);
+    for (std::size_t i = 0; i < D; ++i) {
+      before = before + impulse.at[i] * slip.at[i];
+      after = after + impulse.at[i] * pushed.at[i];
+    }
   }
 
   HWY_INLINE void Store(QuickBody<D>* bodies) {
@@ -141,51 +145,83 @@ class Contacts {
   }
 
  private:
-  HWY_INLINE Vector Begin(QuickImpulse& impulse, const QuickSweep& sweep) const {
-    if (!sweep.goes_on) {
-      Put(Zero(), impulse.way, lane_);
-      return Get(impulse.now, lane_);
-    }
-    const Vector gone =
-        hn::Set(Lanes(), sweep.beta) * (Get(impulse.way, lane_) + Get(impulse.moved, lane_));
-    Put(gone, impulse.way, lane_);
-    return Get(impulse.now, lane_) + gone;
+  struct Arrow {  // of each contact one
+    Vector at[D];
+  };
+  HWY_INLINE Arrow Times(const std::array<Four, D>& direction, Vector size) const {
+    Arrow product;
+    for (std::size_t i = 0; i < D; ++i) product.at[i] = Get(direction[i], lane_) * size;
+    return product;
   }
-  HWY_INLINE void End(QuickImpulse& impulse, Vector now, Vector moved, Vector mass, Vector& largest,
-                      Vector& squared) const {
+  HWY_INLINE void AddTo(Arrow& sum, const std::array<Four, D>& direction, Vector size) const {
+    for (std::size_t i = 0; i < D; ++i) sum.at[i] = sum.at[i] + Get(direction[i], lane_) * size;
+  }
+
+  HWY_INLINE Vector Begin(const QuickImpulse& impulse, const QuickSweep& sweep, Vector& way) const {
+    const Vector now = Get(impulse.now, lane_);
+    way = sweep.goes_on ? hn::Set(Lanes(), sweep.beta) * Get(impulse.way, lane_) : Zero();
+    return sweep.goes_on ? now + way : now;
+  }
+  HWY_INLINE void End(QuickImpulse& impulse, Vector now, Vector moved, Vector way, Vector mass,
+                      Vector& largest, Vector& squared) const {
     Put(now, impulse.now, lane_);
-    Put(moved, impulse.moved, lane_);
+    Put(way + moved, impulse.way, lane_);
     largest = hn::Max(largest, hn::Abs(moved) / hn::Max(mass, hn::Set(Lanes(), 1e-300)));
     squared = squared + moved * moved;
   }
 
-  template <std::size_t kFrom>
-  HWY_INLINE Vector Speed(const std::array<Four, D>& direction, const QuickRow<D>& row) const {
-    Vector along = (b_.at[kFrom] - a_.at[kFrom]) * Get(direction[0], lane_);
-    for (std::size_t i = 1; i < D; ++i)
-      along = along + (b_.at[kFrom + i] - a_.at[kFrom + i]) * Get(direction[i], lane_);
-    Vector turning_b = Get(row.turn_b[0], lane_) * b_.at[kFrom + D];
-    Vector turning_a = Get(row.turn_a[0], lane_) * a_.at[kFrom + D];
-    for (std::size_t i = 1; i < QuickBody<D>::kSpin; ++i) {
-      turning_b = turning_b + Get(row.turn_b[i], lane_) * b_.at[kFrom + D + i];
-      turning_a = turning_a + Get(row.turn_a[i], lane_) * a_.at[kFrom + D + i];
-    }
-    return along + (turning_b - turning_a);
+  HWY_INLINE Vector Along(const std::array<Four, D>& direction, const Arrow& v) const {
+    Vector sum = v.at[0] * Get(direction[0], lane_);
+    for (std::size_t i = 1; i < D; ++i) sum = sum + v.at[i] * Get(direction[i], lane_);
+    return sum;
   }
 
+  // The velocity of a point of a body.
+  HWY_INLINE Arrow VelocityAt(const Vector* motion, const std::array<Four, D>& arm) const {
+    const Vector* spin = motion + D;
+    const Vector x = Get(arm[0], lane_), y = Get(arm[1], lane_);
+    if constexpr (D == 2) {
+      return {{motion[0] - spin[0] * y, motion[1] + spin[0] * x}};
+    } else {
+      const Vector z = Get(arm[2], lane_);
+      return {{motion[0] + (spin[1] * z - spin[2] * y), motion[1] + (spin[2] * x - spin[0] * z),
+               motion[2] + (spin[0] * y - spin[1] * x)}};
+    }
+  }
   template <std::size_t kFrom>
-  HWY_INLINE void Apply(const std::array<Four, D>& direction, const QuickRow<D>& row,
-                        Vector impulse) {
-    const Vector share_a = impulse * Get(group_.inverse_mass_a, lane_);
-    const Vector share_b = impulse * Get(group_.inverse_mass_b, lane_);
-    for (std::size_t i = 0; i < D; ++i) {
-      a_.at[kFrom + i] = a_.at[kFrom + i] - Get(direction[i], lane_) * share_a;
-      b_.at[kFrom + i] = b_.at[kFrom + i] + Get(direction[i], lane_) * share_b;
+  HWY_INLINE Arrow Slip(const QuickPoint<D>& p) const {
+    const Arrow a = VelocityAt(a_.at + kFrom, p.arm_a), b = VelocityAt(b_.at + kFrom, p.arm_b);
+    Arrow slip;
+    for (std::size_t i = 0; i < D; ++i) slip.at[i] = b.at[i] - a.at[i];
+    return slip;
+  }
+
+  // How an impulse at a point changes the motion of a body.
+  HWY_INLINE void Move(Vector* motion, const std::array<Four, D>& arm, const Four& inverse_mass,
+                       const std::array<Four, QuickBody<D>::kInertia>& inertia,
+                       const Arrow& by) const {
+    const auto inverse = [&](std::size_t i) HWY_ATTR { return Get(inertia[i], lane_); };
+    for (std::size_t i = 0; i < D; ++i) motion[i] = motion[i] + by.at[i] * Get(inverse_mass, lane_);
+    Vector* spin = motion + D;
+    const Vector x = Get(arm[0], lane_), y = Get(arm[1], lane_);
+    const Vector turn = x * by.at[1] - y * by.at[0];
+    if constexpr (D == 2) {
+      spin[0] = spin[0] + inverse(0) * turn;
+    } else {
+      const Vector z = Get(arm[2], lane_);
+      const Vector turn_x = y * by.at[2] - z * by.at[1], turn_y = z * by.at[0] - x * by.at[2];
+      spin[0] = spin[0] + (inverse(0) * turn_x + inverse(3) * turn_y + inverse(4) * turn);
+      spin[1] = spin[1] + (inverse(3) * turn_x + inverse(1) * turn_y + inverse(5) * turn);
+      spin[2] = spin[2] + (inverse(4) * turn_x + inverse(5) * turn_y + inverse(2) * turn);
     }
-    for (std::size_t i = 0; i < QuickBody<D>::kSpin; ++i) {
-      a_.at[kFrom + D + i] = a_.at[kFrom + D + i] - Get(row.gained_a[i], lane_) * impulse;
-      b_.at[kFrom + D + i] = b_.at[kFrom + D + i] + Get(row.gained_b[i], lane_) * impulse;
-    }
+  }
+  // An impulse upon b, and the opposite one upon a.
+  template <std::size_t kFrom>
+  HWY_INLINE void Apply(const QuickPoint<D>& p, const Arrow& by) {
+    Arrow back;
+    for (std::size_t i = 0; i < D; ++i) back.at[i] = hn::Neg(by.at[i]);
+    Move(a_.at + kFrom, p.arm_a, group_.inverse_mass_a, group_.inertia_a, back);
+    Move(b_.at + kFrom, p.arm_b, group_.inverse_mass_b, group_.inertia_b, by);
   }
 
   const QuickGroup<D>& group_;

@@ -19,7 +19,7 @@ namespace lantern::physics {
 
 inline constexpr std::size_t kQuickLanes = 4;
 struct alignas(kQuickLanes * sizeof(double)) Four {  // of each contact in the group one number
-  std::array<double, kQuickLanes> lane{};
+  std::array<double, kQuickLanes> lane;
   double sum() const { return (lane[0] + lane[1]) + (lane[2] + lane[3]); }
 };
 
@@ -27,24 +27,20 @@ struct alignas(kQuickLanes * sizeof(double)) Four {  // of each contact in the g
 // 2D each with one number more, so that a vector holds it.
 template <int D>
 struct QuickBody {
-  static constexpr std::size_t kSpin = D == 2 ? 1 : 3;      // numbers of a spin
+  static constexpr std::size_t kSpin = D == 2 ? 1 : 3;      // numbers of a spin,
+  static constexpr std::size_t kInertia = D == 2 ? 1 : 6;   // of an inertia: xx yy zz xy xz yz
   static constexpr std::size_t kPushed = D == 2 ? 4 : 6;    // where what pushes begins
   static constexpr std::size_t kNumbers = D == 2 ? 8 : 12;  // in all
   alignas(Four) std::array<double, kNumbers> motion{};
 };
 
-template <int D>
-struct QuickRow {  // how a unit impulse along it turns the bodies
-  std::array<Four, QuickBody<D>::kSpin> turn_a, turn_b, gained_a, gained_b;
-};
 struct QuickImpulse {
-  Four now, moved;  // by the last sweep,
-  Four way;         // and by going on before it
+  Four now;
+  Four way;  // by the last sweep, and by going on before it
 };
 template <int D>
 struct QuickPoint {
-  QuickRow<D> normal;
-  std::array<QuickRow<D>, D - 1> tangent;
+  std::array<Four, D> arm_a, arm_b;
   Four normal_mass, tangent_mass;  // effective; 0 where there is no such row
   Four bias;                       // wanted speed of parting
   Four wanted_push, push;
@@ -54,10 +50,14 @@ struct QuickPoint {
 template <int D>
 struct QuickGroup {
   static constexpr std::size_t kMostPoints = Manifold<D>::kMostPoints;
-  std::array<std::uint32_t, kQuickLanes> a{}, b{};  // bodies
-  std::size_t points = 0;                           // of the contact that has most
-  bool rubs = false;                                // any of them has friction
+
+  QuickGroup() {}  // NOLINT: what nobody reads is not cleared, it is much
+
+  std::array<std::uint32_t, kQuickLanes> a, b;  // bodies
+  std::size_t points;                           // of the contact that has most
+  bool rubs;                                    // any of them has friction
   Four friction, inverse_mass_a, inverse_mass_b;
+  std::array<Four, QuickBody<D>::kInertia> inertia_a, inertia_b;  // inverse
   std::array<Four, D> normal;
   std::array<std::array<Four, D>, D - 1> across;
   std::array<QuickPoint<D>, kMostPoints> room;
@@ -68,14 +68,14 @@ struct QuickSweep {
   // Whether impulses, before the sweep, go on as they have moved, and by how much of that.
   bool goes_on = false;
   double beta = 0;
-  Four largest;  // change of a relative speed
-  Four squared;  // change of impulses
+  Four largest{};  // change of a relative speed
+  Four squared{};  // change of impulses
   std::uint64_t friction_rows = 0;
 };
 // Work of all impulses, in proportion: by the relative velocities before them, after them, and
 // those that are wanted.
 struct QuickWork {
-  Four before, after, wanted;
+  Four before{}, after{}, wanted{};
 };
 
 template <int D>

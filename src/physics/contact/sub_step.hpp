@@ -355,7 +355,7 @@ class SubSteps {
       }
       const double seconds = pair.seconds;
       const double scale = seconds > 0 ? rescaled(scale_to, seconds) : 0;
-      island_.find_points(pair, pair.reach, seconds > 0 ? &pair.memory : nullptr, scale,
+      island_.find_points(pair, pair.reach, seconds > 0 ? &pair.remembered() : nullptr, scale,
                           move_.work);
     }
   }
@@ -379,6 +379,7 @@ class SubSteps {
       auto& [record, memory, seconds] = static_cast<Touch<D>&>(pair);
       seconds = pair.rows.count > 0 ? h : 0;
       if (pair.rows.count == 0) continue;
+      pair.renewed = true;
       memory.manifold = record.manifold;
       for (std::size_t i = 0; i < pair.rows.points().size(); ++i) {
         memory.normal_impulses[i] = pair.rows.room[i].pn;

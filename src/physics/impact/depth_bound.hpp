@@ -38,7 +38,7 @@ class DepthBound {
   // Pairs may lie as deep as they do now, but should be out if they lie too deep by little.
   DepthBound(Island<D>& island, double wanted, WorldWork& work)
       : island_(island), work_(work), error_(std::max(wanted, kDepthSettings.strictest)) {
-    island_.find_axes();
+    note_poses();
     for (const IslandPair<D>& pair : island_.pairs) {
       now_.gaps.push_back(least_gap(pair.seen ? *pair.seen : look(pair, pair.reach), pair.reach));
       promised_.push_back(std::max(error_, -now_.gaps.back()));
@@ -54,11 +54,13 @@ class DepthBound {
       if (!is_finite(body.position)) return true;  // the step will be refused
     const State begun = now_;
     last |= tired_;
-    follow();
+    if (!follow() && settled_) return true;
+    settled_ = true;
     double best = HUGE_VAL;
     for (int pushes = 0, vain = 0; pushes < kDepthSettings.most_pushes; ++pushes) {
       const double beyond = worst_beyond(wanted_, false);
       if (!(beyond > 0)) return true;
+      settled_ = false;
       if (!last && worst_beyond(promised_, true) > 0) break;
       vain = beyond < 0.9 * best ? 0 : vain + 1;
       if (vain == kDepthSettings.most_vain) break;
@@ -84,8 +86,9 @@ class DepthBound {
  private:
   using Seen = std::optional<Manifold<D>>;
   struct State {
-    Scratch<double> gaps;     // of each pair, no more than it is; below 0 they overlap
-    Scratch<Body<D>> bodies;  // where that was
+    Scratch<double> gaps;       // of each pair, no more than it is; below 0 they overlap
+    Scratch<Vec<D>> positions;  // of the bodies, where that was, and
+    Scratch<Mat<D>> axes;       // how they lay
   };
 
   static double least_gap(const Seen& seen, double most) {
@@ -112,19 +115,21 @@ class DepthBound {
     return worst;
   }
 
-  // No surface comes nearer to another than both have moved against each other. (Where boxes
-  // overlap, depth may be taken along another axis, and jump.)
-  void follow() {
-    island_.find_axes();
+  // Whether any body has moved. No surface comes nearer to another than both have moved against
+  // each other. (Where boxes overlap, depth may be taken along another axis, and jump.)
+  bool follow() {
+    const State old = std::exchange(now_, {std::move(now_.gaps), {}, {}});
+    note_poses();
+    bool moved = false;
     Scratch<double> turns(island_.bodies.size());
     for (std::size_t i = 0; i < turns.size(); ++i) {
-      const Mat<D> turned = island_.axes[i] - axes_of(now_.bodies[i]);
+      const Mat<D> turned = now_.axes[i] - old.axes[i];
       for (int k = 0; k < D; ++k) turns[i] += glm::dot(turned[k], turned[k]);
-      turns[i] = turning_reach<D>(now_.bodies[i].shape) * std::sqrt(turns[i]);
+      turns[i] = turning_reach<D>(island_.bodies[i].shape) * std::sqrt(turns[i]);
+      moved |= turns[i] > 0 || now_.positions[i] != old.positions[i];
     }
-    const auto way = [&](std::uint32_t i) {
-      return island_.bodies[i].position - now_.bodies[i].position;
-    };
+    if (!moved) return false;
+    const auto way = [&](std::uint32_t i) { return now_.positions[i] - old.positions[i]; };
     for (std::size_t i = 0; i < island_.pairs.size(); ++i) {
       const IslandPair<D>& pair = island_.pairs[i];
       const auto [a, b] = std::pair(pair.rows.a, pair.rows.b);
@@ -134,7 +139,14 @@ class DepthBound {
       if (gap > 0 || (nearer <= kDepthSettings.still * error_ && gap >= -wanted_[i])) continue;
       gap = least_gap(look(pair, pair.reach), pair.reach);
     }
-    now_.bodies = island_.bodies;
+    return true;
+  }
+
+  void note_poses() {
+    island_.find_axes();
+    now_.axes = island_.axes;
+    now_.positions.clear();
+    for (const Body<D>& body : island_.bodies) now_.positions.push_back(body.position);
   }
 
   // Moves bodies out of each other, and none that this might press deeper than they may lie.
@@ -210,9 +222,10 @@ class DepthBound {
   Island<D>& island_;
   WorldWork& work_;
   double error_;
-  State now_{{}, island_.bodies};
+  State now_;
   Scratch<double> promised_, wanted_;  // depths of pairs
   bool tired_ = false;                 // a pair was missed in this step
+  bool settled_ = false;               // where bodies are, no pair lies too deep
 };
 
 }  // namespace lantern::physics

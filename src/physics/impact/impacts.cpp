@@ -111,6 +111,7 @@ class ImpactMotion {
       const double until = next ? next->time : left_;
       const double gone = until > 0 ? advance(until) : 0;
       note_ways();
+      fresh_ = fresh_ && !(gone > 0);
       left_ -= gone;
       if (gone < until) {
         if (!(gone > 0)) return;  // what is left of the step they wait
@@ -126,6 +127,7 @@ class ImpactMotion {
   }
 
   void strike_at(const Impact<D>& next, bool moved) {
+    fresh_ = false;
     const ContactRows<D>& met = next.pair->rows;
     log_.moments.push_back(
         {move_.h - left_, pose(island_.bodies[met.a]), pose(island_.bodies[met.b])});
@@ -249,7 +251,8 @@ class ImpactMotion {
     const ContactSolver* solver = &solver_;
     for (; parts_ > 0; part /= 2) {
       parts_ -= part < seconds;
-      const Island<D> kept = watched.empty() && !bound_ ? Island<D>{} : island_;
+      const bool keeps = !watched.empty() || bound_;
+      const Island<D> kept = keeps && !may_begin_again() ? island_ : Island<D>{};
       solve(part, *solver);
       last_part_ = part < seconds ? part : HUGE_VAL;
       if (!std::ranges::all_of(watched, [&](const Watched& p) { return kept_apart(p, part); }))
@@ -257,11 +260,21 @@ class ImpactMotion {
       else if (!bound_ ||
                bound_->keeps(parts_ <= 0 || part <= move_.whole * kDepthSettings.smallest_part))
         return part;
-      island_ = kept;
+      if (may_begin_again())
+        begin_again();
+      else
+        island_ = kept;
       if (part == seconds) --parts_;
       if (part < move_.whole * kImpactSettings.shortest_part) break;
     }
     return 0;
+  }
+
+  // Whether the island is as it was given, or can be made so from what is known of it anyway.
+  bool may_begin_again() const { return fresh_ && island_.joints.empty(); }
+  void begin_again() {
+    island_.bodies = begun_;
+    for (IslandPair<D>& pair : island_.pairs) pair.begin();
   }
 
   // Newton's law of restitution at all points of a pair at once: those that approach will part with
@@ -530,6 +543,7 @@ class ImpactMotion {
   ImpactLog<D>& log_;
   Scratch<Body<D>> begun_ = island_.bodies;
   double left_ = move_.h;
+  bool fresh_ = true;              // nothing of the step has been yet
   Scratch<Foreseen<D>> foreseen_;  // of each pair
   Scratch<Trajectory<D>> ways_;    // by which that was foreseen, of
   Scratch<Body<D>> seen_bodies_;

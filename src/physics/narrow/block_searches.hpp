@@ -12,19 +12,11 @@ namespace lantern::physics::narrow {
 // thickness. First a direction along which they were measured.
 template <int D>
 struct SeparatingAxis {
-  Vec<D> normal{0.0};                         // unit, from a to b
-  double separation = 0;                      // of the cores along it; below 0 they overlap
-  AxisAcross across = AxisAcross::face_of_a;  // never the closest points
-  int axis_a = 0;                             // of a's face or edge
-  int axis_b = 0;                             // of b's face or edge
-};
-
-template <int D>
-struct SeparatingAxes {
-  bool parted = false;         // one axis was enough; the others were not measured
-  SeparatingAxis<D> chosen;    // the one to build the contact on
-  SeparatingAxis<D> greatest;  // the one of the largest separation
-  SeparatingAxis<D> face;      // the best of a face; its normal is 0 if neither block has any
+  Vec<D> normal;      // unit, from a to b
+  double separation;  // of the cores along it; below 0 they overlap
+  AxisAcross across;  // never the closest points
+  int axis_a;         // of a's face or edge
+  int axis_b;         // of b's face or edge
 };
 
 inline constexpr double kAxisBias = 1e-3;
@@ -59,22 +51,22 @@ class AxisSearch {
   AxisSearch(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin, NarrowTrace<D>& trace)
       : a_(a), b_(b), margin_(margin), trace_(trace) {}
 
-  SeparatingAxes<D> run() {
-    found_.parted = !try_all();
-    return found_;
-  }
-
- private:
-  // False once an axis parts them.
-  bool try_all() {
+  // False once an axis parts them; the others are not measured then.
+  bool run() {
     if (!try_faces(a_, b_, AxisAcross::face_of_a)) return false;
     if (!same_axes() && !try_faces(b_, a_, AxisAcross::face_of_b)) return false;
-    found_.face = found_.chosen;
+    if (best_ != kinds_.data()) face_ = chosen_;
     if constexpr (D == 3)
       if (!try_edges()) return false;
     return try_sides();
   }
+  // The one to build the contact on, the one of the largest separation, and the best of a face; its
+  // normal is 0 if neither block has any.
+  const SeparatingAxis<D>& chosen() const { return *chosen_; }
+  const SeparatingAxis<D>& greatest() const { return *greatest_; }
+  const SeparatingAxis<D>& face() const { return *face_; }
 
+ private:
   bool same_axes() const {
     if (!(a_.axes == b_.axes)) return false;
     for (int i = 0; i < D; ++i)
@@ -118,8 +110,8 @@ class AxisSearch {
     const Vec<D> n = own.axes[axis];
     const double along = glm::dot(n, offset_);
     trace_.lengths += 1 + D;
-    return consider({along < 0 ? -n : n, std::abs(along) - own.half[axis] - other.reach(n), across,
-                     axis, axis});
+    return consider(n, along, std::abs(along) - own.half[axis] - other.reach(n), across, axis,
+                    axis);
   }
 
   bool try_edges(int i, int j) {
@@ -129,33 +121,37 @@ class AxisSearch {
     const Vec<3> n = product / sine;
     const double along = glm::dot(n, offset_);
     trace_.lengths += 1 + 2 * D;
-    return consider(
-        {along < 0 ? -n : n, std::abs(along) - a_.reach(n) - b_.reach(n), AxisAcross::edges, i, j});
+    return consider(n, along, std::abs(along) - a_.reach(n) - b_.reach(n), AxisAcross::edges, i, j);
   }
 
-  bool consider(const SeparatingAxis<D>& axis) {
-    trace_.note(axis.normal, axis.separation - a_.radius - b_.radius, axis.across);
-    if (axis.separation - (a_.radius + b_.radius) > margin_) return false;
-    if (axis.separation > best_.separation) best_ = axis;
+  bool consider(const Vec<D>& n, double along, double separation, AxisAcross across, int axis_a,
+                int axis_b) {
+    if (trace_.axes) trace_.note(along < 0 ? -n : n, separation - a_.radius - b_.radius, across);
+    if (separation - (a_.radius + b_.radius) > margin_) return false;
+    if (!(separation > most_)) return true;
+    most_ = separation;
+    *best_ = {along < 0 ? -n : n, separation, across, axis_a, axis_b};
     return true;
   }
 
   // Ends a kind of axis.
   void settle() {
-    const double none = -std::numeric_limits<double>::infinity();
-    if (best_.separation == none) return;
-    if (!any_ || best_.separation > found_.greatest.separation) found_.greatest = best_;
-    if (!any_ || best_.separation > found_.chosen.separation + bias_) found_.chosen = best_;
-    any_ = true;
-    best_.separation = none;
+    if (most_ == kNone) return;
+    if (best_ == kinds_.data() || most_ > greatest_->separation) greatest_ = best_;
+    if (best_ == kinds_.data() || most_ > chosen_->separation + bias_) chosen_ = best_;
+    ++best_;
+    most_ = kNone;
   }
 
   const PlacedCore<D>&a_, &b_;
   const Vec<D> offset_ = b_.center - a_.center;
   const double bias_ = kAxisBias * smallest_half(a_, b_);
-  SeparatingAxis<D> best_{Vec<D>(0.0), -std::numeric_limits<double>::infinity()};
-  SeparatingAxes<D> found_;
-  bool any_ = false;
+  static constexpr double kNone = -std::numeric_limits<double>::infinity();
+  std::array<SeparatingAxis<D>, 4> kinds_;   // the best of each that was measured
+  SeparatingAxis<D>* best_ = kinds_.data();  // of the kind that is being measured, if
+  double most_ = kNone;                      // there was one: its separation
+  static inline const SeparatingAxis<D> kNoFace{};
+  const SeparatingAxis<D>*chosen_ = best_, *greatest_ = best_, *face_ = &kNoFace;
   double margin_;
   NarrowTrace<D>& trace_;
 };

@@ -103,10 +103,14 @@ template <int D, class Height>
 Outline<D> cut(const Outline<D>& outline, const Height& height, double slack, std::uint32_t side) {
   Outline<D> kept;
   const bool is_loop = outline.count > 2;
+  std::array<double, kMostCorners<D>> heights;
+  for (int i = 0; i < outline.count; ++i)
+    heights[static_cast<std::size_t>(i)] = height(outline[i].point);
   for (int i = 0; i < outline.count; ++i) {
-    const Corner<D>& here = outline[i];
-    const Corner<D>& next = outline[(i + 1) % outline.count];
-    const double h = height(here.point), h_next = height(next.point);
+    const int after = i + 1 < outline.count ? i + 1 : 0;
+    const Corner<D>&here = outline[i], &next = outline[after];
+    const double h = heights[static_cast<std::size_t>(i)];
+    const double h_next = heights[static_cast<std::size_t>(after)];
     const bool inside = h <= slack, next_inside = h_next <= slack;
     if (inside) kept.add(here);
     if (inside == next_inside) continue;
@@ -179,21 +183,14 @@ Outline<D> clipped_face(const PlacedCore<D>& reference, int axis, const PlacedCo
   return outline;
 }
 
-// A contact of two blocks, and, of cores that are apart, how far its closest point really is from
-// the other core.
-template <int D>
-struct FaceContact {
-  Manifold<D> manifold;
-  double least_distance = 0;
-};
-
 // The contact in which a face of `reference` across `axis` meets `other`. `normal` is unit, from
 // reference to other, and within a right angle of the face's; separations are along it. No more
-// than `margin` apart; the manifold is empty if nothing of the other block's face is above the
-// reference.
+// than `margin` apart; the manifold stays empty if nothing of the other block's face is above the
+// reference. Returns, of cores that are `apart`, how far its closest point really is from the other
+// core.
 template <int D>
-FaceContact<D> face_contact(const PlacedCore<D>& reference, const PlacedCore<D>& other, int axis,
-                            const Vec<D>& normal, double margin, bool apart) {
+double face_contact(const PlacedCore<D>& reference, const PlacedCore<D>& other, int axis,
+                    const Vec<D>& normal, double margin, bool apart, Manifold<D>& manifold) {
   const double slack = kSlack * smallest_half(reference, other);
   const double sign = glm::dot(reference.axes[axis], normal) < 0 ? -1 : 1;
   const Vec<D> outward = reference.axes[axis] * sign;
@@ -201,15 +198,13 @@ FaceContact<D> face_contact(const PlacedCore<D>& reference, const PlacedCore<D>&
   const double radii = reference.radius + other.radius;
   const Facing face = facing(other, normal);
 
-  FaceContact<D> contact;
-  contact.manifold.normal = normal;
-  contact.least_distance = std::numeric_limits<double>::infinity();
+  double least_distance = std::numeric_limits<double>::infinity();
   std::array<double, kMostCorners<D>> heights;
   Outline<D> close;
   const Outline<D> outline = clipped_face(reference, axis, other, face, slack);
   for (int i = 0; i < outline.count; ++i) {
     const Vec<D> p = outline[i].point;
-    if (apart) contact.least_distance = std::min(contact.least_distance, distance_to(reference, p));
+    if (apart) least_distance = std::min(least_distance, distance_to(reference, p));
     const double height = (glm::dot(p - reference.center, outward) - reference.half[axis]) / cosine;
     if (height - radii > margin) continue;
     heights[static_cast<std::size_t>(close.count)] = height;
@@ -220,16 +215,16 @@ FaceContact<D> face_contact(const PlacedCore<D>& reference, const PlacedCore<D>&
       static_cast<std::uint32_t>(axis * 2 + (sign > 0 ? 1 : 0)) << 3 | face.name();
   const auto add = [&](int i) {
     const double separation = heights[static_cast<std::size_t>(i)] - radii;
-    contact.manifold.add({close[i].point - normal * (other.radius + separation / 2), separation,
-                          faces << 6 | close[i].name});
+    manifold.add({close[i].point - normal * (other.radius + separation / 2), separation,
+                  faces << 6 | close[i].name});
   };
   if constexpr (D == 3)
     if (close.count > 4) {
       for (const int i : widest_four(close, heights, normal, slack)) add(i);
-      return contact;
+      return least_distance;
     }
   for (int i = 0; i < close.count; ++i) add(i);
-  return contact;
+  return least_distance;
 }
 
 // Kinds of contact, in the upper bits of feature names.
@@ -246,15 +241,16 @@ void mark(Manifold<D>& manifold, std::uint32_t kind) {
 
 // `normal` is the face's or leans a little.
 template <int D>
-FaceContact<D> contact_on_face(const SeparatingAxis<D>& face, const PlacedCore<D>& a,
-                               const PlacedCore<D>& b, const Vec<D>& normal, double margin,
-                               bool apart) {
+double contact_on_face(const SeparatingAxis<D>& face, const PlacedCore<D>& a,
+                       const PlacedCore<D>& b, const Vec<D>& normal, double margin, bool apart,
+                       Manifold<D>& manifold) {
   const bool of_a = face.across == AxisAcross::face_of_a;
-  FaceContact<D> contact = of_a ? face_contact(a, b, face.axis_a, normal, margin, apart)
-                                : face_contact(b, a, face.axis_b, -normal, margin, apart);
-  contact.manifold.normal = normal;
-  mark(contact.manifold, of_a ? kFaceOfA : kFaceOfB);
-  return contact;
+  manifold.normal = normal;
+  const double least_distance =
+      of_a ? face_contact(a, b, face.axis_a, normal, margin, apart, manifold)
+           : face_contact(b, a, face.axis_b, -normal, margin, apart, manifold);
+  mark(manifold, of_a ? kFaceOfA : kFaceOfB);
+  return least_distance;
 }
 
 // The edge of a block along an axis that lies farthest out along the normal, and its name.
@@ -278,26 +274,24 @@ NamedEdge farthest_edge(const PlacedCore<3>& block, int axis, const Vec<3>& norm
 }
 
 // Two edges that cross meet in one point, midway.
-FaceContact<3> contact_of_edges(const PlacedCore<3>& a, const PlacedCore<3>& b,
-                                const SeparatingAxis<3>& axis) {
+double contact_of_edges(const PlacedCore<3>& a, const PlacedCore<3>& b,
+                        const SeparatingAxis<3>& axis, Manifold<3>& manifold) {
   const NamedEdge edge_a = farthest_edge(a, axis.axis_a, axis.normal);
   const NamedEdge edge_b = farthest_edge(b, axis.axis_b, -axis.normal);
   const PointPair<3> points = closest_points(edge_a.segment, edge_b.segment);
-  FaceContact<3> contact;
-  contact.least_distance = std::sqrt(points.square());
-  contact.manifold.normal = axis.normal;
+  manifold.normal = axis.normal;
   const Vec<3> middle = (points.a + points.b) * 0.5 + axis.normal * ((a.radius - b.radius) / 2);
-  contact.manifold.add(
+  manifold.add(
       {middle, axis.separation - a.radius - b.radius, kEdges | edge_a.name << 5 | edge_b.name});
-  return contact;
+  return std::sqrt(points.square());
 }
 
 template <int D>
-FaceContact<D> contact_on(const SeparatingAxis<D>& axis, const PlacedCore<D>& a,
-                          const PlacedCore<D>& b, double margin, bool apart) {
+double contact_on(const SeparatingAxis<D>& axis, const PlacedCore<D>& a, const PlacedCore<D>& b,
+                  double margin, bool apart, Manifold<D>& manifold) {
   if constexpr (D == 3)
-    if (axis.across == AxisAcross::edges) return contact_of_edges(a, b, axis);
-  return contact_on_face(axis, a, b, axis.normal, margin, apart);
+    if (axis.across == AxisAcross::edges) return contact_of_edges(a, b, axis, manifold);
+  return contact_on_face(axis, a, b, axis.normal, margin, apart, manifold);
 }
 
 template <int D>
@@ -328,29 +322,31 @@ Manifold<D> contact_of_closest(const PlacedCore<D>& a, const PlacedCore<D>& b,
   const double radii = a.radius + b.radius, exact = normal.length - radii;
   const double size = radii + smallest_half(a, b);
   const double near = std::min(margin, exact + 0.1 * size);
-  Manifold<D> many = contact_on_face(face, a, b, normal.unit, near, false).manifold;
+  Manifold<D> many;
+  contact_on_face(face, a, b, normal.unit, near, false, many);
   // Heights along the leaning normal are nearly distances, or the face is not what is closest.
   if (many.count < 2 || std::abs(least_separation(many) - exact) > 1e-3 * size) return single;
   set_least_separation(many, exact);
   return many;
 }
 
-// The contact on a separating axis. Nothing if it does not reach the bound that the axes give.
+// Whether the contact on a separating axis reaches the bound that the axes give: `manifold` then.
 template <int D>
-Contact<D> contact_if_exact(const SeparatingAxis<D>& axis, const PlacedCore<D>& a,
-                            const PlacedCore<D>& b, double bound, double rounding, double margin) {
-  if (axis.across == AxisAcross::side) return std::nullopt;
+bool is_exact(const SeparatingAxis<D>& axis, const PlacedCore<D>& a, const PlacedCore<D>& b,
+              double bound, double rounding, double margin, Manifold<D>& manifold) {
+  if (axis.across == AxisAcross::side) return false;
   const bool apart = bound > rounding;
   if (apart && (axis.across == AxisAcross::edges || axis.separation < bound - rounding))
-    return std::nullopt;  // they may still have a face's points, along another normal
-  FaceContact<D> contact = contact_on(axis, a, b, margin, apart);
-  if (contact.manifold.count == 0) return std::nullopt;
+    return false;  // they may still have a face's points, along another normal
+  manifold.count = 0;
+  const double least_distance = contact_on(axis, a, b, margin, apart, manifold);
+  if (manifold.count == 0) return false;
   const double allowed = apart ? rounding : kAxisBias * smallest_half(a, b) + rounding;
   const double exact = axis.separation - a.radius - b.radius;
-  if (std::abs(least_separation(contact.manifold) - exact) > allowed) return std::nullopt;
-  if (apart && contact.least_distance > bound + rounding) return std::nullopt;
-  set_least_separation(contact.manifold, exact);
-  return contact.manifold;
+  if (std::abs(least_separation(manifold) - exact) > allowed) return false;
+  if (apart && least_distance > bound + rounding) return false;
+  set_least_separation(manifold, exact);
+  return true;
 }
 
 }  // namespace
@@ -359,29 +355,31 @@ template <int D>
 Contact<D> touch_blocks(const PlacedCore<D>& a, const PlacedCore<D>& b, double margin,
                         NarrowTrace<D>& trace) {
   const double radii = a.radius + b.radius;
-  const SeparatingAxes<D> axes = AxisSearch<D>(a, b, margin, trace).run();
-  if (axes.parted) return std::nullopt;
-  const double bound = axes.greatest.separation;
+  AxisSearch<D> axes(a, b, margin, trace);
+  Contact<D> contact;
+  if (!axes.run()) return contact;
+  const double bound = axes.greatest().separation;
 
   double size = glm::length(b.center - a.center);
   for (int i = 0; i < D; ++i) size += a.half[i] + b.half[i];
   const double rounding = kRounding * size;
   const bool apart = bound > rounding;
-  if (auto contact = contact_if_exact(axes.chosen, a, b, bound, rounding, margin)) return contact;
-  if (!apart)
-    if (auto contact = contact_if_exact(axes.greatest, a, b, bound, rounding, margin))
-      return contact;
+  Manifold<D>& manifold = contact.emplace();
+  if (is_exact(axes.chosen(), a, b, bound, rounding, margin, manifold)) return contact;
+  if (!apart && is_exact(axes.greatest(), a, b, bound, rounding, margin, manifold)) return contact;
+  contact.reset();
 
-  const ClosestFeatures<D> closest = ClosestSearch<D>(a, b, axes.greatest, trace).run();
-  Direction<D> normal = direction_of(closest.points.b - closest.points.a, axes.greatest.normal);
+  const ClosestFeatures<D> closest = ClosestSearch<D>(a, b, axes.greatest(), trace).run();
+  Direction<D> normal = direction_of(closest.points.b - closest.points.a, axes.greatest().normal);
   // Where the axis is as good, it is the better direction: it does not come of small differences.
   // Cores that meet have none but it.
   if (normal.length <= bound + rounding || !apart)
-    normal = {axes.greatest.normal, bound};
+    normal = {axes.greatest().normal, bound};
   else
     trace.note(normal.unit, normal.length - radii, AxisAcross::closest_points);
-  if (normal.length - radii > margin) return std::nullopt;
-  return contact_of_closest(a, b, closest, normal, axes.face, margin);
+  if (!(normal.length - radii > margin))
+    contact = contact_of_closest(a, b, closest, normal, axes.face(), margin);
+  return contact;
 }
 
 template Contact<2> touch_blocks(const PlacedCore<2>&, const PlacedCore<2>&, double,

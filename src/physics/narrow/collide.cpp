@@ -180,14 +180,9 @@ std::array<double, D + 1> sizes_of(const PlacedCore<D>& core) {
 // direction that is skew to everything that scenes are made of: no pile or row of boxes is close to
 // where the order changes.
 template <int D>
-bool is_in_order(const Placing<D>& a, const Placing<D>& b, const Vec<D>& offset) {
-  if (a.index() != b.index()) return a.index() < b.index();
-  if (const auto* core_a = std::get_if<PlacedCore<D>>(&a)) {
-    const auto& core_b = *std::get_if<PlacedCore<D>>(&b);
-    if (core_a->kind != core_b.kind) return core_a->kind < core_b.kind;
-    const auto sizes_a = sizes_of(*core_a), sizes_b = sizes_of(core_b);
-    if (sizes_a != sizes_b) return sizes_a > sizes_b;
-  }
+bool is_in_order(const PlacedCore<D>& a, const PlacedCore<D>& b, const Vec<D>& offset) {
+  if (a.kind != b.kind) return a.kind < b.kind;
+  if (a.half != b.half || a.radius != b.radius) return sizes_of(a) > sizes_of(b);
   const double skew[] = {0.3542, 0.8117, 0.4641};
   double along = 0;
   for (int i = 0; i < D; ++i) along += skew[i] * offset[i];
@@ -210,19 +205,6 @@ Contact<D> touch_cores(const PlacedCore<D>& a, const PlacedCore<D>& b, double ma
   return std::nullopt;
 }
 
-template <int D>
-Contact<D> touch_in_order(const Placing<D>& a, const Placing<D>& b, double margin,
-                          NarrowTrace<D>& trace) {
-  const auto* core_a = std::get_if<PlacedCore<D>>(&a);
-  if (core_a == nullptr) return std::nullopt;  // two half-spaces
-  return std::visit(
-      EachShape{
-          [&](const PlacedCore<D>& core_b) { return touch_cores(*core_a, core_b, margin, trace); },
-          [&](const Wall<D>& wall) { return touch_wall(*core_a, wall, margin, trace); },
-      },
-      b);
-}
-
 // Of axes that were measured from b to a.
 template <int D>
 void turn_over(std::span<MeasuredAxis<D>> axes) {
@@ -243,17 +225,23 @@ template <int D>
 std::optional<Manifold<D>> collide(const Placed<D>& a, const Placed<D>& b, double margin,
                                    NarrowTrace<D>& trace) {
   const Vec<D> offset = b.position - a.position;
-  auto placed_a = narrow::placing_of(a, Vec<D>(0.0));
-  auto placed_b = narrow::placing_of(b, offset);
-  const bool in_order = narrow::is_in_order<D>(placed_a, placed_b, offset);
-  const Placed<D>& first = in_order ? a : b;
+  narrow::PlacedCore<D> core_a, core_b;
+  const bool solid_a = narrow::place(a, Vec<D>(0.0), core_a);
+  const bool solid_b = narrow::place(b, offset, core_b);
+  if (!solid_a && !solid_b) return std::nullopt;  // two half-spaces
+  const bool in_order = solid_a && solid_b ? narrow::is_in_order(core_a, core_b, offset) : solid_a;
+  const Placed<D>&first = in_order ? a : b, &second = in_order ? b : a;
   const std::size_t told = trace.axes ? trace.axes->size() : 0;
   if (!in_order) {
-    narrow::place(placed_a, a.position - b.position);
-    narrow::place(placed_b, Vec<D>(0.0));
+    core_a.center = a.position - b.position;
+    core_b.center = Vec<D>(0.0);
   }
-  auto contact = in_order ? narrow::touch_in_order<D>(placed_a, placed_b, margin, trace)
-                          : narrow::touch_in_order<D>(placed_b, placed_a, margin, trace);
+  const narrow::PlacedCore<D>&one = in_order ? core_a : core_b, &other = in_order ? core_b : core_a;
+  std::optional<Manifold<D>> contact;
+  if (const auto* space = std::get_if<HalfSpace<D>>(&second.shape))
+    contact = narrow::touch_wall<D>(one, {other.center, space->normal}, margin, trace);
+  else
+    contact = narrow::touch_cores(one, other, margin, trace);
   if (!in_order && trace.axes) narrow::turn_over<D>(std::span(*trace.axes).subspan(told));
   if (!contact) return contact;
   if (!in_order) contact->normal = -contact->normal;

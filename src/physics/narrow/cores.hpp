@@ -69,35 +69,23 @@ struct Wall {
   Vec<D> normal{0.0};  // out of the solid
 };
 
+// A shape's core at `center`, wherever it was placed. False if it has none: a half-space is there.
 template <int D>
-using Placing = std::variant<PlacedCore<D>, Wall<D>>;
-
-// A shape at `center`, wherever it was placed.
-template <int D>
-Placing<D> placing_of(const Placed<D>& placed, const Vec<D>& center) {
-  const auto core = [&](CoreKind kind, const Core<D>& of) -> Placing<D> {
-    const bool is_turned = of.turns && kind != CoreKind::point;
-    const Mat<D> axes = !is_turned    ? Mat<D>(1.0)
-                        : placed.axes ? *placed.axes
-                                      : matrix(placed.orientation);
-    return PlacedCore<D>{kind, center, axes, of.half, of.radius};
-  };
-  return std::visit(EachShape{
-                        [&](const Sphere& s) { return core(CoreKind::point, core_of<D>(s)); },
-                        [&](const AxisBox<D>& s) { return core(CoreKind::box, core_of<D>(s)); },
-                        [&](const OrientedBox<D>& s) { return core(CoreKind::box, core_of<D>(s)); },
-                        [&](const Capsule& s) { return core(CoreKind::segment, core_of<D>(s)); },
-                        [&](const HalfSpace<D>& s) -> Placing<D> {
-                          return Wall<D>{center, s.normal};
-                        },
-                    },
-                    placed.shape);
-}
-
-template <int D>
-void place(Placing<D>& placing, const Vec<D>& center) {
-  if (auto* core = std::get_if<PlacedCore<D>>(&placing)) core->center = center;
-  if (auto* wall = std::get_if<Wall<D>>(&placing)) wall->point = center;
+bool place(const Placed<D>& placed, const Vec<D>& center, PlacedCore<D>& core) {
+  core.center = center;
+  return visit_shape<D>(
+      placed.shape,
+      [&](const Core<D>& of) {
+        core.kind = std::holds_alternative<Sphere>(placed.shape)    ? CoreKind::point
+                    : std::holds_alternative<Capsule>(placed.shape) ? CoreKind::segment
+                                                                    : CoreKind::box;
+        if (of.turns && core.kind != CoreKind::point)
+          core.axes = placed.axes ? *placed.axes : matrix(placed.orientation);
+        core.half = of.half;
+        core.radius = of.radius;
+        return true;
+      },
+      [](const HalfSpace<D>&) { return false; });
 }
 
 // Calls f(corner, name) for each corner of a core; those that coincide, for want of thickness,

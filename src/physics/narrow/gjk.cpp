@@ -11,9 +11,8 @@ namespace {
 using GjkCore = narrow::PlacedCore<2>;
 
 std::optional<GjkCore> gjk_core(const Placed<2>& shape, const Vec<2>& center) {
-  const auto placing = narrow::placing_of<2>(shape, center);
-  const auto* core = std::get_if<GjkCore>(&placing);
-  return core ? std::optional(*core) : std::nullopt;
+  GjkCore core;
+  return narrow::place(shape, center, core) ? std::optional(core) : std::nullopt;
 }
 
 Vec<2> left_of(const Vec<2>& v) { return {-v.y, v.x}; }
