@@ -488,8 +488,16 @@ class ImpactMotion {
   }
 
   // The next impact, or the next contact of what turns. Pairs that meet too slowly become contacts
-  // on the way. When the budget is used up all others are, too.
+  // on the way: since they stand from then on, others may meet them, and all are looked at anew.
+  // When the budget is used up all others are contacts, too.
   std::optional<Impact<D>> next_event() {
+    for (;;) {
+      bool pressed = false;
+      const std::optional<Impact<D>> next = next_event(pressed);
+      if (!pressed) return next;
+    }
+  }
+  std::optional<Impact<D>> next_event(bool& pressed) {
     if (std::ranges::none_of(island_.pairs, &IslandPair<D>::located)) return std::nullopt;
     if (budget_ <= 0) {
       for (IslandPair<D>& pair : island_.pairs) pair.pressed = true;
@@ -528,6 +536,7 @@ class ImpactMotion {
       const double time = std::max(within - seen.until, 0.0);
       if (seen.met->meeting == Meeting::rests && holds(pair, seen.met->normal)) {
         press(pair);
+        pressed = true;
       } else if (!first || time < first->time) {
         first = Impact<D>{time, &pair, seen.met->meeting};
       }
