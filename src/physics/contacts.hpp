@@ -49,9 +49,10 @@ void renew_record(Contact<D>& record, const Manifold<D>& manifold) {
 // What a step remembers of a pair that touched in it.
 template <int D>
 struct Touch {
-  Contact<D> record;   // what the step tells
-  Contact<D> memory;   // impulses of the last sub-step, which the next step begins with
-  double seconds = 0;  // of that sub-step; 0: there was none
+  Contact<D> record;     // what the step tells
+  Contact<D> memory;     // impulses of the last sub-step, which the next step begins with
+  double seconds = 0;    // of that sub-step; 0: there was none
+  bool crushes = false;  // see ContactEvent
 };
 
 struct ContactEvent {
