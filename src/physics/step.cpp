@@ -195,6 +195,7 @@ struct World<D>::Step : World<D>::StepIslands {
     // Of those that sleep nothing is new, nor of those that slept.
     if (woke) world.told_whole();
     const Scratch<Touch<D>>& slept_on = this->sleeps_anew ? this->slept : world.slept_;
+    outcome.untold = slept_on.size();
     Scratch<ToldPair> old(world.outcome_.told.begin(), world.outcome_.told.end());
     if (!slept_on.empty())
       std::erase_if(old, [&](const ToldPair& told) {

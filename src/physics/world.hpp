@@ -128,6 +128,13 @@ class World {
   const std::vector<Contact<D>>& contacts() const { return told_whole().contacts; }
   const std::vector<ContactEvent>& events() const { return told_whole().events; }
   const std::vector<Pair>& pairs() const { return outcome_.pairs; }
+  // The same for who looks at each step: without those that sleep, of which nothing is new, unless
+  // somebody asked for all; and how many touch in all.
+  const std::vector<Contact<D>>& fresh_contacts() const { return outcome_.contacts; }
+  const std::vector<ContactEvent>& fresh_events() const { return outcome_.events; }
+  std::size_t touches() const {
+    return outcome_.contacts.size() + (outcome_.whole ? 0 : outcome_.untold);
+  }
   // The island of each body, in order of bodies(): the lowest id among those that the step moved
   // together, or that went on sleeping together. What has left or let go since has parted them.
   // kNoIsland of what only `place` or its own velocity moves, and of what no step has seen yet.
@@ -155,7 +162,8 @@ class World {
     std::vector<ToldPair> told = {};  // by pair
     std::vector<Pair> pairs = {};
     ImpactLog<D> impacts = {};
-    bool whole = true;  // the first three tell of those that sleep, too
+    bool whole = true;       // the first three tell of those that sleep, too; else
+    std::size_t untold = 0;  // so many contacts more would be told
     void clear(bool keeps_looks) {
       contacts.clear(), events.clear(), told.clear(), pairs.clear(), whole = false;
       impacts.moments.clear(), impacts.looks.clear();

@@ -171,6 +171,34 @@ TEST(Islands, PartWhenAJointOrASpringLetsGo) {
   EXPECT_EQ(world.islands(), (Members{0, 1, 2}));
 }
 
+// What is told of those that sleep is written down when somebody asks: what he hears does not
+// depend on when others asked, nor does how many touch.
+TEST(Islands, TellTheSameWhoeverAsksWhen) {
+  World<2> asked = sleeping();
+  World<2> silent(asked, asked.config());
+  for (World<2>* world : {&asked, &silent}) {
+    world->add(ball_at<2>({0, 6}, {0, -1}));
+    world->add(ball_at<2>({-9, 0.5}, {1, 0}));
+  }
+  std::uint64_t touches = 0;
+  for (int i = 0; i < 240; ++i) {
+    asked.step(kStep);
+    silent.step(kStep);
+    touches += asked.contacts().size();
+    ASSERT_EQ(asked.touches(), asked.contacts().size());
+    ASSERT_EQ(silent.touches(), asked.contacts().size()) << i;
+    ASSERT_LE(silent.fresh_contacts().size(), silent.touches());
+    if (i % 37 != 0) continue;
+    ASSERT_EQ(silent.hash(), asked.hash());
+    ASSERT_EQ(silent.events(), asked.events()) << i;
+    ASSERT_EQ(silent.told().size(), asked.told().size()) << i;
+    ASSERT_EQ(silent.contacts().size(), asked.contacts().size()) << i;
+    ASSERT_EQ(silent.islands(), asked.islands()) << i;
+  }
+  EXPECT_GT(touches, 600u);
+  EXPECT_EQ(silent.hash(), asked.hash());
+}
+
 // A script may put to sleep one body of several that hang together.
 TEST(Islands, WhatHangsOnASleeperSwingsAboutIt) {
   WorldConfig<2> config = falling<2>();
