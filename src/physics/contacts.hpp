@@ -65,6 +65,7 @@ struct ContactEvent {
   BodyId a = 0;
   BodyId b = 0;
   bool crushes = false;  // one of them, against a third (see `crushing`)
+  Pair pair() const { return {a, b}; }
   bool operator==(const ContactEvent&) const = default;
 };
 

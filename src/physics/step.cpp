@@ -207,7 +207,7 @@ struct World<D>::Step : World<D>::StepIslands {
         outcome.events);
     auto event = outcome.events.begin();
     for (Touch<D>& touch : touching) {
-      while (Pair{event->a, event->b} != touch.record.pair()) ++event;
+      while (event->pair() != touch.record.pair()) ++event;
       touch.crushes = event->crushes;
     }
     // What has fallen asleep is looked at no more.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <numeric>
 #include <tuple>
@@ -308,35 +309,26 @@ void World<D>::rouse_touches() {
 template <int D>
 auto World<D>::told_whole() const -> const Outcome& {
   if (std::exchange(outcome_.whole, true) || slept_.empty()) return outcome_;
-  const auto add = [&](auto& list, auto&& pair_of, auto&& made) {
+  const auto add = [&](auto& list, auto pair_of, auto&& made) {
     std::remove_reference_t<decltype(list)> all;
     all.reserve(list.size() + slept_.size());
     auto next = list.begin();
     for (const Touch<D>& slept : slept_) {
-      while (next != list.end() && pair_of(*next) < slept.record.pair()) all.push_back(*next++);
-      if (next == list.end() || pair_of(*next) != slept.record.pair()) all.push_back(made(slept));
+      const Pair pair = slept.record.pair();
+      while (next != list.end() && std::invoke(pair_of, *next) < pair) all.push_back(*next++);
+      if (next == list.end() || std::invoke(pair_of, *next) != pair) all.push_back(made(slept));
     }
     all.insert(all.end(), next, list.end());
     list = std::move(all);
   };
-  const int frames = contact_solver(config_.contacts).frames_remembered;
-  add(
-      outcome_.contacts, [](const Contact<D>& contact) { return contact.pair(); },
-      [](const Touch<D>& slept) { return slept.record; });
-  add(
-      outcome_.told, [](const ToldPair& told) { return told.pair; },
-      [&](const Touch<D>& slept) {
-        return ToldPair{slept.record.pair(), frames - 1};
-      });
-  add(
-      outcome_.events,
-      [](const ContactEvent& event) {
-        return Pair{event.a, event.b};
-      },
-      [](const Touch<D>& slept) {
-        return ContactEvent{ContactEvent::Kind::stay, slept.record.a, slept.record.b,
-                            slept.crushes};
-      });
+  const int left = contact_solver(config_.contacts).frames_remembered - 1;
+  using T = const Touch<D>&;
+  add(outcome_.contacts, &Contact<D>::pair, [](T slept) { return slept.record; });
+  add(outcome_.told, &ToldPair::pair, [&](T slept) { return ToldPair{slept.record.pair(), left}; });
+  add(outcome_.events, &ContactEvent::pair, [](T slept) {
+    const auto [a, b] = slept.record.pair();
+    return ContactEvent{ContactEvent::Kind::stay, a, b, slept.crushes};
+  });
   return outcome_;
 }
 
