@@ -176,7 +176,9 @@ void World<D>::place(BodyId id, const Vec<D>& position, const Vec<D>& velocity,
   forget_contacts_of(std::span(&id, 1));
   part_islands();
   moved.asleep = false;
-  told_all_ &= moved.is_dynamic();
+  const auto here = static_cast<std::uint32_t>(index);
+  if (!std::ranges::binary_search(stirred_, here))
+    stirred_.insert(std::ranges::upper_bound(stirred_, here), here);
   bodies_[index] = std::move(moved);
 }
 

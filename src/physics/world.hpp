@@ -260,7 +260,7 @@ class World {
   Outcome next_outcome_;
   std::optional<BroadPhase<D>> broad_phase_;
   bool told_all_ = false;           // it holds each body as it is, but for
-  Scratch<std::uint32_t> stirred_;  // those that were told to it as moving, by their places
+  Scratch<std::uint32_t> stirred_;  // those that moved then, or were placed: places here
   std::optional<Ahead> ahead_;      // until anything changes
   WorldWork work_;
 };
