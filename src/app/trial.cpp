@@ -14,12 +14,14 @@ constexpr double kTriedError = 0.01;
 
 std::string SettingTrial::text() const {
   if (quick.seconds >= 2.0 / 3 * as_is.seconds) return "";
+  const std::uint64_t missed = quick.work.errors_missed;
   return fmt::format(
       "with wanted_error = {0} in [world] {1} step{2} from here took {3:.2g} s instead of "
       "{4:.2g} s; bodies then lie up to {0} deep in each other, or as deep as before ({5:.2g} here "
-      "instead of {6:.2g})",
+      "instead of {6:.2g}){7}",
       kTriedError, steps, steps == 1 ? "" : "s", quick.seconds, as_is.seconds, quick.deepest,
-      as_is.deepest);
+      as_is.deepest,
+      missed > 0 ? fmt::format("; {} pair{} lay deeper", missed, missed == 1 ? "" : "s") : "");
 }
 
 // By a clock of the thread alone: others may be drawing meanwhile.

@@ -53,9 +53,10 @@ void renew_record(Contact<D>& record, const Manifold<D>& manifold) {
 // What a step remembers of a pair that touched in it.
 template <int D>
 struct Touch {
-  Contact<D> record;   // what the step tells
-  Contact<D> memory;   // impulses of the last sub-step, which the next step begins with
-  double seconds = 0;  // of that sub-step; 0: there was none
+  Contact<D> record;     // what the step tells
+  Contact<D> memory;     // impulses of the last sub-step, which the next step begins with
+  double seconds = 0;    // of that sub-step; 0: there was none
+  bool crushes = false;  // see ContactEvent
 };
 
 struct ContactEvent {
@@ -68,6 +69,7 @@ struct ContactEvent {
   BodyId a = 0;
   BodyId b = 0;
   bool crushes = false;  // one of them, against a third (see `crushing`)
+  Pair pair() const { return {a, b}; }
   bool operator==(const ContactEvent&) const = default;
 };
 

@@ -35,19 +35,15 @@ class DisjointSets {
   Scratch<std::uint32_t> parent_;
 };
 
-enum class Disturbed {
-  all,       // those awake, too, must now rest anew before they may sleep
-  sleepers,  // those awake are left as they are, and pass nothing on
-};
-
-// Wakes the bodies at `places` and, from one to the next, all dynamic ones linked to them. `rested`
-// seconds of what wakes begin anew. Static and kinematic bodies pass nothing on unless they are
-// named. Bodies are in order of ids; links name two of them each.
-template <int D>
-void wake_together(std::span<Body<D>> bodies, std::span<double> rested,
-                   Scratch<std::uint32_t> places, std::span<const Pair> links,
-                   Disturbed disturbed) {
-  if (places.empty()) return;
+// What wakes with the bodies at `places`: these and, from one to the next, all dynamic ones linked
+// to them. Those of which `wakes(place)` is false do not, and pass nothing on. Static and kinematic
+// bodies pass nothing on unless they are named. Bodies are in order of ids; links name two of them
+// each.
+template <int D, class F>
+Scratch<std::uint32_t> woken_with(std::span<const Body<D>> bodies, Scratch<std::uint32_t> places,
+                                  std::span<const Pair> links, F&& wakes) {
+  Scratch<std::uint32_t> woken;
+  if (places.empty()) return woken;
   const auto place_of = [&](BodyId id) {
     return static_cast<std::uint32_t>(std::ranges::lower_bound(bodies, id, {}, &Body<D>::id) -
                                       bodies.begin());
@@ -64,13 +60,12 @@ void wake_together(std::span<Body<D>> bodies, std::span<double> rested,
     stop_if_asked();
     const std::uint32_t place = places.back();
     places.pop_back();
-    Body<D>& body = bodies[place];
-    if (seen[place] || (disturbed == Disturbed::sleepers && !body.asleep)) continue;
+    if (seen[place] || !wakes(place)) continue;
     seen[place] = true;
-    body.asleep = false;
-    rested[place] = 0;
+    woken.push_back(place);
     places.insert(places.end(), linked[place].begin(), linked[place].end());
   }
+  return woken;
 }
 
 }  // namespace lantern::physics

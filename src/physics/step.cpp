@@ -16,90 +16,63 @@
 #include "physics/step_islands.hpp"
 
 namespace lantern::physics {
-namespace {
-
-// The numbers of a step, whatever the method.
-struct StepSettings {
-  int most_tries = 8;     // the last one counts even if a body went farther than was looked for
-  double slack = 1e-3;    // of a body's thickness: nearer is looked at, too
-  double fast = 0.5;      // of the thinner body's thickness in a step: may pass through
-  double fast_quick = 2;  // the same where an error is wanted: rows hold what is slower
-  std::size_t most_manifolds = 1 << 16;  // kept from the narrow phase; of more, made again
-  double rounding = 1e-9;  // of a step's time, when a push ends; of a reach, whether it was kept
-};
-constexpr StepSettings kStepSettings;
-
-// A body before the step, as each pair that it is in asks for it.
-template <int D>
-struct Look {
-  Look(const Body<D>& body, double h)
-      : axes(axes_of(body)),
-        velocity(velocity_of(body)),
-        turning(turning_way(body, h)),
-        thick(thickness<D>(body.shape)) {}
-
-  Mat<D> axes;
-  Vec<D> velocity;
-  double turning;  // how far its surface turns
-  double thick;
-
-  // How far its surface may come if no force acts.
-  double coasting_reach(double h) const {
-    const double slack = thick < kEndless ? thick * kStepSettings.slack : 0;
-    return slack + turning + glm::length(velocity) * h;
-  }
-};
-
-}  // namespace
-
 template <int D>
 struct World<D>::Step : World<D>::StepIslands {
   using StepIslands::farthest, StepIslands::joint_memories, StepIslands::forces, StepIslands::near,
-      StepIslands::manifolds;
-  using StepIslands::place_of;
+      StepIslands::manifolds, StepIslands::joints, StepIslands::joint, StepIslands::wake;
+  using StepIslands::place_of, StepIslands::in_world, StepIslands::local, StepIslands::places;
+  using StepIslands::reach, StepIslands::increments, StepIslands::woke, StepIslands::take_part;
   using StepIslands::root, StepIslands::touching, StepIslands::touch_of, StepIslands::kNone;
+  using StepIslands::StepIslands;
   using StepIslands::world, StepIslands::h, StepIslands::moved, StepIslands::rested;
   using typename StepIslands::Group, typename StepIslands::NearPair;
 
-  Scratch<double> reach;            // of each body: how far its surface may come; at least as given
-  Scratch<Increment<D>> anew = {};  // increments anew, since bodies woke in this step
-  Scratch<Proxy<D>> boxes = {};     // of bodies, enlarged by how far each may come
-  std::uint64_t narrow_pairs = 0;   // of the broad phase's, looked at by the narrow phase
-  Scratch<Look<D>> looks = {};      // at bodies
-  bool struck = false;              // an impact was located
+  bool knows_forces = true;        // else boxes are those of bodies as they are
+  Scratch<Proxy<D>> boxes = {};    // of bodies, enlarged by how far each may come
+  std::uint64_t narrow_pairs = 0;  // of the broad phase's, looked at by the narrow phase
+  Scratch<Look<D>> looks = {};     // at those that take part
+  bool struck = false;             // an impact was located
+  decltype(world.roots_) roots = {};
   Outcome& outcome = world.cleared_outcome();
 
   // The phases, in their order: see World::step.
   void find_forces() {
     Scratch<std::uint32_t> released;
-    std::erase_if(forces.pushes, [&](const Push<D>& push) {
-      const bool ends = push.until && *push.until <= world.time_ + kStepSettings.rounding * h;
-      if (ends) released.push_back(place_of(push.body));
-      return ends;
-    });
+    for (const Push<D>& push : world.forces_.pushes)
+      if (ends(push)) released.push_back(in_world(push.body));
     wake(std::move(released));
+    find_pushes();
     // Once a step, by looking ahead or in the first of several tries: they follow from the world as
     // it was before.
     if (!world.ahead_ || world.ahead_->h != h) {
-      Ahead found{h, {}, 0};
+      Ahead found{h, places, {}, 0};
       if (flies_anywhere())
         find_increments_if_any<D>(world.config_, moved, forces, h, found.increments, world.work_);
       else
         found.increments.resize(moved.size());
       world.ahead_ = std::move(found);
     }
+    increments = world.ahead_->increments;
     world.work_.force_evaluations += std::exchange(world.ahead_->force_evaluations, 0);
     if (collides()) find_reach();
   }
 
   void refresh_boxes() {
-    if (collides()) boxes = enlarged_boxes(true);
+    if (!collides()) return;
+    require_boxes();
+    if (!looks_for_contacts()) return;
+    if (!world.told_all_) {
+      world.structure().tell(all_boxes());
+      world.stirred_.clear();
+    }
+    boxes = boxes_that_changed();
   }
 
   void broad_phase() {
     if (!looks_for_contacts()) return;
     BroadPhase<D>& structure = world.structure();
-    structure.update(boxes);
+    structure.follow(boxes);
+    note_told();
     outcome.pairs.assign(structure.pairs().begin(), structure.pairs().end());
     ++world.work_.broad_phases;
     world.work_.pair_tests += structure.counters().pair_tests;
@@ -111,6 +84,8 @@ struct World<D>::Step : World<D>::StepIslands {
     narrow_pairs = 0;
     manifolds.clear();
     if (outcome.pairs.empty()) return;
+    take_part_in_pairs();
+    if (looks.size() != moved.size()) look();
     const Scratch<Pair> joined = joined_pairs();
     auto touch = world.touching_.begin();  // in order of ids, as the pairs are
     for (const Pair& pair : outcome.pairs) {
@@ -119,7 +94,10 @@ struct World<D>::Step : World<D>::StepIslands {
       auto found = nearing(pair);
       if (!found) continue;
       while (touch != world.touching_.end() && touch->record.pair() < pair) ++touch;
-      if (touch != world.touching_.end() && touch->record.pair() == pair) found->touch = &*touch;
+      if (touch != world.touching_.end() && touch->record.pair() == pair)
+        found->touch = &*touch;
+      else
+        found->touch = slept_touch(pair);
       near.push_back(*found);
     }
     // They are made when their islands are moved, and remembered for the next step.
@@ -135,19 +113,20 @@ struct World<D>::Step : World<D>::StepIslands {
     if (!looks_for_contacts()) return false;
     Scratch<std::uint32_t> woken;
     for (const NearPair& pair : near) {
-      if (moved[pair.a].asleep) woken.push_back(pair.a);
-      if (moved[pair.b].asleep) woken.push_back(pair.b);
+      if (moved[pair.a].asleep) woken.push_back(places[pair.a]);
+      if (moved[pair.b].asleep) woken.push_back(places[pair.b]);
     }
     const auto tied = [&](BodyId first, BodyId second) {
       const std::uint32_t a = place_of(first), b = place_of(second);
-      if (moved[a].asleep && moved[b].stirs()) woken.push_back(a);
-      if (moved[b].asleep && moved[a].stirs()) woken.push_back(b);
+      if (moved[a].asleep && moved[b].stirs()) woken.push_back(places[a]);
+      if (moved[b].asleep && moved[a].stirs()) woken.push_back(places[b]);
     };
-    for (const auto& entry : world.joints_) tied(entry.second.a, entry.second.b);
+    for (std::size_t i = 0; i < joints.size(); ++i) tied(joint(i).a, joint(i).b);
     for (const Spring<D>& spring : forces.springs) tied(spring.a, spring.b);
     if (woken.empty()) return false;
     wake(std::move(woken));
-    find_increments_if_any<D>(world.config_, moved, forces, h, anew, world.work_);
+    find_pushes();
+    find_increments_if_any<D>(world.config_, moved, forces, h, increments, world.work_);
     find_reach();
     return true;
   }
@@ -156,6 +135,7 @@ struct World<D>::Step : World<D>::StepIslands {
     const ContactSolver& solver = contact_solver(world.config_.contacts);
     Scratch<std::uint8_t> solved(moved.size());
     touch_of.assign(near.size(), kNone);
+    for (const std::size_t i : joints) joint_memories.push_back(world.joint_memories_[i]);
     touching.reserve(std::min(near.size(), world.touching_.size() + world.touching_.size() / 8));
     int budget = world.config_.impact_budget;
     const std::uint64_t located = world.work_.impacts_located;
@@ -173,7 +153,7 @@ struct World<D>::Step : World<D>::StepIslands {
     }
     struck = world.work_.impacts_located != located;
     for (std::size_t i = 0; i < moved.size(); ++i)
-      if (!solved[i]) fly(moved[i], increments()[i], h, world.config_.rotation, world.work_);
+      if (!solved[i]) fly(moved[i], increments[i], h, world.config_.rotation, world.work_);
   }
 
   void require_no_overflow() const {
@@ -207,24 +187,59 @@ struct World<D>::Step : World<D>::StepIslands {
   void update_contact_events() {
     this->order_touches();
     for (const Touch<D>& touch : touching) outcome.contacts.push_back(touch.record);
+    Scratch<Touch<D>> sleep;
+    for (const Touch<D>& touch : world.touching_)
+      if (this->slept_through(touch)) sleep.push_back(touch);
+    this->keep_slept(sleep);
+    // Of those that sleep nothing is new, nor of those that slept.
+    if (woke) world.told_whole();
+    const Scratch<Touch<D>>& slept_on = this->sleeps_anew ? this->slept : world.slept_;
+    outcome.untold = slept_on.size();
+    Scratch<ToldPair> old(world.outcome_.told.begin(), world.outcome_.told.end());
+    if (!slept_on.empty())
+      std::erase_if(old, [&](const ToldPair& told) {
+        return this->is_in(slept_on, told.pair) && !this->is_in(touching, told.pair);
+      });
     tell_events<D>(
         outcome.contacts, contact_solver(world.config_.contacts).frames_remembered,
-        [&](BodyId id) -> const Body<D>& { return moved[place_of(id)]; }, world.outcome_.told,
-        outcome.told, outcome.events);
+        [&](BodyId id) -> const Body<D>& { return moved[place_of(id)]; }, old, outcome.told,
+        outcome.events);
+    auto event = outcome.events.begin();
+    for (Touch<D>& touch : touching) {
+      while (event->pair() != touch.record.pair()) ++event;
+      touch.crushes = event->crushes;
+    }
+    // What has fallen asleep is looked at no more.
+    if (world.work_.asleep == 0) return;
+    const auto stirs = [&](BodyId id) { return moved[place_of(id)].stirs(); };
+    sleep.clear();
+    std::erase_if(touching, [&](const Touch<D>& touch) {
+      if (stirs(touch.record.a) || stirs(touch.record.b)) return false;
+      sleep.push_back(touch);
+      return true;
+    });
+    this->keep_slept(sleep);
   }
 
   void commit() {
-    std::swap(world.bodies_, moved);
-    world.rested_ = std::move(rested);
-    world.may_rest_ =
-        world.work_.asleep > 0 ||
-        std::ranges::any_of(world.rested_, [](double seconds) { return seconds > 0; });
-    std::swap(world.roots_, root);
-    world.joint_memories_ = std::move(joint_memories);
-    world.forces_.pushes = std::move(forces.pushes);
-    world.touching_ = std::move(touching);
-    std::swap(world.outcome_, outcome);
+    for (std::size_t i = 0; i < root.size(); ++i) roots.emplace_back(places[i], places[root[i]]);
+    std::erase_if(world.forces_.pushes, [&](const Push<D>& push) { return ends(push); });
+    if (woke || world.work_.asleep != world.active().asleep) world.active_.reset();
+    world.may_rest_ = world.work_.asleep > 0 ||
+                      std::ranges::any_of(rested, [](double seconds) { return seconds > 0; });
     world.rests_ = rests();
+    for (std::size_t i = 0; i < moved.size(); ++i) world.rested_[places[i]] = rested[i];
+    if (moved.size() == world.bodies_.size())
+      std::swap(world.bodies_, moved);
+    else
+      for (std::size_t i = 0; i < moved.size(); ++i) world.bodies_[places[i]] = moved[i];
+    std::swap(world.roots_, roots);
+    world.knows_islands_ = false;
+    for (std::size_t i = 0; i < joints.size(); ++i)
+      world.joint_memories_[joints[i]] = joint_memories[i];
+    world.touching_ = std::move(touching);
+    if (this->sleeps_anew) world.slept_ = std::move(this->slept);
+    std::swap(world.outcome_, outcome);
     world.go_on(h);
     WorldWork& work = world.work_;
     work.narrow_pairs += narrow_pairs;
@@ -232,37 +247,91 @@ struct World<D>::Step : World<D>::StepIslands {
         work.normal_rows + work.friction_rows + work.joint_rows + work.direct_rows;
   }
 
-  // Over the whole step, if nothing touches.
-  const Scratch<Increment<D>>& increments() const {
-    return anew.empty() ? world.ahead_->increments : anew;
+  // What looking ahead asks for.
+  void require_boxes() const {
+    const auto require = [&](std::uint32_t place) {
+      if (!is_valid(enlarged(place)))
+        throw Refused(fmt::format("body '{}': position overflows in step {}", body_at(place).name,
+                                  world.work_.steps + 1));
+    };
+    if (world.told_all_)
+      for (const std::uint32_t place : places) require(place);
+    else
+      for (std::uint32_t place = 0; place < world.bodies_.size(); ++place) require(place);
   }
 
-  // If they are `required`, throws Refused for one that is beyond all numbers.
-  Scratch<Proxy<D>> enlarged_boxes(bool required = false) const {
+  Scratch<Proxy<D>> all_boxes() const {
     Scratch<Proxy<D>> proxies;
-    for (std::size_t i = 0; i < moved.size(); ++i) {
-      const Body<D>& body = moved[i];
-      const Box<D> box = enlarged_box(i);
-      if (required && !is_valid(box))
-        throw Refused(fmt::format("body '{}': position overflows in step {}", body.name,
-                                  world.work_.steps + 1));
-      if (body.collides) proxies.push_back({body.id, box, !body.moves(), body.stirs()});
-    }
+    for (std::uint32_t place = 0; place < world.bodies_.size(); ++place) add_box(place, proxies);
     return proxies;
+  }
+
+  void note_told() {
+    world.told_all_ = knows_forces;
+    world.stirred_ = stirring();
   }
 
  private:
   // Whether nothing moves, nothing ends, and nothing is new: then the next step is as this one.
   bool rests() const {
-    const Outcome& told = world.outcome_;
-    return std::ranges::none_of(world.bodies_, &Body<D>::stirs) &&
+    return std::ranges::none_of(moved, &Body<D>::stirs) &&
            std::ranges::none_of(world.forces_.pushes,
                                 [](const Push<D>& push) { return push.until.has_value(); }) &&
-           told.pairs.empty() && told.impacts.moments.empty() &&
-           told.told.size() == told.contacts.size() &&
-           std::ranges::all_of(told.events, [](const ContactEvent& event) {
-             return event.kind == ContactEvent::Kind::stay;
-           });
+           outcome.pairs.empty() && outcome.impacts.moments.empty() && outcome.told.empty() &&
+           outcome.events.empty();
+  }
+  bool ends(const Push<D>& push) const {
+    return push.until && *push.until <= world.time_ + kStepSettings.rounding * h;
+  }
+  void find_pushes() {
+    forces.pushes.clear();
+    for (const Push<D>& push : world.forces_.pushes)
+      if (!ends(push) && place_of(push.body) != kNone) forces.pushes.push_back(push);
+  }
+
+  Scratch<std::uint32_t> stirring() const {
+    Scratch<std::uint32_t> stir;
+    for (std::size_t i = 0; i < moved.size(); ++i)
+      if (moved[i].stirs()) stir.push_back(places[i]);
+    return stir;
+  }
+  // The box of a body of the world, if it meets others.
+  void add_box(std::uint32_t place, Scratch<Proxy<D>>& proxies) const {
+    const Body<D>& body = body_at(place);
+    if (body.collides) proxies.push_back({body.id, enlarged(place), !body.moves(), body.stirs()});
+  }
+  const Body<D>& body_at(std::uint32_t place) const {
+    const std::uint32_t i = local(place);
+    return i == kNone ? world.bodies_[place] : moved[i];
+  }
+  Box<D> enlarged(std::uint32_t place) const {
+    const std::uint32_t i = local(place);
+    const Body<D>& body = body_at(place);
+    const Box<D> box =
+        i < looks.size() ? bounding_box(body.shape, body.position, looks[i].axes) : body.box();
+    const Vec<D> way(!knows_forces ? 0 : i == kNone ? coasting_reach(body, h) : reach[i]);
+    return {box.lo - way, box.hi + way};
+  }
+  Scratch<Proxy<D>> boxes_that_changed() const {
+    Scratch<std::uint32_t> changed;
+    std::ranges::set_union(world.stirred_, stirring(), std::back_inserter(changed));
+    Scratch<Proxy<D>> proxies;
+    for (const std::uint32_t place : changed) add_box(place, proxies);
+    return proxies;
+  }
+
+  void take_part_in_pairs() {
+    if (places.size() == world.bodies_.size()) return;
+    Scratch<std::uint32_t> met;
+    for (const Pair& pair : outcome.pairs)
+      met.insert(met.end(), {in_world(pair.a), in_world(pair.b)});
+    take_part(std::move(met));
+  }
+
+  // Of two of which one has been woken in this step; null if they did not touch.
+  const Touch<D>* slept_touch(const Pair& pair) const {
+    const auto touch = std::ranges::lower_bound(world.slept_, pair, {}, this->pair_of);
+    return touch != world.slept_.end() && touch->record.pair() == pair ? &*touch : nullptr;
   }
   bool collides() const { return world.config_.contacts != ContactMethod::none; }
   bool locates_impacts() const {
@@ -274,8 +343,8 @@ struct World<D>::Step : World<D>::StepIslands {
   bool flies_anywhere() const {
     if (collides()) return true;
     Scratch<std::uint8_t> held(moved.size());
-    for (const auto& entry : world.joints_)
-      for (const BodyId id : {entry.second.a, entry.second.b}) held[place_of(id)] = true;
+    for (std::size_t i = 0; i < joints.size(); ++i)
+      for (const BodyId id : {joint(i).a, joint(i).b}) held[place_of(id)] = true;
     for (std::size_t i = 0; i < moved.size(); ++i)
       if (moved[i].is_dynamic() && !held[i]) return true;
     return false;
@@ -287,50 +356,49 @@ struct World<D>::Step : World<D>::StepIslands {
     const auto known = [&](std::uint32_t i, std::uint32_t j) {
       const std::pair<std::uint32_t, std::uint32_t> both = std::minmax(i, j);
       const Pair ids{moved[both.first].id, moved[both.second].id};
-      const auto places = [](const NearPair& pair) { return std::pair(pair.a, pair.b); };
+      const auto both_of = [](const NearPair& pair) { return std::pair(pair.a, pair.b); };
       return i == j || std::ranges::binary_search(joined, ids) ||
-             std::ranges::binary_search(near, both, {}, places);
+             std::ranges::binary_search(near, both, {}, both_of);
     };
     Scratch<Box<D>> now;  // if any went so far
     for (std::uint32_t i = 0; i < moved.size(); ++i) {
       if (!moved[i].is_pushed() || !moved[i].collides || !strayed(i)) continue;
       if (now.empty())
-        for (const Body<D>& body : moved) now.push_back(body.box());
-      for (std::uint32_t j = 0; j < moved.size(); ++j) {
-        if (!overlap(now[i], now[j]) || !moved[j].collides || known(i, j)) continue;
+        for (std::uint32_t place = 0; place < world.bodies_.size(); ++place)
+          now.push_back(body_at(place).box());
+      for (std::uint32_t place = 0; place < world.bodies_.size(); ++place) {
+        const std::uint32_t j = local(place);
+        const Body<D>& other = body_at(place);
+        if (!overlap(now[places[i]], now[place]) || !other.collides || (j != kNone && known(i, j)))
+          continue;
         ++world.work_.narrow_tests;
-        if (collide(placed(moved[i]), placed(moved[j]), 0)) return true;
+        if (collide(placed(moved[i]), placed(other), 0)) return true;
       }
     }
     return false;
   }
 
   double way_gone(std::size_t i) const {
-    return std::max(glm::length(moved[i].position - world.bodies_[i].position),
+    return std::max(glm::length(moved[i].position - world.bodies_[places[i]].position),
                     i < farthest.size() ? farthest[i] : 0);
   }
   bool strayed(std::size_t i) const {
     return way_gone(i) > reach[i] * (1 + kStepSettings.rounding);
   }
 
-  void find_reach() {
-    reach.resize(moved.size());
+  void look() {
     looks.clear();
+    for (const Body<D>& body : moved) looks.emplace_back(body, h);
+  }
+
+  void find_reach() {
+    look();
     for (std::size_t i = 0; i < moved.size(); ++i) {
-      looks.emplace_back(moved[i], h);
-      const Increment<D>& increment = increments()[i];
+      const Increment<D>& increment = increments[i];
       const double way = looks[i].coasting_reach(h) + glm::length(increment.kick) * h +
                          glm::length(increment.drift);
       reach[i] = std::max(reach[i], way);
     }
-  }
-
-  Box<D> enlarged_box(std::size_t place) const {
-    const Body<D>& body = moved[place];
-    const Box<D> box = place < looks.size()
-                           ? bounding_box(body.shape, body.position, looks[place].axes)
-                           : body.box();
-    return {box.lo - Vec<D>(reach[place]), box.hi + Vec<D>(reach[place])};
   }
 
   bool looks_for_contacts() const {
@@ -340,9 +408,9 @@ struct World<D>::Step : World<D>::StepIslands {
   // What a joint ties together without letting it touch; ascending.
   Scratch<Pair> joined_pairs() const {
     Scratch<Pair> joined;
-    for (const auto& [id, joint] : world.joints_)
-      if (!joint.collide)
-        joined.push_back({std::min(joint.a, joint.b), std::max(joint.a, joint.b)});
+    for (std::size_t i = 0; i < joints.size(); ++i)
+      if (!joint(i).collide)
+        joined.push_back({std::min(joint(i).a, joint(i).b), std::max(joint(i).a, joint(i).b)});
     std::ranges::sort(joined);
     return joined;
   }
@@ -380,10 +448,6 @@ struct World<D>::Step : World<D>::StepIslands {
     }
     return found;
   }
-
-  void wake(Scratch<std::uint32_t> places) {
-    wake_together<D>(moved, rested, std::move(places), world.links(), Disturbed::sleepers);
-  }
 };
 
 // The lecture's update has four of these phases: it refreshes the boxes, finds pairs in the broad
@@ -399,10 +463,10 @@ void World<D>::step(double h) {
   if (h == 0) return;  // else -0.0 + 0.0 would change the sign of a zero
   if (rests_) return go_on(h);
   const WorldWork before = work_;
-  Scratch<double> reach;
+  typename Step::Reached reached;
   try {
     for (int tries = 1;; ++tries) {
-      Step step{{*this, h}, std::move(reach)};
+      Step step(*this, h, std::move(reached));
       step.find_forces();  // how all would fly on, and so how far each may come
       do {
         step.refresh_boxes();
@@ -415,17 +479,18 @@ void World<D>::step(double h) {
       // An impact may send a body farther than it was looked for. Then the step is made anew,
       // looking farther.
       if (tries == kStepSettings.most_tries || step.stayed_within_reach()) {
-        step.fall_asleep(step.increments());
+        step.fall_asleep();
         step.update_contact_events();
         step.commit();
         return;
       }
-      reach = std::move(step.reach);
+      reached = {std::move(step.places), std::move(step.reach)};
       ++work_.retries;
       work_.impacts_located = before.impacts_located;  // they did not take place
     }
   } catch (...) {
     ahead_.reset();
+    told_all_ = false;
     work_ = before;
     throw;
   }
@@ -437,8 +502,7 @@ void World<D>::store(std::span<const BodyId> ids, double h,
   Scratch<Proxy<D>> proxies;
   for (const BodyId id : ids) {
     const Body<D>& body = bodies_[index_of(id)];
-    const Vec<D> reach(
-        config_.contacts == ContactMethod::none ? 0 : Look<D>(body, h).coasting_reach(h));
+    const Vec<D> reach(config_.contacts == ContactMethod::none ? 0 : coasting_reach(body, h));
     const Box<D> box = body.box();
     proxies.push_back({id, {box.lo - reach, box.hi + reach}, !body.moves(), body.stirs()});
   }
@@ -450,30 +514,37 @@ void World<D>::store(std::span<const BodyId> ids, double h,
 template <int D>
 void World<D>::look_ahead(double h, const typename BroadPhase<D>::Watch& watch) {
   BroadPhase<D>& broad_phase = structure();
-  Step step{{*this, h}, {}};
-  step.reach.resize(bodies_.size());
-  if (config_.contacts == ContactMethod::none)
-    return broad_phase.build(step.enlarged_boxes(), watch);
+  Step step(*this, h, {});
+  told_all_ = step.knows_forces = false;
+  if (config_.contacts == ContactMethod::none) return broad_phase.build(step.all_boxes(), watch);
   const WorldWork before = work_;
   try {
     step.find_forces();
-    step.enlarged_boxes(true);
+    step.knows_forces = true;
+    step.require_boxes();
     ahead_->force_evaluations = work_.force_evaluations - before.force_evaluations;
   } catch (const Refused&) {
     ahead_.reset();
-    step.reach.assign(bodies_.size(), 0);
+    step.knows_forces = false;
   }
   work_ = before;
-  broad_phase.build(step.enlarged_boxes(), watch);
+  broad_phase.build(step.all_boxes(), watch);
+  step.note_told();
 }
 
 template <int D>
 Body<D> World<D>::flown(BodyId id, double h) const {
   const std::size_t place = index_of(id);
   Body<D> body = bodies_[place];
-  const bool known = ahead_ && ahead_->h == h && place < ahead_->increments.size();
+  Increment<D> increment;
+  if (ahead_ && ahead_->h == h) {
+    const auto& places = ahead_->places;
+    const auto known = std::ranges::lower_bound(places, place);
+    if (known != places.end() && *known == place)
+      increment = ahead_->increments[static_cast<std::size_t>(known - places.begin())];
+  }
   WorldWork nobody_counts;
-  fly(body, known ? ahead_->increments[place] : Increment<D>(), h, config_.rotation, nobody_counts);
+  fly(body, increment, h, config_.rotation, nobody_counts);
   return body;
 }
 

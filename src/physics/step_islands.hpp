@@ -15,12 +15,48 @@
 
 namespace lantern::physics {
 
+// The numbers of a step, whatever the method.
+struct StepSettings {
+  int most_tries = 8;     // the last one counts even if a body went farther than was looked for
+  double slack = 1e-3;    // of a body's thickness: nearer is looked at, too
+  double fast = 0.5;      // of the thinner body's thickness in a step: may pass through
+  double fast_quick = 2;  // the same where an error is wanted: rows hold what is slower
+  std::size_t most_manifolds = 1 << 16;  // kept from the narrow phase; of more, made again
+  double rounding = 1e-9;  // of a step's time, when a push ends; of a reach, whether it was kept
+};
+inline constexpr StepSettings kStepSettings;
+
+// A body before the step, as each pair that it is in asks for it.
+template <int D>
+struct Look {
+  Look(const Body<D>& body, double h)
+      : axes(axes_of(body)),
+        velocity(velocity_of(body)),
+        turning(turning_way(body, h)),
+        thick(thickness<D>(body.shape)) {}
+
+  // How far its surface may come if no force acts.
+  double coasting_reach(double h) const {
+    const double slack = thick < kEndless ? thick * kStepSettings.slack : 0;
+    return slack + turning + glm::length(velocity) * h;
+  }
+
+  Mat<D> axes;
+  Vec<D> velocity;
+  double turning;  // how far its surface turns
+  double thick;
+};
+template <int D>
+double coasting_reach(const Body<D>& body, double h) {
+  return Look<D>(body, h).coasting_reach(h);
+}
+
 template <int D>
 struct World<D>::StepIslands {
   // Two bodies that may touch. Of what an IslandPair holds only what is known before the island is
   // moved: there may be millions.
   struct NearPair {
-    std::uint32_t a = 0, b = 0;  // places among all bodies
+    std::uint32_t a = 0, b = 0;  // places among those that take part
     double restitution = 0;
     double friction = 0;
     double reach = 0;
@@ -31,18 +67,41 @@ struct World<D>::StepIslands {
   };
   static constexpr std::uint32_t kNone = ~std::uint32_t{0};
   // What a solver is given together: places of bodies, of near pairs, of joints, of what pulls and
-  // pushes them; all ascending.
+  // pushes them; all ascending, and among those that take part.
   struct Group {
     Scratch<std::uint32_t> bodies;
     Scratch<std::size_t> pairs, joints, springs, pushes;
   };
 
+  // How far each was looked for in an earlier try.
+  struct Reached {
+    Scratch<std::uint32_t> places;
+    Scratch<double> reach;
+  };
+
+  StepIslands(World& of, double seconds, Reached before)
+      : world(of), h(seconds), reached(std::move(before)) {
+    forces.gravity = world.forces_.gravity;
+    forces.gravitation = world.forces_.gravitation;
+    asleep = world.active().asleep;
+    take_part(world.active());
+  }
+
   World& world;
   double h;
-  std::vector<Body<D>>& moved = world.next_bodies_ = world.bodies_;
-  Scratch<double> rested = world.rested_;
-  Scratch<JointMemory<D>> joint_memories = world.joint_memories_;
-  Forces<D> forces = world.forces_;
+  Reached reached;
+  // Who takes part: what is awake, and what it is tied to or may touch. The rest of the world is
+  // neither copied nor looked at.
+  Scratch<std::uint32_t> places = {};  // in the world, ascending
+  std::vector<Body<D>>& moved = world.next_bodies_;
+  Scratch<double> rested = {};
+  Scratch<double> reach = {};  // of each: how far its surface may come; at least as given
+  Scratch<Increment<D>> increments = {};  // over the whole step, if nothing touches
+  Scratch<std::size_t> joints = {};       // that hold some of them: places in the world
+  Scratch<JointMemory<D>> joint_memories = {};
+  Forces<D> forces = {};        // that act among them
+  std::size_t asleep = 0;       // bodies of the whole world
+  bool woke = false;            // any, in this step
   Scratch<NearPair> near = {};  // in order of ids
   Scratch<Manifold<D>> manifolds = {};
   Scratch<std::uint32_t> root = {};         // of each body's island; static ones have their own
@@ -53,12 +112,83 @@ struct World<D>::StepIslands {
   bool in_order = true;                  // of ids are they
   Scratch<std::uint32_t> touch_of = {};  // of each near pair; kNone: it did not touch
 
-  std::uint32_t place_of(BodyId id) const { return static_cast<std::uint32_t>(world.index_of(id)); }
+  // Its place among those that take part; kNone if it does not.
+  std::uint32_t local(std::uint32_t place) const {
+    if (place < places.size() && places[place] == place) return place;  // as if all do
+    const auto found = std::ranges::lower_bound(places, place);
+    const bool is_there = found != places.end() && *found == place;
+    return is_there ? static_cast<std::uint32_t>(found - places.begin()) : kNone;
+  }
+  std::uint32_t in_world(BodyId id) const { return static_cast<std::uint32_t>(world.index_of(id)); }
+  std::uint32_t place_of(BodyId id) const { return local(in_world(id)); }
+  const Joint<D>& joint(std::size_t i) const { return world.joints_[joints[i]].second; }
+
+  // These, too, from now on.
+  void take_part(Scratch<std::uint32_t> more) {
+    if (!std::ranges::is_sorted(more)) std::ranges::sort(more);
+    more.erase(std::ranges::unique(more).begin(), more.end());
+    if (!places.empty())
+      std::erase_if(more, [&](std::uint32_t place) { return local(place) != kNone; });
+    const bool at_first = places.empty();  // then reaches are still to be found
+    std::size_t from = places.size(), left = more.size(), to = from + left;
+    const auto resize = [&](auto&... lists) { (lists.resize(to), ...); };
+    resize(places, rested, reach, increments);
+    to > 0 ? moved.resize(to, world.bodies_[0]) : moved.clear();
+    while (left > 0) {
+      --to;
+      if (from > 0 && places[from - 1] > more[left - 1]) {
+        --from;
+        const auto shift = [&](auto&... lists) { ((lists[to] = std::move(lists[from])), ...); };
+        shift(places, moved, rested, reach, increments);
+        continue;
+      }
+      const std::uint32_t place = places[to] = more[--left];
+      moved[to] = world.bodies_[place];
+      rested[to] = world.rested_[place];
+      reach[to] = at_first ? 0 : coasting_reach(moved[to], h);
+      increments[to] = {};
+      const auto before = std::ranges::lower_bound(reached.places, place);
+      if (before != reached.places.end() && *before == place)
+        reach[to] = std::max(
+            reach[to], reached.reach[static_cast<std::size_t>(before - reached.places.begin())]);
+    }
+  }
+
+  // Those at these places of the world, and what hangs on them, if they sleep.
+  void wake(Scratch<std::uint32_t> sleepers) {
+    if (sleepers.empty()) return;
+    const auto sleeps = [&](std::uint32_t place) {
+      const std::uint32_t i = local(place);
+      return i == kNone ? world.bodies_[place].asleep : moved[i].asleep;
+    };
+    const Scratch<std::uint32_t> woken =
+        woken_with<D>(world.bodies_, std::move(sleepers), world.links(), sleeps);
+    if (woken.empty()) return;
+    woke = true;
+    asleep -= woken.size();
+    take_part(woken);
+    for (const std::uint32_t place : woken) {
+      moved[local(place)].asleep = false;
+      rested[local(place)] = 0;
+    }
+    Active active;
+    world.find_ties(active, [&](std::uint32_t place) {
+      const std::uint32_t i = local(place);
+      return i != kNone && moved[i].moves();
+    });
+    take_part(active);
+  }
+
+  void take_part(const Active& active) {
+    joints = active.joints;
+    forces.springs.clear();
+    for (const std::size_t i : active.springs) forces.springs.push_back(world.forces_.springs[i]);
+    take_part(active.bodies);
+  }
 
   // Static and kinematic bodies do not join what touches them.
   void make_islands() {
-    if (near.empty() && world.joints_.empty() && forces.springs.empty() &&
-        !(forces.gravitation > 0)) {
+    if (near.empty() && joints.empty() && forces.springs.empty() && !(forces.gravitation > 0)) {
       root.resize(moved.size());
       std::iota(root.begin(), root.end(), 0u);
       return count_islands();
@@ -68,8 +198,8 @@ struct World<D>::StepIslands {
       if (moved[a].is_dynamic() && moved[b].is_dynamic()) sets.unite(a, b);
     };
     for (const NearPair& pair : near) unite(pair.a, pair.b);
-    for (const auto& entry : world.joints_)
-      unite(place_of(entry.second.a), place_of(entry.second.b));
+    for (std::size_t i = 0; i < joints.size(); ++i)
+      unite(place_of(joint(i).a), place_of(joint(i).b));
     for (const Spring<D>& spring : forces.springs) unite(place_of(spring.a), place_of(spring.b));
     // What attracts hangs together over any distance.
     std::optional<std::uint32_t> first;
@@ -93,17 +223,15 @@ struct World<D>::StepIslands {
   // Which bodies, pairs and joints the solver is given together: those of each island, or of the
   // whole world. What neither touches nor is joined is in none of them, but flies.
   Scratch<Group> groups_to_solve(bool whole_world) const {
-    if (near.empty() && world.joints_.empty()) return {};
+    if (near.empty() && joints.empty()) return {};
     const auto dynamic = [&](std::uint32_t i) { return moved[i].is_dynamic(); };
     const auto own = [&](std::uint32_t i) { return whole_world ? 0 : root[i]; };
     const auto owner = [&](std::uint32_t a, std::uint32_t b) { return own(dynamic(a) ? a : b); };
-    const auto places = [&](const auto& tie) {
-      return std::pair(place_of(tie.a), place_of(tie.b));
-    };
+    const auto ends = [&](const auto& tie) { return std::pair(place_of(tie.a), place_of(tie.b)); };
     // Of each root the number of its group, if pairs or joints are to be solved in it.
     Scratch<std::uint32_t> number(moved.size(), kNone);
     for (const NearPair& pair : near) number[owner(pair.a, pair.b)] = 0;
-    for (const auto& [id, joint] : world.joints_) number[std::apply(owner, places(joint))] = 0;
+    for (std::size_t i = 0; i < joints.size(); ++i) number[std::apply(owner, ends(joint(i)))] = 0;
     Scratch<Group> groups;
     for (std::uint32_t& n : number) {
       if (n == kNone) continue;
@@ -115,10 +243,10 @@ struct World<D>::StepIslands {
     };
     for (std::size_t i = 0; i < near.size(); ++i)
       add(owner(near[i].a, near[i].b), &Group::pairs, i);
-    for (std::size_t i = 0; i < world.joints_.size(); ++i)
-      add(std::apply(owner, places(world.joints_[i].second)), &Group::joints, i);
+    for (std::size_t i = 0; i < joints.size(); ++i)
+      add(std::apply(owner, ends(joint(i))), &Group::joints, i);
     for (std::size_t i = 0; i < forces.springs.size(); ++i) {
-      const auto [a, b] = places(forces.springs[i]);
+      const auto [a, b] = ends(forces.springs[i]);
       if (whole_world || dynamic(a) || dynamic(b)) add(owner(a, b), &Group::springs, i);
     }
     for (std::size_t i = 0; i < forces.pushes.size(); ++i) {
@@ -141,8 +269,8 @@ struct World<D>::StepIslands {
       for (const std::uint32_t place : {near[i].a, near[i].b})
         if (!moved[place].is_dynamic()) others.push_back(place);
     for (const std::size_t i : group.joints) {
-      add(world.joints_[i].second.a);
-      add(world.joints_[i].second.b);
+      add(joint(i).a);
+      add(joint(i).b);
     }
     island.forces.gravity = forces.gravity;
     island.forces.gravitation = forces.gravitation;
@@ -174,10 +302,10 @@ struct World<D>::StepIslands {
       rows.b = local(rows.b);
     }
     for (const std::size_t i : group.joints) {
-      JointRows<D> rows{.joint = world.joints_[i].second, .place = static_cast<std::uint32_t>(i)};
+      JointRows<D> rows{.joint = joint(i), .place = static_cast<std::uint32_t>(i)};
       rows.a = local(place_of(rows.joint.a));
       rows.b = local(place_of(rows.joint.b));
-      const JointMemory<D>& memory = world.joint_memories_[i];
+      const JointMemory<D>& memory = world.joint_memories_[joints[i]];
       rows.seconds = memory.seconds;
       rows.backoff = memory.backoff;
       if (memory.seconds > 0) rows.impulse = memory.impulse;
@@ -208,8 +336,7 @@ struct World<D>::StepIslands {
   // An island sleeps when all of it has been slow for a while and something holds it, or drag
   // brakes it; a body that flies freely sleeps only if it does not move at all. What attracts each
   // other never rests: something far away may come nearer.
-  void fall_asleep(const Scratch<Increment<D>>& increments) {
-    world.work_.asleep = 0;
+  void fall_asleep() {
     if (world.config_.may_sleep && !(forces.gravitation > 0)) {
       Scratch<std::uint8_t> restless(moved.size()), held(moved.size());
       for (std::size_t k = 0; k < near.size(); ++k) {
@@ -220,8 +347,8 @@ struct World<D>::StepIslands {
           if (!moved[i].is_dynamic() && moved[i].stirs()) restless[root[i == a ? b : a]] = true;
         }
       }
-      for (const auto& entry : world.joints_)
-        for (const BodyId id : {entry.second.a, entry.second.b}) held[root[place_of(id)]] = true;
+      for (std::size_t i = 0; i < joints.size(); ++i)
+        for (const BodyId id : {joint(i).a, joint(i).b}) held[root[place_of(id)]] = true;
       for (std::size_t i = 0; i < moved.size(); ++i) {
         const Body<D>& body = moved[i];
         if (!body.is_pushed()) continue;
@@ -237,36 +364,49 @@ struct World<D>::StepIslands {
         Body<D>& body = moved[i];
         if (!body.is_pushed() || restless[root[i]]) continue;
         body.asleep = true;
+        ++asleep;
         body.velocity = Vec<D>(0.0);
         body.angular_momentum = Spin<D>(0.0);
       }
     }
-    for (const Body<D>& body : moved) world.work_.asleep += body.asleep;
+    world.work_.asleep = asleep;
   }
 
-  // In order of ids, as the near pairs are, with those of bodies that slept through.
+  // In order of ids, as the near pairs are.
   void order_touches() {
-    Scratch<Touch<D>> slept, ordered;
-    const auto rests = [&](BodyId id) {
-      return !world.bodies_[place_of(id)].stirs() && !moved[place_of(id)].stirs();
-    };
-    if (std::ranges::any_of(world.bodies_, &Body<D>::asleep))
-      for (const Touch<D>& touch : world.touching_)
-        if (rests(touch.record.a) && rests(touch.record.b)) slept.push_back(touch);
-    if (slept.empty() && in_order) return;
-    ordered.reserve(touching.size() + slept.size());
-    auto next = slept.begin();
+    if (in_order) return;
+    Scratch<Touch<D>> ordered;
+    ordered.reserve(touching.size());
     for (std::size_t i = 0; i < near.size(); ++i) {
       stop_if_asked();
-      if (touch_of[i] == kNone) continue;
-      Touch<D>& touch = touching[touch_of[i]];
-      while (next != slept.end() && next->record.pair() < touch.record.pair())
-        ordered.push_back(std::move(*next++));
-      if (next != slept.end() && next->record.pair() == touch.record.pair()) ++next;
-      ordered.push_back(std::move(touch));
+      if (touch_of[i] != kNone) ordered.push_back(std::move(touching[touch_of[i]]));
     }
-    ordered.insert(ordered.end(), next, slept.end());
     touching = std::move(ordered);
+  }
+
+  // Touches of two that do not move any more leave the list of those that a step goes through.
+  // Nothing if those that sleep are the same.
+  Scratch<Touch<D>> slept;
+  bool sleeps_anew = false;  // `slept` is the world's list
+  static Pair pair_of(const Touch<D>& touch) { return touch.record.pair(); }
+  bool is_in(const Scratch<Touch<D>>& touches, const Pair& pair) const {
+    return std::ranges::binary_search(touches, pair, {}, pair_of);
+  }
+  void keep_slept(const Scratch<Touch<D>>& more) {
+    if (more.empty() && !(woke && !sleeps_anew)) return;
+    if (!std::exchange(sleeps_anew, true))
+      std::ranges::copy_if(world.slept_, std::back_inserter(slept),
+                           [&](const Touch<D>& touch) { return slept_through(touch); });
+    slept.insert(slept.end(), more.begin(), more.end());
+    std::ranges::sort(slept, {}, pair_of);
+  }
+  // Before this step and after it.
+  bool slept_through(const Touch<D>& touch) const {
+    const auto rests = [&](BodyId id) {
+      const std::uint32_t place = in_world(id), i = local(place);
+      return !world.bodies_[place].stirs() && (i == kNone || !moved[i].stirs());
+    };
+    return rests(touch.record.a) && rests(touch.record.b) && !is_in(touching, pair_of(touch));
   }
 
  private:
@@ -290,7 +430,7 @@ struct World<D>::StepIslands {
   // turning point is not at rest.
   bool is_slow(std::size_t place) const {
     const Body<D>& body = moved[place];
-    const Body<D>& before = world.bodies_[place];
+    const Body<D>& before = world.bodies_[places[place]];
     const double gained = glm::length(body.velocity - before.velocity) / h;
     const Spin<D> spin = angular_velocity(body), spin_before = angular_velocity(before);
     const Spin<D> turned_faster = spin - spin_before;

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <iterator>
+#include <numeric>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -12,6 +14,7 @@
 #include "base/hash.hpp"
 #include "base/scratch.hpp"
 #include "geometry/not_finite.hpp"
+#include "physics/contact/contact_solver.hpp"
 #include "physics/islands.hpp"
 
 namespace lantern::physics {
@@ -90,9 +93,9 @@ World<D>::World(const WorldConfig<D>& config) : config_(config) {
 template <int D>
 World<D>::World(const World& as, const WorldConfig<D>& config) : World(config) {
   const auto state_of = [](auto& w) {
-    return std::tie(w.bodies_, w.rested_, w.may_rest_, w.islands_, w.roots_, w.forces_.springs,
-                    w.forces_.pushes, w.joints_, w.joint_memories_, w.next_id_, w.next_spring_,
-                    w.next_joint_, w.time_, w.touching_, w.outcome_);
+    return std::tie(w.bodies_, w.rested_, w.may_rest_, w.islands_, w.roots_, w.knows_islands_,
+                    w.forces_.springs, w.forces_.pushes, w.joints_, w.joint_memories_, w.next_id_,
+                    w.next_spring_, w.next_joint_, w.time_, w.touching_, w.slept_, w.outcome_);
   };
   state_of(*this) = state_of(as);
 }
@@ -108,8 +111,8 @@ BodyId World<D>::add(Body<D> body, const Spin<D>& angular_velocity) {
   }
   if (angular_velocity != Spin<D>(0.0)) spin(body, angular_velocity);
   body.id = next_id_;
-  ahead_.reset();
-  rests_ = false;
+  disturb();
+  told_all_ = false;
   write_islands();
   may_rest_ |= body.asleep;
   bodies_.push_back(std::move(body));
@@ -141,6 +144,7 @@ void World<D>::remove(std::span<const BodyId> ids) {
   std::erase_if(forces_.pushes, [&](const Push<D>& push) { return is_gone(push.body); });
   forget_contacts_of(gone);
   erase_where([&](std::size_t i) { return is_gone(bodies_[i].id); }, rested_, islands_, bodies_);
+  told_all_ = false;
   part_islands();
 }
 
@@ -172,6 +176,9 @@ void World<D>::place(BodyId id, const Vec<D>& position, const Vec<D>& velocity,
   forget_contacts_of(std::span(&id, 1));
   part_islands();
   moved.asleep = false;
+  const auto here = static_cast<std::uint32_t>(index);
+  if (!std::ranges::binary_search(stirred_, here))
+    stirred_.insert(std::ranges::upper_bound(stirred_, here), here);
   bodies_[index] = std::move(moved);
 }
 
@@ -236,29 +243,111 @@ void World<D>::set_gravity(const Vec<D>& gravity) {
 
 template <int D>
 void World<D>::wake_from(std::span<const BodyId> ids) {
-  ahead_.reset();
-  rests_ = false;
+  disturb();
   if (!may_rest_) return;
   write_islands();
   Scratch<std::uint32_t> places;
   for (const BodyId id : ids) places.push_back(static_cast<std::uint32_t>(index_of(id)));
-  wake_together<D>(bodies_, rested_, std::move(places), links(), Disturbed::all);
+  // Those awake, too, must now rest anew before they may sleep.
+  for (const std::uint32_t i :
+       woken_with<D>(bodies_, std::move(places), links(), [](std::uint32_t) { return true; })) {
+    bodies_[i].asleep = false;
+    rested_[i] = 0;
+  }
+  rouse_touches();
+}
+
+template <int D>
+auto World<D>::active() -> const Active& {
+  if (active_) return *active_;
+  constexpr std::size_t kFew = 8;  // costs less to look at all than to find out who is where
+  Scratch<std::uint32_t> some;
+  Active found;
+  for (std::uint32_t i = 0; i < bodies_.size(); ++i) {
+    if (bodies_[i].moves() && !bodies_[i].asleep) some.push_back(i);
+    found.asleep += bodies_[i].asleep;
+  }
+  const Scratch<Pair> tied = ties();
+  if (kFew * some.size() > bodies_.size() || forces_.gravitation > 0) {
+    some.resize(bodies_.size());
+    std::iota(some.begin(), some.end(), 0u);
+  } else if (!tied.empty()) {
+    some = woken_with<D>(bodies_, std::move(some), tied, [](std::uint32_t) { return true; });
+  }
+  Scratch<std::uint8_t> moves(bodies_.size());
+  for (const std::uint32_t i : some) moves[i] = bodies_[i].moves();
+  found.bodies = std::move(some);
+  find_ties(found, [&](std::uint32_t i) { return moves[i]; });
+  return active_.emplace(std::move(found));
+}
+
+// f(touch) for all, by pair.
+template <int D>
+template <class F>
+void World<D>::each_touch(F&& f) const {
+  auto next = slept_.begin();
+  for (const Touch<D>& touch : touching_) {
+    for (; next != slept_.end() && next->record.pair() < touch.record.pair(); ++next) f(*next);
+    f(touch);
+  }
+  for (; next != slept_.end(); ++next) f(*next);
+}
+
+// What has touched in its sleep touches awake from now on.
+template <int D>
+void World<D>::rouse_touches() {
+  if (slept_.empty()) return;
+  told_whole();
+  std::erase_if(slept_, [&](const Touch<D>& touch) {
+    const bool stirs =
+        bodies_[index_of(touch.record.a)].stirs() || bodies_[index_of(touch.record.b)].stirs();
+    if (stirs) touching_.push_back(touch);
+    return stirs;
+  });
+  std::ranges::sort(touching_, {}, [](const Touch<D>& touch) { return touch.record.pair(); });
+}
+
+// Of two that sleep a step tells what it told when they fell asleep, but that it is nothing new.
+template <int D>
+auto World<D>::told_whole() const -> const Outcome& {
+  if (std::exchange(outcome_.whole, true) || slept_.empty()) return outcome_;
+  const auto add = [&](auto& list, auto pair_of, auto&& made) {
+    std::remove_reference_t<decltype(list)> all;
+    all.reserve(list.size() + slept_.size());
+    auto next = list.begin();
+    for (const Touch<D>& slept : slept_) {
+      const Pair pair = slept.record.pair();
+      while (next != list.end() && std::invoke(pair_of, *next) < pair) all.push_back(*next++);
+      if (next == list.end() || std::invoke(pair_of, *next) != pair) all.push_back(made(slept));
+    }
+    all.insert(all.end(), next, list.end());
+    list = std::move(all);
+  };
+  const int left = contact_solver(config_.contacts).frames_remembered - 1;
+  using T = const Touch<D>&;
+  add(outcome_.contacts, &Contact<D>::pair, [](T slept) { return slept.record; });
+  add(outcome_.told, &ToldPair::pair, [&](T slept) { return ToldPair{slept.record.pair(), left}; });
+  add(outcome_.events, &ContactEvent::pair, [](T slept) {
+    const auto [a, b] = slept.record.pair();
+    return ContactEvent{ContactEvent::Kind::stay, a, b, slept.crushes};
+  });
+  return outcome_;
 }
 
 // Bodies that sleep hang together as when they fell asleep.
 template <int D>
 void World<D>::write_islands() const {
-  if (roots_.empty()) return;
+  if (std::exchange(knows_islands_, true)) return;
   DisjointSets sets(bodies_.size());
-  for (std::uint32_t i = 0; i < roots_.size(); ++i) sets.unite(i, roots_[i]);
-  for (const Touch<D>& touch : touching_) {
-    const std::size_t a = index_of(touch.record.a), b = index_of(touch.record.b);
+  for (const auto& [place, root] : roots_) sets.unite(place, root);
+  const auto unite_sleepers = [&](const auto& link) {
+    const std::size_t a = index_of(link.a), b = index_of(link.b);
     if (bodies_[a].asleep && bodies_[b].asleep)
       sets.unite(static_cast<std::uint32_t>(a), static_cast<std::uint32_t>(b));
-  }
-  for (std::uint32_t i = 0; i < roots_.size(); ++i)
+  };
+  for (const Pair& link : links()) unite_sleepers(link);
+  for (std::uint32_t i = 0; i < bodies_.size(); ++i)
     islands_[i] = bodies_[i].is_dynamic() ? bodies_[sets.root(i)].id : kNoIsland;
-  roots_.clear();
 }
 
 // Of each island what still touches or is tied stays together.
@@ -280,17 +369,19 @@ void World<D>::part_islands() {
 template <int D>
 void World<D>::forget_contacts_of(std::span<const BodyId> ids) {
   const auto is_of = [&](BodyId id) { return std::ranges::binary_search(ids, id); };
-  std::erase_if(touching_, [&](const Touch<D>& touch) {
+  const auto goes = [&](const Touch<D>& touch) {
     return is_of(touch.record.a) || is_of(touch.record.b);
-  });
+  };
+  told_whole();
+  std::erase_if(touching_, goes);
+  std::erase_if(slept_, goes);
 }
 
 template <int D>
 void World<D>::sleep(BodyId id) {
   Body<D>& body = bodies_[index_of(id)];
   if (!body.is_dynamic()) return;
-  ahead_.reset();
-  rests_ = false;
+  disturb();
   write_islands();
   may_rest_ = body.asleep = true;
   body.velocity = Vec<D>(0.0);
@@ -308,6 +399,7 @@ void World<D>::switch_contacts(ContactMethod method, int sub_steps, int iteratio
   config.iterations = iterations;
   config.wanted_error = wanted_error;
   check_config(config);
+  told_whole();
   config_ = config;
   rests_ = false;
 }
@@ -374,8 +466,14 @@ void World<D>::remove_joint(JointId id) {
 
 template <int D>
 Scratch<Pair> World<D>::links() const {
+  Scratch<Pair> all = ties();
+  each_touch([&](const Touch<D>& touch) { all.push_back(touch.record.pair()); });
+  return all;
+}
+
+template <int D>
+Scratch<Pair> World<D>::ties() const {
   Scratch<Pair> all;
-  for (const Touch<D>& touch : touching_) all.push_back(touch.record.pair());
   for (const Spring<D>& spring : forces_.springs) all.push_back({spring.a, spring.b});
   for (const auto& entry : joints_) all.push_back({entry.second.a, entry.second.b});
   return all;
@@ -442,10 +540,10 @@ std::uint64_t World<D>::hash() const {
     hash.add(std::uint64_t{joints_[i].first});
     add_to(hash, joint_memories_[i].impulse);
   }
-  for (const Touch<D>& touch : touching_) {
+  each_touch([&](const Touch<D>& touch) {
     hash.add(std::uint64_t{touch.record.a}).add(std::uint64_t{touch.record.b});
     add_to(hash, touch.memory);
-  }
+  });
   return hash.value();
 }
 

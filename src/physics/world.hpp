@@ -94,6 +94,7 @@ class World {
   // Goes on with another broad phase; the trajectory is the same, bit for bit.
   void switch_broad_phase(const BroadPhaseConfig<D>& config) {
     broad_phase_.emplace(config);
+    told_all_ = false;
     config_.broad_phase = config;
   }
   // Goes on with another way to part bodies. Whether they touch at all is settled when the world is
@@ -122,19 +123,26 @@ class World {
   void step(double h);
   double time() const { return time_; }
 
-  // Of the last step, in order of ids.
-  const std::vector<Contact<D>>& contacts() const { return outcome_.contacts; }
-  const std::vector<ContactEvent>& events() const { return outcome_.events; }
+  // Of the last step, in order of ids; those of what sleeps, and islands, are written down when
+  // somebody asks: not from several threads at a time.
+  const std::vector<Contact<D>>& contacts() const { return told_whole().contacts; }
+  const std::vector<ContactEvent>& events() const { return told_whole().events; }
   const std::vector<Pair>& pairs() const { return outcome_.pairs; }
+  // The same for who looks at each step: without those that sleep, of which nothing is new, unless
+  // somebody asked for all; and how many touch in all.
+  const std::vector<Contact<D>>& fresh_contacts() const { return outcome_.contacts; }
+  const std::vector<ContactEvent>& fresh_events() const { return outcome_.events; }
+  std::size_t touches() const {
+    return outcome_.contacts.size() + (outcome_.whole ? 0 : outcome_.untold);
+  }
   // The island of each body, in order of bodies(): the lowest id among those that the step moved
   // together, or that went on sleeping together. What has left or let go since has parted them.
   // kNoIsland of what only `place` or its own velocity moves, and of what no step has seen yet.
-  // Written down when somebody asks: not from several threads at a time.
   const std::vector<BodyId>& islands() const {
     write_islands();
     return islands_;
   }
-  const std::vector<ToldPair>& told() const { return outcome_.told; }  // by pair
+  const std::vector<ToldPair>& told() const { return told_whole().told; }  // by pair
   // Its impacts that were located; of the looks by which they were, nothing unless they are kept.
   const ImpactLog<D>& impacts() const { return outcome_.impacts; }
   // From now on the looks of a step are kept, or not. Without, nobody spends time on them.
@@ -154,25 +162,59 @@ class World {
     std::vector<ToldPair> told = {};  // by pair
     std::vector<Pair> pairs = {};
     ImpactLog<D> impacts = {};
+    bool whole = true;       // the first three tell of those that sleep, too; else
+    std::size_t untold = 0;  // so many contacts more would be told
     void clear(bool keeps_looks) {
-      contacts.clear(), events.clear(), told.clear(), pairs.clear();
+      contacts.clear(), events.clear(), told.clear(), pairs.clear(), whole = false;
       impacts.moments.clear(), impacts.looks.clear();
       impacts.keeps_looks = keeps_looks;
     }
   };
   struct StepIslands;  // its part that is of islands (step_islands.hpp)
   struct Step;         // one step while it is made (step.cpp)
+  // What a step must look at before it knows who meets whom: what is awake and not static, and what
+  // is tied to that; or all, unless that is few of all.
+  struct Active {
+    Scratch<std::uint32_t> bodies;         // places
+    Scratch<std::size_t> joints, springs;  // places of those that tie one which moves(place)
+    std::size_t asleep = 0;                // bodies in all
+  };
+  template <class F>
+  void find_ties(Active& active, F&& moves) const {
+    const auto look_at = [&](const auto& tie, std::size_t i, Scratch<std::size_t>& found) {
+      const auto a = static_cast<std::uint32_t>(index_of(tie.a));
+      const auto b = static_cast<std::uint32_t>(index_of(tie.b));
+      if (!moves(a) && !moves(b)) return;
+      found.push_back(i);
+      active.bodies.insert(active.bodies.end(), {a, b});
+    };
+    for (std::size_t i = 0; i < joints_.size(); ++i) look_at(joints_[i].second, i, active.joints);
+    for (std::size_t i = 0; i < forces_.springs.size(); ++i)
+      look_at(forces_.springs[i], i, active.springs);
+  }
   // What looking ahead found out for the next step.
   struct Ahead {
     double h = 0;
+    Scratch<std::uint32_t> places;  // of those that have increments
     Scratch<Increment<D>> increments;
     std::uint64_t force_evaluations = 0;
   };
 
   std::size_t index_of(BodyId id) const;
   Scratch<Pair> links() const;  // of what wakes together
+  Scratch<Pair> ties() const;   // those that are no contacts
   void wake_from(std::span<const BodyId> ids);
   void wake_from(BodyId id) { wake_from(std::span(&id, 1)); }
+  void disturb() {
+    ahead_.reset();
+    active_.reset();
+    rests_ = false;
+  }
+  const Active& active();
+  void rouse_touches();
+  const Outcome& told_whole() const;
+  template <class F>
+  void each_touch(F&& f) const;
   void write_islands() const;
   void part_islands();
   void forget_contacts_of(std::span<const BodyId> ids);
@@ -196,10 +238,11 @@ class World {
   Scratch<double> rested_;  // seconds that each body has been slow
   bool may_rest_ = false;   // one of them is above 0, or a body sleeps: there may be who wakes
   bool rests_ = false;      // nothing moves: a step would tell what the last one told
-  // Of each body; and of the last step, until that is written down: the place of the lowest of its
-  // island, where what slept is not looked at.
+  // Of each body; and of the last step, until that is written down: places of those that took part
+  // in it, each with that of the lowest of its island.
   mutable std::vector<BodyId> islands_;
-  mutable Scratch<std::uint32_t> roots_;
+  mutable Scratch<std::pair<std::uint32_t, std::uint32_t>> roots_;
+  mutable bool knows_islands_ = true;
   Forces<D> forces_;
   std::vector<std::pair<JointId, Joint<D>>> joints_;
   Scratch<JointMemory<D>> joint_memories_;
@@ -208,13 +251,17 @@ class World {
   JointId next_joint_ = 0;
   double time_ = 0;
 
-  Scratch<Touch<D>> touching_;  // by pair: of the last step, and of those that sleep
-  Outcome outcome_;
+  std::optional<Active> active_;  // until anything wakes or falls asleep, comes or goes
+  Scratch<Touch<D>> touching_;    // by pair, of the last step: of what is awake
+  Scratch<Touch<D>> slept_;       // by pair: of two that have not moved since
+  mutable Outcome outcome_;
   // Where the next step writes its own, kept for their memory.
   std::vector<Body<D>> next_bodies_;
   Outcome next_outcome_;
   std::optional<BroadPhase<D>> broad_phase_;
-  std::optional<Ahead> ahead_;  // until anything changes
+  bool told_all_ = false;           // it holds each body as it is, but for
+  Scratch<std::uint32_t> stirred_;  // those that moved then, or were placed: places here
+  std::optional<Ahead> ahead_;      // until anything changes
   WorldWork work_;
 };
 

@@ -119,12 +119,12 @@ class EngineOf : public Engine {
     last_ = work_between(before, world().work());
     ++work_.world_steps;
     let_in();
-    for (const ContactEvent& event : world().events()) {
+    for (const ContactEvent& event : world().fresh_events()) {
       begins_ += event.kind == ContactEvent::Kind::begin;
       ends_ += event.kind == ContactEvent::Kind::end;
       all_begins_ += event.kind == ContactEvent::Kind::begin;
-      all_touches_ += event.kind != ContactEvent::Kind::end;
     }
+    all_touches_ += world().touches();
     if (collision_log_) collision_log_->see(world());
   }
 

@@ -157,14 +157,15 @@ class CrushWatch : public Watcher {
  private:
   template <int D>
   void look(const World<D>& world) {
-    for (const ContactEvent& event : world.events())
+    for (const ContactEvent& event : world.fresh_events())
       if (event.crushes && told_.insert({event.a, event.b}).second)
         found_.add([&] { return crushed(world, {event.a, event.b}); });
   }
 
   template <int D>
   Diagnostic crushed(const World<D>& world, const Pair& pair) const {
-    const auto contact = std::ranges::lower_bound(world.contacts(), pair, {}, &Contact<D>::pair);
+    const auto contact =
+        std::ranges::lower_bound(world.fresh_contacts(), pair, {}, &Contact<D>::pair);
     double depth = 0;
     for (const ManifoldPoint<D>& p : contact->manifold.points())
       depth = std::max(depth, -p.separation);
@@ -234,7 +235,7 @@ class ThroughWatch : public Watcher {
   template <int D>
   void look(const Players<D>& players) {
     const World<D>& world = players.world();
-    for (const Contact<D>& contact : world.contacts()) {
+    for (const Contact<D>& contact : world.fresh_contacts()) {
       double depth = 0;
       for (const ManifoldPoint<D>& point : contact.manifold.points())
         depth = std::max(depth, -point.separation);

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "base/check.hpp"
 #include "base/memory.hpp"
 #include "spatial/pair_search.hpp"
 
@@ -113,31 +114,57 @@ void BroadPhase<D>::take(std::span<const Proxy<D>> proxies) {
 template <int D>
 void BroadPhase<D>::move(std::span<const Proxy<D>> proxies) {
   std::array<std::size_t, 2> places{};
-  std::array<bool, 2> moved{};
-  for (const Proxy<D>& proxy : proxies) {
-    const bool of_static = is_of_static(proxy);
-    Store& store = of_static ? static_ : dynamic_;
-    const std::size_t place = places[of_static]++;
-    Box<D>& box = store.items[place].box;
-    const ProxyState state{proxy.is_static, proxy.awake};
-    if (!(box == proxy.box)) {
-      box = proxy.box;
-      moved[of_static] = true;
+  for (const Proxy<D>& proxy : proxies) set(store_for(proxy), places[is_of_static(proxy)]++, proxy);
+}
+
+template <int D>
+void BroadPhase<D>::set(Store& store, std::size_t place, const Proxy<D>& proxy) {
+  Item<D>& item = store.items[place];
+  const ProxyState state{proxy.is_static, proxy.awake};
+  const bool moves = !(item.box == proxy.box);
+  if (!moves && store.states[place] == state) return;
+  found_all_ = false;
+  item.box = proxy.box;
+  store.states[place] = state;
+  if (moves) {
+    store.only_moved |= store.stands;
+    store.stands = false;
+  }
+  if (!resting_ || &store != &dynamic_ || state.stirs()) return;
+  // Where it was before it is in the tree still: of too many of these it is built anew.
+  auto tree = std::move(resting_);
+  if (++put_to_rest_ > 64 + store.items.size() / 2) return;
+  tree->insert(item);
+  resting_ = std::move(tree);
+}
+
+template <int D>
+void BroadPhase<D>::follow(std::span<const Proxy<D>> changed) {
+  for (const Proxy<D>& proxy : changed) require_valid(Item<D>{proxy.id, proxy.box});
+  all_or_nothing([&] {
+    stirring_.clear();
+    std::array<std::size_t, 2> next{};
+    for (const Proxy<D>& proxy : changed) {
+      Store& store = store_for(proxy);
+      std::size_t& place = next[is_of_static(proxy)];
+      if (place == store.names.size() || store.names[place] != proxy.id)
+        place = static_cast<std::size_t>(
+            std::lower_bound(store.names.begin(), store.names.end(), proxy.id) -
+            store.names.begin());
+      LANTERN_CHECK(place, <, store.names.size());
+      set(store, place, proxy);
+      if (store.states[place].stirs()) stirring_.push_back(place);
+      ++place;
     }
-    found_all_ = found_all_ && store.states[place] == state;
-    store.states[place] = state;
-  }
-  for (const bool of_static : {false, true}) {
-    Store& store = of_static ? static_ : dynamic_;
-    if (!moved[of_static]) continue;
-    store.only_moved = store.stands;
-    store.stands = found_all_ = false;
-  }
+    if (!static_.stands) build(static_);
+    if (!found_all_) each_asks_alone() ? find_pairs_of_few() : find_pairs();
+  });
 }
 
 template <int D>
 void BroadPhase<D>::replace(std::span<const Proxy<D>> proxies) {
   all_names_.clear();
+  resting_.reset();
   for (const Proxy<D>& proxy : proxies) all_names_.push_back(proxy.id);
   for (Store* store : stores()) {
     fresh_.clear();
@@ -162,6 +189,7 @@ void BroadPhase<D>::replace(std::span<const Proxy<D>> proxies) {
 template <int D>
 void BroadPhase<D>::forget() {
   pairs_.clear();
+  resting_.reset();
   found_all_ = false;
   for (Store* store : stores()) {
     store->clear();
@@ -241,6 +269,7 @@ void BroadPhase<D>::insert(std::span<const Proxy<D>> proxies, const Watch& watch
     last = proxy.id;
   }
   if (proxies.empty()) return;
+  resting_.reset();
   found_all_ = false;
   all_or_nothing([&] {
     std::array<bool, 2> entered{};
@@ -298,18 +327,23 @@ void BroadPhase<D>::empty(Store& store) {
 // --- pairing ---
 
 template <int D>
-void BroadPhase<D>::find_pairs() {
+void BroadPhase<D>::begin_search(const Bodies& bodies) {
   counters_.pair_tests = counters_.nodes_visited = 0;
   counters_.nodes_skipped_asleep = counters_.nodes_reused = 0;
   pairs_.clear();
-  search_->begin(dynamic_.items, dynamic_.states);
+  search_->begin(bodies.items, bodies.states);
+  search_->found.set_threads(config_.threads);
+  found_names_ = bodies.names;
+  search_->found.ask_before_growing(
+      [this](BodyId body, std::size_t pairs) { require_room(body, pairs); });
+}
+
+template <int D>
+void BroadPhase<D>::find_pairs() {
+  begin_search(dynamic_);
   if (search_->stirring() > 0) {
     if (!dynamic_.stands) build(dynamic_);
     for (Store* store : stores()) store->structure->sort();
-    search_->found.set_threads(config_.threads);
-    found_names_ = dynamic_.names;
-    search_->found.ask_before_growing(
-        [this](BodyId body, std::size_t pairs) { require_room(body, pairs); });
     dynamic_.structure->pair(*search_);
     counters_.pair_tests = search_->tests;
     counters_.nodes_visited = search_->nodes_visited;
@@ -319,13 +353,26 @@ void BroadPhase<D>::find_pairs() {
         static_cast<double>(counters_.pair_tests) / static_cast<double>(search_->stirring());
     if (dynamic_.chosen_tests == 0) dynamic_.chosen_tests = dynamic_.tests;
     pair_static();
-    const FoundPairs& found = search_->found;
-    if (found.size() > config_.most_pairs) refuse_more(found.first()[config_.most_pairs]);
-    search_->order.order(search_->found, found_names_, pairs_);
+    order_pairs();
   } else if (!dynamic_.stands) {
     empty(dynamic_);
   }
   found_all_ = true;
+}
+
+template <int D>
+void BroadPhase<D>::order_pairs() {
+  FoundPairs& found = search_->found;
+  if (found.size() > config_.most_pairs) refuse_more(found.first()[config_.most_pairs]);
+  constexpr std::size_t kFew = 8;  // of many bodies: it costs less to compare them with each other
+  if (kFew * found.size() >= found_names_.size())
+    return search_->order.order(found, found_names_, pairs_);
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const auto [a, b] = std::minmax(found.first()[i], found.second()[i]);
+    pairs_.push_back({found_names_[a], found_names_[b]});
+  }
+  std::ranges::sort(pairs_);
+  pairs_.erase(std::ranges::unique(pairs_).begin(), pairs_.end());
 }
 
 // Each awake body asks the static structure.
@@ -336,17 +383,68 @@ void BroadPhase<D>::pair_static() {
   for (BodyId& place : search_->found.first()) place = dynamic_.ranks[place];
   for (BodyId& place : search_->found.second()) place = dynamic_.ranks[place];
   found_names_ = all_names_;
-  for (std::size_t i = 0; i < dynamic_.items.size(); ++i) {
-    stop_if_asked();
-    if (!dynamic_.states[i].stirs()) continue;
-    const Box<D>& box = dynamic_.items[i].box;
-    ids_.clear();
-    static_.structure->near(box, ids_);
-    counters_.pair_tests += ids_.size();
-    for (const BodyId j : ids_)
-      if (overlap(box, static_.items[j].box))
-        search_->found.add(dynamic_.ranks[i], static_.ranks[j]);
+  for (std::size_t i = 0; i < dynamic_.items.size(); ++i)
+    if (dynamic_.states[i].stirs()) ask(*static_.structure, static_, i);
+}
+
+// Of the others those that stir are not met so.
+template <int D>
+void BroadPhase<D>::ask(const Structure<D>& structure, const Store& others, std::size_t place) {
+  stop_if_asked();
+  const Box<D>& box = dynamic_.items[place].box;
+  ids_.clear();
+  structure.near(box, ids_);
+  for (const BodyId j : ids_) {
+    if (others.states[j].stirs()) continue;
+    ++counters_.pair_tests;
+    if (overlap(box, others.items[j].box))
+      search_->found.add(dynamic_.ranks[place], others.ranks[j]);
   }
+}
+
+template <int D>
+bool BroadPhase<D>::each_asks_alone() const {
+  constexpr std::size_t kMany = 64, kFew = 8;
+  const StructureTraits& traits = traits_of(config_.kind);
+  const std::size_t all = dynamic_.items.size();
+  return all >= kMany && kFew * stirring_.size() <= all && !traits.follows && !traits.is_own &&
+         !traits.has(Setting::axis);
+}
+
+// Those that stir among themselves, then each with what rests.
+template <int D>
+void BroadPhase<D>::find_pairs_of_few() {
+  const auto gather = [&](std::size_t place, BodyId id) {
+    fresh_.items.push_back({id, dynamic_.items[place].box});
+    fresh_.names.push_back(dynamic_.names[place]);
+    fresh_.states.push_back(dynamic_.states[place]);
+  };
+  if (!few_) few_ = make_structure<D>(StructureKind::aabb_tree);
+  if (!resting_) {
+    fresh_.clear();
+    for (std::size_t i = 0; i < dynamic_.items.size(); ++i)
+      if (!dynamic_.states[i].stirs()) gather(i, static_cast<BodyId>(i));
+    auto tree = make_structure<D>(StructureKind::aabb_tree);
+    tree->build(fresh_.items, Build::at_once);
+    resting_ = std::move(tree);
+    put_to_rest_ = 0;
+  }
+  fresh_.clear();
+  for (const std::size_t place : stirring_) gather(place, static_cast<BodyId>(fresh_.items.size()));
+  begin_search(fresh_);
+  few_->build(fresh_.items, Build::at_once);
+  few_->pair(*search_);
+  counters_.pair_tests = search_->tests;
+  FoundPairs& found = search_->found;
+  for (BodyId& i : found.first()) i = dynamic_.ranks[stirring_[i]];
+  for (BodyId& i : found.second()) i = dynamic_.ranks[stirring_[i]];
+  found_names_ = all_names_;
+  for (const std::size_t place : stirring_) {
+    ask(*static_.structure, static_, place);
+    ask(*resting_, dynamic_, place);
+  }
+  order_pairs();
+  found_all_ = true;
 }
 
 // Before the lists of pairs grow, or pass their limit: places in them, and what it takes to put
@@ -418,8 +516,8 @@ template <int D>
 std::size_t BroadPhase<D>::own_places() const {
   const auto of_store = [](const Store& s) { return s.places() + s.ranks.capacity(); };
   return pairs_.capacity() + sorted_.capacity() + all_names_.capacity() + ids_.capacity() +
-         of_store(static_) + of_store(dynamic_) + fresh_.places() + search_->places() +
-         search_->order.places();
+         of_store(static_) + of_store(dynamic_) + fresh_.places() + stirring_.capacity() +
+         search_->places() + search_->order.places();
 }
 
 template class BroadPhase<2>;

@@ -73,6 +73,14 @@ class BroadPhase {
   // no structures then, and the next update begins as the first.
   void update(std::span<const Proxy<D>> proxies);
 
+  // The same in two parts: first these are all bodies; and then, as often as they move, the pairs.
+  // Ids ascend; these alone may be others than they were, and all that stir are among them. So it
+  // costs what these cost: where few of many stir, each asks a tree of what rests, and the
+  // structure itself waits until somebody looks. (Not one that is there to show how it follows its
+  // bodies, and none that a program was given.)
+  void tell(std::span<const Proxy<D>> proxies) { take(proxies); }
+  void follow(std::span<const Proxy<D>> changed);
+
   // The structures of these bodies, awake or not; no pairs are looked for: `automatic` takes one
   // that is quickly asked. Throws as `update` does.
   // An update of the same bodies then builds nothing. A structure that goes on from where its
@@ -168,6 +176,7 @@ class BroadPhase {
   void all_or_nothing(F&& change);
   void take(std::span<const Proxy<D>> proxies);
   void move(std::span<const Proxy<D>> proxies);
+  void set(Store& store, std::size_t place, const Proxy<D>& proxy);
   void replace(std::span<const Proxy<D>> proxies);
   void forget();
   void build(Store& store, Use use = Use::pairs, const Watch& watch = {});
@@ -176,8 +185,13 @@ class BroadPhase {
   template <class F>
   static void with_names(const Store& store, F&& f);
   void empty(Store& store);
+  bool each_asks_alone() const;
+  void begin_search(const Bodies& bodies);
   void find_pairs();
+  void find_pairs_of_few();
   void pair_static();
+  void ask(const Structure<D>& structure, const Store& others, std::size_t place);
+  void order_pairs();
   void require_room(BodyId number, std::size_t pairs) const;
   [[noreturn]] void refuse_more(BodyId number) const;
   std::size_t own_places() const;
@@ -189,6 +203,11 @@ class BroadPhase {
   Store static_, dynamic_;
   std::vector<Pair> pairs_;
   bool found_all_ = false;  // pairs_ are those of the bodies as they are
+  // Of the dynamic store: the places of what stirs, as `follow` was told; where these were few, a
+  // tree of them, and one of all others, and of where some were before.
+  std::vector<std::size_t> stirring_;
+  std::unique_ptr<Structure<D>> few_, resting_;
+  std::size_t put_to_rest_ = 0;  // since that tree was built
 
   // Scratch of an update, kept for its memory.
   std::vector<Proxy<D>> sorted_;   // all, by id, if they came otherwise

@@ -73,6 +73,16 @@ TEST(Trial, SaysWhatWasMeasured) {
   EXPECT_EQ((SettingTrial{10, {0.3, 0}, {0.2, 0}}.text()), "");
 }
 
+TEST(Trial, SaysHowOftenTheErrorWasMissed) {
+  SettingTrial trial{10, {1.4, 0.0002}, {0.11, 0.02}};
+  trial.as_is.work.errors_missed = 7;  // of no concern: there none is wanted
+  EXPECT_TRUE(trial.text().ends_with("(0.02 here instead of 0.0002)"));
+  trial.quick.work.errors_missed = 1;
+  EXPECT_TRUE(trial.text().ends_with("(0.02 here instead of 0.0002); 1 pair lay deeper"));
+  trial.quick.work.errors_missed = 3;
+  EXPECT_TRUE(trial.text().ends_with("; 3 pairs lay deeper"));
+}
+
 std::string pile_of(int count, const std::string& world, double seconds) {
   return R"(title = "A pile"
 [world]

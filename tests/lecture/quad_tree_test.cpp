@@ -1,43 +1,12 @@
 // The lecture's quadtree against all pairs, and each of its mended mistakes.
 #include "lecture/quad_tree.hpp"
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
 #include <set>
 
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
-
-namespace {
-std::atomic<long> calls{0}, held{0};
-}
-
-// Where one of the pair is inlined and the other is not, GCC takes them for strangers (bug 103993).
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
-#endif
-
-void* operator new(std::size_t size) {
-  ++calls;
-  ++held;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++calls;
-  ++held;
-  return std::malloc(size == 0 ? 1 : size);
-}
-void operator delete(void* memory) noexcept {
-  held -= memory != nullptr;
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  held -= memory != nullptr;
-  std::free(memory);
-}
+#include "counted_memory.hpp"
 
 namespace lantern::lecture {
 namespace {
@@ -180,7 +149,7 @@ TEST(LectureQuadTree, MendedNoGapBetweenNeighbours) {
 }
 
 TEST(LectureQuadTree, MendedMemoryIsGivenBack) {
-  const long before = held;
+  const std::int64_t before = counted_memory::held;
   {
     QuadTree<int> tree(Vector2(64.0), 7, 1);
     Random random(3);
@@ -188,11 +157,11 @@ TEST(LectureQuadTree, MendedMemoryIsGivenBack) {
       const Thing thing = random_thing(random, 64, 4);
       tree.Insert(i, thing.pos, thing.size);
     }
-    EXPECT_GT(held, before + 200);
+    EXPECT_GT(counted_memory::held, before + 200);
     const QuadTree<int> copy = tree;
     EXPECT_EQ(depth_of(copy.GetRoot()), depth_of(tree.GetRoot()));
   }
-  EXPECT_EQ(held, before);
+  EXPECT_EQ(counted_memory::held, before);
 }
 
 struct Counts {
@@ -207,13 +176,13 @@ TEST(LectureQuadTree, AsksForMemoryOnceAnEntryAndOnceASplit) {
   QuadTree<int> tree(Vector2(64.0), 6, 2);
   Random random(4);
   Counts counts;
-  const long before = calls;
+  const std::uint64_t before = counted_memory::calls;
   for (int i = 0; i < 300; ++i) {
     const Thing thing = random_thing(random, 64, 2);
     tree.Insert(i, thing.pos, thing.size, counts);
   }
   EXPECT_GT(counts.splits, 50);
-  EXPECT_EQ(calls - before, counts.stored + counts.splits);
+  EXPECT_EQ(counted_memory::calls - before, counts.stored + counts.splits);
   EXPECT_GT(counts.tested, counts.stored + 4 * counts.handed_down);
 }
 

@@ -171,6 +171,57 @@ TEST(Islands, PartWhenAJointOrASpringLetsGo) {
   EXPECT_EQ(world.islands(), (Members{0, 1, 2}));
 }
 
+// Whatever has been placed is met where it lies now, awake or not, by what comes along.
+TEST(Islands, WhatIsPlacedInItsSleepIsMetThere) {
+  for (const BodyKind kind :
+       {BodyKind::dynamic_body, BodyKind::static_body, BodyKind::kinematic_body}) {
+    WorldConfig<2> config;
+    World<2> world(config);
+    for (int i = 0; i < 200; ++i) {  // so many that few of them move
+      Body<2> box = box_at<2>({3.0 * i, 0});
+      box.asleep = true;
+      if (i == 7) box.kind = kind;
+      world.add(box);
+    }
+    const BodyId id = world.add(ball_at<2>({-20, 50}, {5, 0}));
+    run(world, 0.5);
+    world.place(7, {-10, 50}, {0, 0});
+    world.sleep(7);
+    run(world, 3);
+    EXPECT_LT(world.find(id)->position.x, -5) << static_cast<int>(kind);
+    EXPECT_EQ(world.find(7)->position.x > -9.99, kind == BodyKind::dynamic_body);
+    EXPECT_GE(world.work().asleep, 199u);
+  }
+}
+
+// What is told of those that sleep is written down when somebody asks: what he hears does not
+// depend on when others asked, nor does how many touch.
+TEST(Islands, TellTheSameWhoeverAsksWhen) {
+  World<2> asked = sleeping();
+  World<2> silent(asked, asked.config());
+  for (World<2>* world : {&asked, &silent}) {
+    world->add(ball_at<2>({0, 6}, {0, -1}));
+    world->add(ball_at<2>({-9, 0.5}, {1, 0}));
+  }
+  std::uint64_t touches = 0;
+  for (int i = 0; i < 240; ++i) {
+    asked.step(kStep);
+    silent.step(kStep);
+    touches += asked.contacts().size();
+    ASSERT_EQ(asked.touches(), asked.contacts().size());
+    ASSERT_EQ(silent.touches(), asked.contacts().size()) << i;
+    ASSERT_LE(silent.fresh_contacts().size(), silent.touches());
+    if (i % 37 != 0) continue;
+    ASSERT_EQ(silent.hash(), asked.hash());
+    ASSERT_EQ(silent.events(), asked.events()) << i;
+    ASSERT_EQ(silent.told().size(), asked.told().size()) << i;
+    ASSERT_EQ(silent.contacts().size(), asked.contacts().size()) << i;
+    ASSERT_EQ(silent.islands(), asked.islands()) << i;
+  }
+  EXPECT_GT(touches, 600u);
+  EXPECT_EQ(silent.hash(), asked.hash());
+}
+
 // A script may put to sleep one body of several that hang together.
 TEST(Islands, WhatHangsOnASleeperSwingsAboutIt) {
   WorldConfig<2> config = falling<2>();

@@ -1,40 +1,8 @@
 // What a step asks for, counted where memory is really asked for: once warm, nothing.
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
 #include <gtest/gtest.h>
 
+#include "counted_memory.hpp"
 #include "physics/world_scene.hpp"
-
-namespace {
-std::atomic<std::uint64_t> calls{0};
-}
-
-// Where one of the pair is inlined and the other is not, GCC takes them for strangers (bug 103993).
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
-#endif
-
-void* operator new(std::size_t size) {
-  ++calls;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++calls;
-  return std::malloc(size == 0 ? 1 : size);
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  ++calls;
-  const std::size_t line = static_cast<std::size_t>(alignment);
-  if (void* memory = std::aligned_alloc(line, (size + line - 1) / line * line)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace lantern::physics {
 namespace {
@@ -86,9 +54,9 @@ template <int D>
 int cold_steps(World<D>& world, int steps) {
   int cold = 0;
   for (int i = 0; i < steps; ++i) {
-    const std::uint64_t before = calls;
+    const std::uint64_t before = counted_memory::calls;
     world.step(kStep);
-    cold += calls != before;
+    cold += counted_memory::calls != before;
   }
   return cold;
 }

@@ -2,41 +2,17 @@
 // structure. Work is what can be counted again to the last one: bytes that are asked for, bodies
 // that structures are built of, and every count of the engine's own. What none of these sees shows
 // in instructions: tests/deep/linear.sh.
-#include <atomic>
 #include <cmath>
-#include <cstdlib>
 #include <functional>
 #include <map>
-#include <new>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "counted_memory.hpp"
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 #include "spatial/broad_phase.hpp"
-
-namespace {
-std::atomic<std::uint64_t> bytes{0};
-
-void* counted(std::size_t size) {
-  bytes += size;
-  return std::malloc(size == 0 ? 1 : size);
-}
-}  // namespace
-
-// Where one of the pair is inlined and the other is not, GCC takes them for strangers (bug 103993).
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
-#endif
-
-void* operator new(std::size_t size) {
-  if (void* memory = counted(size)) return memory;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return counted(size); }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace lantern::run::linear {
 namespace {
@@ -152,9 +128,9 @@ std::vector<Costs> costs_of(const std::string& text) {
   Work work;
   std::vector<Costs> costs(scenario.steps.size());
   std::vector<double> frames(scenario.steps.size());
-  std::uint64_t bytes_before = bytes, builds_before = 0;
+  std::uint64_t bytes_before = counted_memory::bytes, builds_before = 0;
   direct(scenario, Pace::step, work, [&](const Frame& frame) {
-    const std::uint64_t bytes_now = bytes;
+    const std::uint64_t bytes_now = counted_memory::bytes;
     Costs& cost = costs[frame.step];
     ++frames[frame.step];
     cost["bytes"] += static_cast<double>(bytes_now - bytes_before);
@@ -168,7 +144,7 @@ std::vector<Costs> costs_of(const std::string& text) {
       for (const WorldCounter& counter : kWorldCounters)
         cost["world's " + std::string(counter.name)] +=
             static_cast<double>((*frame.since_last_frame).*counter.count);
-    bytes_before = bytes;
+    bytes_before = counted_memory::bytes;
     return true;
   });
   for (std::size_t i = 0; i < costs.size(); ++i)

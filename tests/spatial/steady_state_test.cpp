@@ -1,34 +1,10 @@
 // No memory is asked for in the steady state: counted where memory is really asked for.
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
 #include <gtest/gtest.h>
 
 #include "base/random.hpp"
+#include "counted_memory.hpp"
 #include "spatial/broad_phase.hpp"
 #include "spatial/planes.hpp"
-
-namespace {
-std::atomic<std::uint64_t> calls{0};
-}
-
-// Where one of the pair is inlined and the other is not, GCC takes them for strangers (bug 103993).
-#if defined(__GNUC__) && !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
-#endif
-
-void* operator new(std::size_t size) {
-  ++calls;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
-  ++calls;
-  return std::malloc(size == 0 ? 1 : size);
-}
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 
 namespace lantern::spatial {
 namespace {
@@ -53,10 +29,10 @@ TEST(SteadyState, AnUpdateAsksForNoMemory) {
       phase.update(proxies);
     };
     for (const double by : {0.1, -0.1, 0.1, -0.1}) shake(by);
-    const std::uint64_t before = calls, counted = phase.counters().allocations;
+    const std::uint64_t before = counted_memory::calls, counted = phase.counters().allocations;
     EXPECT_GT(counted, 0u);
     for (int step = 0; step < 10; ++step) shake(step % 2 == 0 ? 0.1 : -0.1);
-    const std::uint64_t asked = calls - before;
+    const std::uint64_t asked = counted_memory::calls - before;
     EXPECT_EQ(asked == 0, !traits_of(kind).is_plain) << to_string(kind) << " asked for memory";
     EXPECT_EQ(phase.counters().allocations - counted, asked) << to_string(kind) << ": wrong count";
   }

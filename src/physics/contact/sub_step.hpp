@@ -376,7 +376,7 @@ class SubSteps {
   void remember(double h) {
     for (IslandPair<D>& pair : island_.pairs) {
       stop_if_asked();
-      auto& [record, memory, seconds] = static_cast<Touch<D>&>(pair);
+      auto& [record, memory, seconds, crushes] = static_cast<Touch<D>&>(pair);
       seconds = pair.rows.count > 0 ? h : 0;
       if (pair.rows.count == 0) continue;
       pair.renewed = true;
