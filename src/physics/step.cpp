@@ -308,7 +308,10 @@ struct World<D>::Step : World<D>::StepIslands {
   Box<D> enlarged(std::uint32_t place) const {
     const std::uint32_t i = local(place);
     const Box<D> box = body_at(place).box();
-    const Vec<D> way(!knows_forces ? 0 : i == kNone ? coasting_reach(body_at(place), h) : reach[i]);
+    const double gone = i == kNone
+                            ? std::max(coasting_reach(body_at(place), h), this->reach_before(place))
+                            : reach[i];
+    const Vec<D> way(knows_forces ? gone : 0);
     return {box.lo - way, box.hi + way};
   }
   Scratch<Proxy<D>> boxes_that_changed() const {
