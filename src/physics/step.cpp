@@ -309,7 +309,9 @@ struct World<D>::Step : World<D>::StepIslands {
     const Body<D>& body = body_at(place);
     const Box<D> box =
         i < looks.size() ? bounding_box(body.shape, body.position, looks[i].axes) : body.box();
-    const Vec<D> way(!knows_forces ? 0 : i == kNone ? coasting_reach(body, h) : reach[i]);
+    const double gone =
+        i == kNone ? std::max(coasting_reach(body, h), this->reach_before(place)) : reach[i];
+    const Vec<D> way(knows_forces ? gone : 0);
     return {box.lo - way, box.hi + way};
   }
   Scratch<Proxy<D>> boxes_that_changed() const {

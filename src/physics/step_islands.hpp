@@ -145,13 +145,14 @@ struct World<D>::StepIslands {
       const std::uint32_t place = places[to] = more[--left];
       moved[to] = world.bodies_[place];
       rested[to] = world.rested_[place];
-      reach[to] = at_first ? 0 : coasting_reach(moved[to], h);
       increments[to] = {};
-      const auto before = std::ranges::lower_bound(reached.places, place);
-      if (before != reached.places.end() && *before == place)
-        reach[to] = std::max(
-            reach[to], reached.reach[static_cast<std::size_t>(before - reached.places.begin())]);
+      reach[to] = std::max(at_first ? 0 : coasting_reach(moved[to], h), reach_before(place));
     }
+  }
+  double reach_before(std::uint32_t place) const {
+    const auto known = std::ranges::lower_bound(reached.places, place);
+    if (known == reached.places.end() || *known != place) return 0;
+    return reached.reach[static_cast<std::size_t>(known - reached.places.begin())];
   }
 
   // Those at these places of the world, and what hangs on them, if they sleep.
