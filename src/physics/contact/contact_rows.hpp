@@ -185,16 +185,24 @@ struct ContactRows {
     }
   }
 
-  // One sweep over velocities, for a sub-step of `h` seconds; over normals there and `back` again.
-  // Without, the side of a face that is pressed first would always be the same, and a stack lean;
-  // and what the corners of a face do to each other would wait for the next sweep, in which the
-  // stack above has long been told.
+  // One sweep over velocities, for a sub-step of `h` seconds; over normals from the last point to
+  // the first if `backwards`. If it always began at the same one, that side of a face would always
+  // be pressed first, and a stack would lean.
   void solve_velocities(SolverBody<D>& body_a, SolverBody<D>& body_b, double h, Sweep& sweep,
-                        bool back = false) {
-    for (int i = 0; i < count; ++i)
-      solve_normal(room[static_cast<std::size_t>(i)], body_a, body_b, h, sweep);
-    for (int i = back ? count - 1 : 0; i-- > 0;)
-      solve_normal(room[static_cast<std::size_t>(i)], body_a, body_b, h, sweep);
+                        bool backwards = false) {
+    for (int i = 0; i < count; ++i) {
+      ContactPoint<D>& p = room[static_cast<std::size_t>(backwards ? count - 1 - i : i)];
+      if (p.inverse_normal_mass == 0) continue;
+      const Vec<D> velocity = relative_velocity(body_a, p.arm_a, body_b, p.arm_b);
+      const double parting = glm::dot(velocity, normal) - p.bounce;
+      // Bodies that are still apart may come as close as to touch.
+      const double before = p.pn;
+      p.pn = std::max(before - (parting + p.gap / h) / answer_to_normal(p, velocity), 0.0);
+      apply(p, normal * (p.pn - before), body_a, body_b);
+      sweep.change = std::max(sweep.change, std::abs(p.pn - before));
+      sweep.largest = std::max(sweep.largest, p.pn);
+      ++sweep.work->normal_rows;
+    }
     if (friction == 0) return;
     for (ContactPoint<D>& p : points()) {
       if (p.inverse_tangent_mass == 0 || (p.pn == 0 && p.pt == Vec<D>(0.0))) continue;
@@ -267,20 +275,6 @@ struct ContactRows {
   }
 
  private:
-  void solve_normal(ContactPoint<D>& p, SolverBody<D>& body_a, SolverBody<D>& body_b, double h,
-                    Sweep& sweep) {
-    if (p.inverse_normal_mass == 0) return;
-    const Vec<D> velocity = relative_velocity(body_a, p.arm_a, body_b, p.arm_b);
-    const double parting = glm::dot(velocity, normal) - p.bounce;
-    // Bodies that are still apart may come as close as to touch.
-    const double before = p.pn;
-    p.pn = std::max(before - (parting + p.gap / h) / answer_to_normal(p, velocity), 0.0);
-    apply(p, normal * (p.pn - before), body_a, body_b);
-    sweep.change = std::max(sweep.change, std::abs(p.pn - before));
-    sweep.largest = std::max(sweep.largest, p.pn);
-    ++sweep.work->normal_rows;
-  }
-
   // Impulses stay with their features. A feature has another name as soon as another corner ends
   // the face, which in a stack of equal boxes the slightest shift does; what is left without a
   // point then goes to the nearest new one, if that is as near as `shallow`, lest half of what

@@ -74,20 +74,20 @@ class SubStep {
   }
 
   // Once over all rows, joints last. Every other `turn` goes backwards, so that neither end of a
-  // stack is preferred. Where nothing but sweeps follows (`alone`), pairs keep their order, so that
-  // what one sweep leaves undone lies where the next one finds it, and each goes over its points
-  // there and back.
+  // stack, nor side of a box, is preferred. Where nothing but sweeps follows (`alone`), pairs keep
+  // their order, so that what one sweep leaves undone lies where the next one finds it, and only
+  // the points of each go backwards.
   Sweep sweep_velocities(int turn, bool alone = false) {
     Sweep sweep{&work};
     if (!joints_at_once_)
       each_joint([&](auto& rows, auto& a, auto& b) { rows.solve_velocities(a, b, sweep); });
-    const bool back = turn % 2 != 0 && !alone;
+    const bool back = turn % 2 != 0;
     for (std::size_t i = 0; i < island.pairs.size(); ++i) {
       stop_if_asked();
-      ContactRows<D>& rows = island.pairs[back ? island.pairs.size() - 1 - i : i].rows;
+      ContactRows<D>& rows = island.pairs[back && !alone ? island.pairs.size() - 1 - i : i].rows;
       if (rows.count > 0)
         rows.solve_velocities(island.solver_bodies[rows.a], island.solver_bodies[rows.b], h, sweep,
-                              alone);
+                              back && alone);
     }
     if (joints_at_once_)
       island.joint_block.solve_velocities(island.joints, island.solver_bodies, sweep, work);
