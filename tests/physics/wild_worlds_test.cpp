@@ -1,0 +1,48 @@
+// Worlds drawn at random: none makes energy, none lets anything out, none takes for ever.
+#include <cstdlib>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "wild_world.hpp"
+
+namespace lantern::physics {
+namespace {
+
+constexpr std::uint64_t kWildSeed = 7;
+
+// More of them where somebody has the time.
+int wild_worlds(int usual) {
+  const char* const wanted = std::getenv("LANTERN_WILD_WORLDS");
+  return wanted != nullptr ? std::atoi(wanted) : usual;
+}
+
+// What is refused is told, and no more than one in a hundred.
+template <int D>
+void expect_tame(ContactMethod method, int usual) {
+  const int count = wild_worlds(usual);
+  int refused = 0;
+  for (int number = 0; number < count; ++number) {
+    const WildReport report =
+        WildWorld<D>(kWildSeed, static_cast<std::uint64_t>(number), method).run();
+    refused += report.what == "refused";
+    if (report.what.empty() || report.what == "refused") continue;
+    ADD_FAILURE() << "seed " << kWildSeed << ", world " << number << ", after step " << report.step
+                  << ": " << report.what << " by " << report.by << ": " << report.world;
+  }
+  EXPECT_LE(refused * 100, std::max(count, 100));
+}
+
+class WildWorlds : public testing::TestWithParam<ContactMethod> {};
+
+TEST_P(WildWorlds, AreTameInThePlane) { expect_tame<2>(GetParam(), 140); }
+TEST_P(WildWorlds, AreTameInSpace) { expect_tame<3>(GetParam(), 60); }
+
+INSTANTIATE_TEST_SUITE_P(ByMethod, WildWorlds,
+                         testing::Values(ContactMethod::none, ContactMethod::impulse,
+                                         ContactMethod::soft, ContactMethod::direct,
+                                         ContactMethod::lecture),
+                         [](const auto& of) { return std::string(to_string(of.param)); });
+
+}  // namespace
+}  // namespace lantern::physics
