@@ -1,6 +1,7 @@
 // How a body is turned: an angle in 2D, a unit quaternion in 3D.
 #pragma once
 
+#include <cmath>
 #include <type_traits>
 
 #include <glm/gtc/quaternion.hpp>
@@ -54,6 +55,14 @@ inline Rotation<3> turned(const Rotation<3>& r, const Vec<3>& by) {
   const auto [s, c] = sin_cos(angle / 2);
   const double k = angle > 1e-9 ? s / angle : 0.5;
   return {glm::normalize(glm::dquat(c, by * k) * r.q)};
+}
+
+// By which `from` must be turned to be `to`: at most half a turn.
+inline Vec<3> turn_between(const Rotation<3>& from, const Rotation<3>& to) {
+  const glm::dquat q = to.q * glm::conjugate(from.q);
+  const Vec<3> v = (q.w < 0 ? -1.0 : 1.0) * Vec<3>(q.x, q.y, q.z);
+  const double size = glm::length(v);
+  return v * (size > 1e-9 ? 2 * atan2(size, std::abs(q.w)) / size : 2.0);
 }
 
 // Of axis `axis`; in 2D there is one.

@@ -166,16 +166,23 @@ MassProperties<D> scaled_to(MassProperties<D> properties, double mass);
 // fixed to the body: a box thrown about its middle axis tumbles. In the body's axes, where L has
 // the components L1, L2, L3, the energy is L1^2/2I1 + L2^2/2I2 + L3^2/2I3.
 //
-// This is the orientation `h` seconds later (h may be negative: back in time), of a body whose
-// angular momentum in the world is L; to rounding, at any spin and step, unless `method` is one of
-// the splittings, whose error is of their order: these turn exactly only where two inertias are
-// equal, or where they would change the energy by more than a thousandth. A static or sleeping body
-// does not turn, a kinematic one turns by its spin. `method` must not be `explicit_gyroscopic`.
+// This is the orientation `h` seconds after `from` (h may be negative: back in time), of a body
+// whose angular momentum in the world is L; to rounding, at any spin and step, unless `method` is
+// one of the splittings, whose error is of their order: these turn exactly only where two inertias
+// are equal, or where they would change the energy by more than a thousandth. A static or sleeping
+// body does not turn, a kinematic one turns by its spin. `method` must not be
+// `explicit_gyroscopic`.
 template <int D>
-Rotation<D> freely_turned(const Body<D>& body, const Spin<D>& angular_momentum, double h,
+Rotation<D> freely_turned(const Body<D>& body, const Rotation<D>& from,
+                          const Spin<D>& angular_momentum, double h,
                           RotationMethod method = RotationMethod::exact);
 
-// The same with the body's own angular momentum.
+// The same from the body's own orientation, and with its own angular momentum.
+template <int D>
+Rotation<D> freely_turned(const Body<D>& body, const Spin<D>& angular_momentum, double h,
+                          RotationMethod method = RotationMethod::exact) {
+  return freely_turned(body, body.orientation, angular_momentum, h, method);
+}
 template <int D>
 Rotation<D> freely_turned(const Body<D>& body, double h) {
   return freely_turned(body, body.angular_momentum, h);

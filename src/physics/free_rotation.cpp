@@ -302,18 +302,17 @@ std::string_view to_string(RotationMethod method) {
 }
 
 template <int D>
-Rotation<D> freely_turned(const Body<D>& body, const Spin<D>& angular_momentum, double h,
-                          RotationMethod method) {
+Rotation<D> freely_turned(const Body<D>& body, const Rotation<D>& from,
+                          const Spin<D>& angular_momentum, double h, RotationMethod method) {
   LANTERN_CHECK(static_cast<int>(method), !=,
                 static_cast<int>(RotationMethod::explicit_gyroscopic));
-  if (body.kind == BodyKind::static_body || body.asleep) return body.orientation;
-  if (body.kind == BodyKind::kinematic_body)
-    return turned(body.orientation, Spin<D>(body.kinematic_spin * h));
-  if (angular_momentum == Spin<D>(0.0)) return body.orientation;
+  if (body.kind == BodyKind::static_body || body.asleep) return from;
+  if (body.kind == BodyKind::kinematic_body) return turned(from, Spin<D>(body.kinematic_spin * h));
+  if (angular_momentum == Spin<D>(0.0)) return from;
   if constexpr (D == 2) {
-    return turned(body.orientation, angular_momentum * body.inverse_inertia * h);
+    return turned(from, angular_momentum * body.inverse_inertia * h);
   } else {
-    return turned_as_top(body.orientation, body.inverse_inertia, angular_momentum, h, method);
+    return turned_as_top(from, body.inverse_inertia, angular_momentum, h, method);
   }
 }
 
@@ -340,8 +339,10 @@ void turn_freely(Body<D>& body, double h, RotationMethod method, const Spin<D>& 
   body.angular_momentum -= lag;
 }
 
-template Rotation<2> freely_turned(const Body<2>&, const Spin<2>&, double, RotationMethod);
-template Rotation<3> freely_turned(const Body<3>&, const Spin<3>&, double, RotationMethod);
+template Rotation<2> freely_turned(const Body<2>&, const Rotation<2>&, const Spin<2>&, double,
+                                   RotationMethod);
+template Rotation<3> freely_turned(const Body<3>&, const Rotation<3>&, const Spin<3>&, double,
+                                   RotationMethod);
 template void turn_freely(Body<2>&, double, RotationMethod, const Spin<2>&);
 template void turn_freely(Body<3>&, double, RotationMethod, const Spin<3>&);
 

@@ -44,6 +44,7 @@ struct SmoothScene {
       body.angular_momentum += all[i].twist;
       body.position += h * body.velocity + all[i].drift;
       body.orientation = freely_turned(body, body.angular_momentum + all[i].lag, h);
+      if (all[i].turn != Spin<D>(0.0)) body.orientation = turned(body.orientation, all[i].turn);
     }
   }
 

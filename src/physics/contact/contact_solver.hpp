@@ -152,9 +152,10 @@ void fly(Body<D>& body, const Increment<D>& increment, double h, RotationMethod 
   const Spin<D> turning = body.kind == BodyKind::kinematic_body
                               ? body.kinematic_spin
                               : body.angular_momentum + increment.lag;
-  if (turning == Spin<D>(0.0)) return;
+  if (turning == Spin<D>(0.0) && increment.turn == Spin<D>(0.0)) return;
   if (body.is_dynamic() && body.inverse_inertia == Spin<D>(0.0)) return;
   turn_freely(body, h, body.rotation.value_or(worlds), increment.lag);
+  if (increment.turn != Spin<D>(0.0)) body.orientation = turned(body.orientation, increment.turn);
   ++work.rotations_integrated;
 }
 

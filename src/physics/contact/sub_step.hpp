@@ -218,6 +218,8 @@ class SubStep {
       const Spin<D> pushed = solved.mean.spin - solved.turning_spin;
       if (turning == Spin<D>(0.0) && pushed == Spin<D>(0.0)) continue;
       turn_freely(body, h, body.rotation.value_or(config.rotation), solved.lag);
+      if (increment.turn != Spin<D>(0.0))
+        body.orientation = turned(body.orientation, increment.turn);
       if (pushed != Spin<D>(0.0)) turn_with_momentum(body, Spin<D>(pushed * h));
       ++work.rotations_integrated;
     }

@@ -5,8 +5,8 @@
 // A method gives each body's increment instead of its new state, so that contacts may change the
 // velocity in between: v += kick; (contacts change v); x += h v + drift. The orientation follows
 // the angular momentum by free rotation (body.hpp): L += twist; (contacts change L); turn
-// freely for h with L + lag. Without the lag the turning is of first order in a changing torque,
-// whatever the method; with it, of the order of the method, but at most 2.
+// freely for h with L + lag, then by turn. Without the lag the turning is of first order in a
+// changing torque, whatever the method; with it, in space, of second order at most.
 #pragma once
 
 #include <cstdint>
@@ -26,6 +26,7 @@ struct Increment {
   Vec<D> drift{0.0};   // of the position, beyond h times the new velocity
   Spin<D> twist{0.0};  // of the angular momentum
   Spin<D> lag{0.0};    // of the angular momentum while the body turns, beyond the new one
+  Spin<D> turn{0.0};   // of the orientation, beyond that, about the world's axes
 };
 
 template <int D>
