@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
+#include "base/random.hpp"
 #include "exact_oscillator.hpp"
 #include "smooth_scene.hpp"
 
@@ -275,6 +276,46 @@ TEST(Integrators, AKinematicBodyCarriesTheEndOfItsSpring) {
   scene.run(Integrator::runge_kutta_4, 1e-3, 3000);
   const Vec<2> exact{r * std::cos(6.0), r * std::sin(6.0)};
   EXPECT_LT(glm::length(scene.bodies[1].position - exact), 1e-9);
+}
+
+// What swings on a spring of any stiffness k from an anchor: the middle of a step lies on the line
+// to p = x + h/2 v + h^2/4 g, at the distance (|p| + q L) / (1 + q) with q = h^2 k / 4m.
+template <int D>
+void expect_exact_middles(Random& random) {
+  const auto any = [&](double most) {
+    glm::vec<D, double> v(0.0);
+    for (int i = 0; i < D; ++i) v[i] = random.between(-most, most);
+    return v;
+  };
+  SmoothScene<D> scene;
+  const double h = std::exp(random.between(-6, -3)), mass = random.between(0.5, 2);
+  const double stiffness = std::pow(10, random.between(3, 12)), rest = random.between(1, 3);
+  scene.add(Vec<D>(0.0), Vec<D>(0.0), 0);
+  scene.add(glm::normalize(any(1)) * rest, any(3), mass);
+  scene.forces.springs.push_back({0, 1, Vec<D>(0.0), Vec<D>(0.0), rest, stiffness, 0});
+  scene.forces.gravity = any(10);
+  using Exact = glm::vec<D, long double>;
+  const long double q = static_cast<long double>(h) * h * stiffness / 4 / mass;
+  for (int step = 0; step < 100; ++step) {
+    const Exact x = scene.bodies[1].position, v = scene.bodies[1].velocity;
+    const Exact p = x + v * (h / 2.0L) + Exact(scene.forces.gravity) * (h * (h / 4.0L));
+    const long double far = glm::length(p);
+    const Exact middle = p / far * ((far + q * rest) / (1 + q));
+    scene.step(Integrator::implicit_midpoint, h);
+    const Exact end = 2.0L * middle - x, mean = (end - x) / static_cast<long double>(h);
+    const double allowed = 1e-13 * rest;
+    ASSERT_LT(glm::length(Exact(scene.bodies[1].position) - end), allowed) << step;
+    ASSERT_LT(glm::length(Exact(scene.bodies[1].velocity) - (2.0L * mean - v)), 10 * allowed / h)
+        << step << ", stiffness " << stiffness;
+  }
+}
+
+TEST(Integrators, TheMiddleOfAStiffSwingIsThatOfTheMethod) {
+  Random random(17);
+  for (int round = 0; round < 20; ++round) {
+    expect_exact_middles<2>(random);
+    expect_exact_middles<3>(random);
+  }
 }
 
 TEST(Integrators, RefusesAStepThatIsNoStep) {

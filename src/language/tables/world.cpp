@@ -102,7 +102,11 @@ TableDoc world_table() {
           "half a step ahead of what a steady force speeds up, but for balls on what stands still; "
           "what joints hold and nothing touches it moves as `velocity_verlet`. Beside contacts, "
           "joints take about half the square of the angle that bodies turn by in a step, of their "
-          "energy."),
+          "energy. By `implicit_midpoint`, however exactly solved, what swings on a stiff spring "
+          "by an angle a in a step of h seconds has at times a²h²k/16m of its energy too much, "
+          "and may gain without bound where ah√(k/m) is above 3: a pendulum of 1 kg that swings "
+          "by 20 J gets 2e8 J from a spring of 1e12 N a unit in 6 s at 60 steps a second; "
+          "`implicit_euler` loses instead."),
       key(&W::rotation, "rotation",
           "How free bodies rotate: exactly, to rounding, at any spin and step; or by a splitting "
           "of order 2 or 4, and exactly only where it would change the energy by more than a "
