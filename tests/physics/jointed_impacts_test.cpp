@@ -41,7 +41,7 @@ Vec<D> any_way(Random& random) {
   }
 }
 // Gauss, with the largest pivot of each column.
-std::vector<double> solution(std::vector<std::vector<double>> a, std::vector<double> b) {
+std::vector<double> solved_by_gauss(std::vector<std::vector<double>> a, std::vector<double> b) {
   const std::size_t n = b.size();
   for (std::size_t c = 0; c < n; ++c) {
     std::size_t pivot = c;
@@ -154,7 +154,7 @@ struct FullSystem {
       std::ranges::copy(of, a[k].begin());
       b[k] = (k < n + m ? 0 : wanted[k - n - m]) - product(of, v);
     }
-    Row now = solution(a, b);
+    Row now = solved_by_gauss(a, b);
     now.resize(n);
     for (std::size_t i = 0; i < n; ++i) now[i] += v[i];
     return now;
@@ -185,7 +185,7 @@ void set_any_velocities(World<D>& world, Random& random) {
   give_velocities(world, FullSystem<D>(world).after(v, {}, {}, {}));
 }
 
-constexpr double kShort = 1e-9;  // a step in which nothing but the blow matters
+constexpr double kBlowStep = 1e-9;  // a step in which nothing but the blow matters
 
 // Bodies in a tree of pins and rods, perhaps hung up, and the first of them, a ball or a box whose
 // corner points that way, next to a half-space.
@@ -254,7 +254,7 @@ void trees_follow_the_full_system() {
     const std::vector<double> v = system.velocities();
     const auto wanted = system.after(v, {row}, {row}, {-e * FullSystem<D>::product(row, v)});
     const double before = total_energy(world);
-    world.step(kShort);
+    world.step(kBlowStep);
     expect_velocities(world, wanted, "without friction");
     if (e == 1) {
       EXPECT_NEAR(total_energy(world) / before, 1, 1e-12) << i;
@@ -284,7 +284,7 @@ TEST(JointedImpacts, FrictionActsThroughJoints) {
     const auto across = system.row(0, {}, 1, at, tangents(normal)[0]);
     const auto v = system.velocities();
     const double bounce = -e * FullSystem<2>::product(row, v);
-    world.step(kShort);
+    world.step(kBlowStep);
     const auto got = FullSystem<2>(world).velocities();
     const auto slip = FullSystem<2>::product(across, got);
     EXPECT_NEAR(FullSystem<2>::product(row, got), bounce, 1e-7);
@@ -337,7 +337,7 @@ void blows_at_many_points_give_no_energy() {
     const double e = i % 2 == 0 ? 1 : random.unit(), mu = i % 4 < 2 ? 0 : random.unit();
     World<D> world = a_net_on_the_floor<D>(random, method, e, mu);
     const double before = total_energy(world);
-    world.step(kShort);
+    world.step(kBlowStep);
     const double ratio = total_energy(world) / before;
     EXPECT_LE(ratio, 1 + 1e-12) << i;
     if (e == 1 && mu == 0) {
@@ -424,8 +424,8 @@ void halves_bounce_as_the_whole() {
     whole.set_angular_velocity(1, spin);
     for (const BodyId id : {1, 2}) halves.set_angular_velocity(id, spin);
     const double before = total_energy(halves);
-    whole.step(kShort);
-    halves.step(kShort);
+    whole.step(kBlowStep);
+    halves.step(kBlowStep);
     if (e == 1) {
       EXPECT_NEAR(total_energy(halves) / before, 1, 1e-12) << i;
     }
@@ -465,7 +465,7 @@ void what_strikes_at_both_ends_comes_back_alike(double e) {
     for (const BodyId id : {1, 2})
       rows.push_back(system.row(0, {}, id, world.find(id)->position - up<D>(0.7), up<D>(1)));
     const auto wanted = system.after(system.velocities(), rows, rows, {3 * e, 3 * e});
-    world.step(kShort);
+    world.step(kBlowStep);
     expect_velocities(world, wanted, "both ends");
   }
 }

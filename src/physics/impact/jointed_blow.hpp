@@ -157,6 +157,7 @@ class JointedBlow {
       impulses_.assign(rows_.size(), 0.0);
       speeds_ = begun_;
       if (!factor_.factor(matrix)) return;
+      count_direct_solve(rows_.size(), work_);
       for (int i = 0; i < kImpactSettings.joint_rounds; ++i) {
         Scratch<double> missing(rows_.size());
         for (const Point& p : points_)
