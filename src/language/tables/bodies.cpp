@@ -252,7 +252,11 @@ std::vector<KeyDoc> body_keys(std::vector<KeyDoc> first) {
       key(&B::mass, "mass", "Instead of the density.", above(0, kHeavy), in("kg"),
           or_else("from shape and density")),
       key(&Material::restitution, "restitution",
-          "How much of its speed a bounce keeps; of two bodies, the larger counts.", range(0, 1)),
+          "How much of its speed a bounce keeps; of two bodies, the larger counts. Joints bear "
+          "their part of the blow. Pairs that touch at once are struck one after another, "
+          "but those that joints hold, together; a blow that takes more than 64 rounds ends "
+          "without restitution.",
+          range(0, 1)),
       key(&Material::friction, "friction",
           "Of two bodies, the square root of their product counts.", range(0, 1000)),
       key(&B::linear_drag, "drag",

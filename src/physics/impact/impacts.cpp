@@ -5,6 +5,7 @@
 #include "base/scratch.hpp"
 #include "base/stop.hpp"
 #include "physics/impact/depth_bound.hpp"
+#include "physics/impact/jointed_blow.hpp"
 #include "physics/impact/time_of_impact.hpp"
 
 namespace lantern::physics {
@@ -333,10 +334,7 @@ class ImpactMotion {
     }
     const double slope = power(more, dead_a, dead_b);
     const double bend = power(more, a, b) - slope;
-    // s of bend s^2 / 2 + slope s = lost, in the form that does not cancel.
-    const double root = std::sqrt(slope * slope + 2 * bend * std::max(lost, 0.0));
-    const double share =
-        slope + root > 0 ? std::clamp(2 * std::max(lost, 0.0) / (slope + root), 0.0, 1.0) : 0;
+    const double share = share_of_bounce(slope, bend, std::max(lost, 0.0));
     blend(a, dead_a, share);
     blend(b, dead_b, share);
     for (std::size_t i = 0; i < static_cast<std::size_t>(rows.count); ++i) {
@@ -345,17 +343,19 @@ class ImpactMotion {
     }
   }
 
-  // Returns whether there was a blow: points that approach.
-  bool resolve(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b, double restitution,
-               double slow) {
-    bool approaches = false;
-    for (const ContactPoint<D>& p : rows.points())
-      approaches |= glm::dot(relative_velocity(a, p.arm_a, b, p.arm_b), rows.normal) < -slow;
-    if (!approaches) return false;
+  bool approaches(const IslandPair<D>& pair) const {
+    const SolverBody<D>& a = island_.solver_bodies[pair.rows.a];
+    const SolverBody<D>& b = island_.solver_bodies[pair.rows.b];
+    return std::ranges::any_of(pair.rows.points(), [&](const ContactPoint<D>& p) {
+      return glm::dot(relative_velocity(a, p.arm_a, b, p.arm_b), pair.rows.normal) < -pair.slow;
+    });
+  }
+
+  void resolve(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b) {
     const SolverBody<D> old_a = a, old_b = b;
-    strike(rows, a, b, restitution);
-    if (restitution > 0 && rows.friction > 0) take_back_gained_energy(rows, a, b, old_a, old_b);
-    return true;
+    strike(rows, a, b, rows.restitution);
+    if (rows.restitution > 0 && rows.friction > 0)
+      take_back_gained_energy(rows, a, b, old_a, old_b);
   }
 
   // Sets up the points of all pairs that touch now.
@@ -390,33 +390,38 @@ class ImpactMotion {
   }
 
   // All pairs that touch and approach get the impulses of an impact, one pair after another until
-  // none approaches: so the blow runs through a row of balls. Pairs between which it does not come
-  // to an end become contacts. Returns how many impacts there were.
+  // none approaches: so the blow runs through a row of balls. Those that joints hold, and that
+  // approach in the same round, get theirs together. Pairs between which it does not come to an end
+  // become contacts. Returns how many impacts there were.
   int resolve_impacts() {
     island_.set_solver_bodies();
     const Scratch<std::size_t> touching = touching_pairs();
+    JointedBlow<D> jointed(island_, move_.work);
     int impacts = 0;
     bool any = true;
     for (int round = 0; any && round < kImpactSettings.most_rounds; ++round) {
-      any = false;
+      const int before = impacts;
       // A blow that does not come to its end is ended without restitution.
       const bool tired = round >= kImpactSettings.bouncing_rounds;
       for (const std::size_t i : touching) {
         stop_if_asked();
         IslandPair<D>& pair = island_.pairs[i];
-        const double restitution = tired ? 0 : pair.rows.restitution;
-        if (!resolve(pair.rows, island_.solver_bodies[pair.rows.a],
-                     island_.solver_bodies[pair.rows.b], restitution, pair.slow))
-          continue;
-        pair.record_impulses();
-        pair.touched = true;
+        if (!approaches(pair)) continue;
         if (tired) {  // squeezed: nor may it bounce in the sub-steps that follow
           pair.pressed = true;
           pair.rows.restitution = 0;
         }
+        pair.touched = true;
         ++impacts;
-        any = true;
+        if (jointed.holds(pair.rows)) {
+          jointed.add(pair);
+          continue;
+        }
+        resolve(pair.rows, island_.solver_bodies[pair.rows.a], island_.solver_bodies[pair.rows.b]);
+        pair.record_impulses();
       }
+      jointed.strike();
+      any = impacts > before;
     }
     if (impacts > 0) let_struck_go();
     for (std::size_t i = 0; i < island_.bodies.size(); ++i) {

@@ -34,6 +34,9 @@ struct ImpactSettings {
   double change = 1e-15;              // of the largest impulse: so small a one ends these sweeps
   double touching = 4e-9;             // of the thinner one's: so near is struck, too
   double gain_by_rounding = 1e-12;    // of the blow's energy: so small a gain of it is none
+  std::size_t most_together = 64;     // rows of what joints hold, or few more, struck at once
+  int most_jointed_sweeps = 1000;     // over these
+  int joint_rounds = 3;               // in which joints are solved
   double most_held_turn = 0.5;        // radians for which a contact holds what turns
   double same_way = 1e-12;            // relatively: what moves so nearly as foreseen, does so
   double deep = 0.25;                 // of the thinner one's thickness: deeper no contact may be,

@@ -162,6 +162,21 @@ class JointBlock {
     return solved_;
   }
 
+  // By their velocities, or by their mean velocities.
+  void stop_parting(const Scratch<JointRows<D>>& joints, Scratch<SolverBody<D>>& bodies,
+                    bool of_mean, WorldWork& work) {
+    for (std::size_t r = 0; r < rows_.size(); ++r) {
+      const ConstraintRow<D>& row = rows_[r];
+      const JointRows<D>& joint = joints[joint_of_[r]];
+      const SolverBody<D>&a = bodies[row.a], &b = bodies[row.b];
+      const Motion<D>&of_a = of_mean ? a.mean : a, &of_b = of_mean ? b.mean : b;
+      values_[r] =
+          -glm::dot(row.direction, relative_velocity(of_a, joint.arm_a, of_b, joint.arm_b));
+    }
+    solve(work);
+    apply_rows(rows_, values_, bodies, of_mean);
+  }
+
   // Impulses after which no joint parts.
   void solve_velocities(Scratch<JointRows<D>>& joints, Scratch<SolverBody<D>>& bodies, Sweep& sweep,
                         WorldWork& work) {
@@ -228,21 +243,6 @@ class JointBlock {
   }
 
  private:
-  // By their velocities, or by their mean velocities.
-  void stop_parting(const Scratch<JointRows<D>>& joints, Scratch<SolverBody<D>>& bodies,
-                    bool of_mean, WorldWork& work) {
-    for (std::size_t r = 0; r < rows_.size(); ++r) {
-      const ConstraintRow<D>& row = rows_[r];
-      const JointRows<D>& joint = joints[joint_of_[r]];
-      const SolverBody<D>&a = bodies[row.a], &b = bodies[row.b];
-      const Motion<D>&of_a = of_mean ? a.mean : a, &of_b = of_mean ? b.mean : b;
-      values_[r] =
-          -glm::dot(row.direction, relative_velocity(of_a, joint.arm_a, of_b, joint.arm_b));
-    }
-    solve(work);
-    apply_rows(rows_, values_, bodies, of_mean);
-  }
-
   void list(const Scratch<JointRows<D>>& joints, const Scratch<SolverBody<D>>& bodies) {
     rows_.clear();
     joint_of_.clear();
