@@ -38,6 +38,7 @@ struct RowSettings {
   // a body's thickness is eased out, slower than a stack sways; only what is deeper is pushed.
   double eased_out = 0.02;
   double shallow = 0.01;
+  double flat = 1e-12;   // how far the cosine to a face's normal may be from 1
   double corner = 1e-3;  // of a body's size: so near to a corner of it is at the corner
   // Of full friction: what stops a body within so little of it does not slip in the end.
   double slip_by_rounding = 1e-6;
@@ -78,6 +79,7 @@ struct ContactPoint {  // made in `set_points`; there is room for more of them t
   Vec<D> slip;                  // across the normal, before this sub-step's forces
   Vec<D> kicked_slip;           // and after them
   Vec<D> wanted_slip;           // mean over this sub-step, if it sticks
+  Vec<D> carried;               // a part of that, see ContactRows::carry
   double correction;            // impulse that pushes out penetration, along the normal
   bool sticks;
 
@@ -103,6 +105,11 @@ struct ContactRows {
   double restitution = 0;
   double shallow = 0;  // so little penetration is eased out, where sweeps alone push
   Vec<D> normal{0.0};
+  // Where something round lies on a flat face that may turn: its normal in the axes of the body
+  // whose face it is, and in the world as it was last; else zero.
+  Vec<D> flat{0.0}, faced{0.0};
+  bool faces_a = false;  // the face is that of b, towards a
+  bool carries = false;  // one of them is a kinematic body that turns, see carry
   std::array<ContactPoint<D>, Manifold<D>::kMostPoints> room;
   int count = 0;
 
@@ -121,6 +128,7 @@ struct ContactRows {
     normal = manifold.normal;
     count = manifold.count;
     shallow = kRowSettings.shallow * thinner(body_a, body_b);
+    find_face(body_a, body_b, axes_a, axes_b, solid_a.radius > 0, solid_b.radius > 0);
     for (int i = 0; i < manifold.count; ++i) {
       const auto at = static_cast<std::size_t>(i);
       const ManifoldPoint<D>& from = manifold.room[at];
@@ -129,6 +137,7 @@ struct ContactRows {
       p.separation = p.gap = p.inverse_normal_mass = p.inverse_tangent_mass = 0;
       p.pn = p.bounce = p.correction = 0;
       p.arm_a = p.arm_b = p.pt = p.slip = p.kicked_slip = p.wanted_slip = Vec<D>(0.0);
+      p.coupling = p.carried = Vec<D>(0.0);
       p.sticks = false;
       p.round_a = normal * solid_a.radius;
       p.round_b = normal * -solid_b.radius;
@@ -141,7 +150,8 @@ struct ContactRows {
       // moves over the face of the other: where it is now, they touch. Where edges cross it is half
       // way.
       const bool corner_a = solid_a.is_corner(p.core_a), corner_b = solid_b.is_corner(p.core_b);
-      p.share = corner_a != corner_b       ? (corner_b ? 1 : 0)
+      p.share = flat != Vec<D>(0.0)        ? (faces_a ? 0 : 1)
+                : corner_a != corner_b     ? (corner_b ? 1 : 0)
                 : body_a.inverse_mass == 0 ? 1
                 : body_b.inverse_mass == 0 ? 0
                                            : 0.5;
@@ -153,27 +163,42 @@ struct ContactRows {
 
   // Arms, separations and effective masses where the bodies are now; velocities are those before
   // the sub-step's forces. Points that approach faster than `threshold` bounce; those no farther
-  // apart than `touching` have no gap.
+  // apart than `touching` have no gap. Of a sub-step of `h` seconds, in which the mean velocities
+  // of bodies lag behind by `lag_a` and `lag_b` (see begin_correction).
   void refresh(const Body<D>& body_a, const Body<D>& body_b, const Mat<D>& axes_a,
                const Mat<D>& axes_b, const SolverBody<D>& solver_a, const SolverBody<D>& solver_b,
-               double threshold, double touching) {
+               double threshold, double touching, double h = 0, double lag_a = 0,
+               double lag_b = 0) {
+    const double lag = std::max(body_a.is_dynamic() ? lag_a : 0, body_b.is_dynamic() ? lag_b : 0);
+    carries = carries_round(body_a) || carries_round(body_b);
+    const bool turns_late = flat != Vec<D>(0.0) && turns_alike(faces_a ? body_b : body_a);
+    const double ahead = turns_late ? std::min(lag, 0.5) : 0;
+    const Spin<D> turn = (faces_a ? solver_b.spin : solver_a.spin) * (carries ? 0 : ahead * h);
+    const Vec<D> lies = turn_face(faces_a ? axes_b : axes_a, turn);
     const auto along = tangents(normal);
     for (ContactPoint<D>& p : points()) {
       const Vec<D> to_a = axes_a * p.core_a + p.round_a, to_b = axes_b * p.core_b + p.round_b;
       const Vec<D> gap = (body_b.position - body_a.position) + to_b - to_a;
-      p.separation = glm::dot(normal, gap) + p.offset;
+      p.separation = glm::dot(lies, gap) + p.offset;
       p.gap = p.separation > touching ? p.separation : 0;
       p.arm_a = to_a + gap * p.share;
       p.arm_b = to_b - gap * (1 - p.share);
+      const Vec<D> velocity = relative_velocity(solver_a, p.arm_a, solver_b, p.arm_b);
+      p.slip = across(velocity);
+      if (carries || ahead > 0) {
+        const bool leads = carries_round(p.share > 0.5 ? body_b : body_a);
+        carry(p, solver_a, axes_a * p.core_a, solver_b, axes_b * p.core_b, h,
+              !carries ? ahead
+              : leads  ? 0.5
+                       : 0.5 + lag);
+      }
       p.inverse_normal_mass = inverse_effective_mass(solver_a, p.arm_a, solver_b, p.arm_b, normal);
       if (friction > 0) {
         p.inverse_tangent_mass = softest(solver_a, solver_b, p, along);
         p.coupling = coupling(solver_a, solver_b, p);
       }
-      const Vec<D> velocity = relative_velocity(solver_a, p.arm_a, solver_b, p.arm_b);
       const double parting = glm::dot(velocity, normal);
       p.bounce = p.gap == 0 && parting < -threshold ? -restitution * parting : 0;
-      p.slip = across(velocity);
     }
   }
 
@@ -243,6 +268,7 @@ struct ContactRows {
       const double time = sliding_share(hardly ? *firmest : p);
       p.wanted_slip =
           p.slip * (time / 2) + across(relative_velocity(body_a, p.arm_a, body_b, p.arm_b));
+      if (p.carried != Vec<D>(0.0)) p.wanted_slip += p.carried;
     }
   }
 
@@ -275,6 +301,68 @@ struct ContactRows {
   }
 
  private:
+  static bool carries_round(const Body<D>& body) {
+    return body.kind == BodyKind::kinematic_body && body.kinematic_spin != Spin<D>(0.0) &&
+           turns<D>(body.shape);
+  }
+
+  // What sticks to a kinematic body that turns goes round with it, and what rolls on it is taken
+  // along. With the velocity that the surface has where they touched at the beginning, both would
+  // go off along the tangent: by a part of order h farther out in each second. How that body moves
+  // is known, so the rows are those of the moment for which the new velocity stands: half way, if
+  // that is the mean one, and later by as much as the mean velocity lags behind. What is round on a
+  // face that turns is met half way, too, if the mean velocity and spin lag; else a plank that
+  // rocks would gain energy. The place of contact is by then, `ahead` sub-steps on, where its
+  // corner takes it, or the middle of the round side. Such an Adams-Bashforth step is of second
+  // order, and lets what goes round by x in it go outward by x^4 / 4.
+  void carry(ContactPoint<D>& p, const SolverBody<D>& body_a, const Vec<D>& core_a,
+             const SolverBody<D>& body_b, const Vec<D>& core_b, double h, double ahead) {
+    const bool is_b = p.share > 0.5;
+    const SolverBody<D>&leader = is_b ? body_b : body_a, &other = is_b ? body_a : body_b;
+    Vec<D> way = leader.velocity + cross(leader.spin, is_b ? core_b : core_a);
+    if (flat != Vec<D>(0.0)) way += cross(other.spin, is_b ? p.round_b : p.round_a);
+    // Along the surface of the other: it does not go into it.
+    way -= normal *
+           glm::dot(way - other.velocity - cross(other.spin, is_b ? p.arm_a : p.arm_b), normal);
+    const Vec<D> along_a = (way - body_a.velocity) * h, along_b = (way - body_b.velocity) * h;
+    const Vec<D> turned = across(cross(body_b.spin, along_b) - cross(body_a.spin, along_a));
+    p.slip += turned * (carries ? ahead - 1 : -ahead);
+    p.carried = turned * std::max(ahead - 0.5, 0.0);
+    p.arm_a += along_a * ahead;
+    p.arm_b += along_b * ahead;
+  }
+
+  // Whether what touches is a flat face of one body, which may turn, and a round side of the other.
+  void find_face(const Body<D>& body_a, const Body<D>& body_b, const Mat<D>& axes_a,
+                 const Mat<D>& axes_b, bool round_a, bool round_b) {
+    flat = faced = Vec<D>(0.0);
+    if (round_a == round_b) return;
+    faces_a = round_a;
+    const Body<D>& body = faces_a ? body_b : body_a;
+    const Mat<D>& axes = faces_a ? axes_b : axes_a;
+    if (!carries_round(body) && body.inverse_inertia == Spin<D>(0.0)) return;
+    const Vec<D> along = normal * axes;
+    for (int i = 0; i < D; ++i)
+      if (std::abs(along[i]) > 1 - kRowSettings.flat) flat[i] = along[i] < 0 ? -1 : 1;
+    faced = axes * flat;
+  }
+
+  // The normal of a face turns with its body, in a step's sub-steps too: what is round rolls on it,
+  // and touches it elsewhere. (On a normal that stays, a rocking plank would be lifted.) Returns
+  // the normal as it is now; rows have it turned on by `turn`.
+  Vec<D> turn_face(const Mat<D>& axes, const Spin<D>& turn) {
+    const Vec<D> now = axes * flat;
+    if (now == faced && turn == Spin<D>(0.0)) return normal;
+    for (ContactPoint<D>& p : points()) {
+      p.round_a = now * glm::dot(p.round_a, faced);
+      p.round_b = now * glm::dot(p.round_b, faced);
+    }
+    faced = now;
+    normal = turn == Spin<D>(0.0) ? now : matrix(turned(Rotation<D>{}, turn)) * now;
+    for (ContactPoint<D>& p : points()) p.pt = across(p.pt);
+    return now;
+  }
+
   // Impulses stay with their features. A feature has another name as soon as another corner ends
   // the face, which in a stack of equal boxes the slightest shift does; what is left without a
   // point then goes to the nearest new one, if that is as near as `shallow`, lest half of what
@@ -400,10 +488,10 @@ struct ContactRows {
   // Slips through the whole sub-step. The part of friction that slows it does so evenly: the mean
   // is half way. The part that holds against forces lags as these do: else a body that they move by
   // little would move by half of the friction more. `change` is that of the slip, of which contacts
-  // made `made`.
-  static double slowing_share(const ContactPoint<D>& p, const Vec<D>& change, const Vec<D>& made) {
+  // made `made`. On rollers that turn against each other each friction counts, not just the larger.
+  double slowing_share(const ContactPoint<D>& p, const Vec<D>& change, const Vec<D>& made) const {
     const double slowed = glm::dot(change, made), most = glm::dot(made, made);
-    if (!(slowed > 0) || !(glm::dot(change, p.pt) > 0)) return 0;
+    if (!(slowed > 0) || (!carries && !(glm::dot(change, p.pt) > 0))) return 0;
     return std::min(slowed / most, 1.0);
   }
 

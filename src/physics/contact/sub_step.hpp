@@ -70,7 +70,7 @@ class SubStep {
     rows.refresh(island.bodies[rows.a], island.bodies[rows.b], island.axes[rows.a],
                  island.axes[rows.b], island.solver_bodies[rows.a], island.solver_bodies[rows.b],
                  kRowSettings.bounce_steps * glm::length(kick_b - kick_a),
-                 kRowSettings.touching_way * way);
+                 kRowSettings.touching_way * way, h, lag_of(rows.a), lag_of(rows.b));
   }
 
   // Once over all rows, joints last. Every other `turn` goes backwards, so that neither end of a
