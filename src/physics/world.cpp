@@ -16,6 +16,7 @@
 #include "geometry/not_finite.hpp"
 #include "physics/contact/contact_solver.hpp"
 #include "physics/islands.hpp"
+#include "physics/step_islands.hpp"
 
 namespace lantern::physics {
 namespace {
@@ -129,7 +130,7 @@ void World<D>::remove(std::span<const BodyId> ids) {
     if (find(id) != nullptr) gone.push_back(id);
   if (gone.empty()) return;
   std::ranges::sort(gone);
-  disturbed = gone;
+  disturbed = with_untold_sleepers(gone);
   const auto is_gone = [&](BodyId id) { return std::ranges::binary_search(gone, id); };
   const auto goes = [&](const auto& tie) { return is_gone(tie.a) || is_gone(tie.b); };
   const auto disturb = [&](const auto& tie) {
@@ -172,7 +173,7 @@ void World<D>::place(BodyId id, const Vec<D>& position, const Vec<D>& velocity,
   moved.velocity = velocity;
   if (orientation) moved.orientation = *orientation;
   check_body(moved);
-  wake_from(id);
+  wake_from(with_untold_sleepers(std::span(&id, 1)));
   forget_contacts_of(std::span(&id, 1));
   part_islands();
   moved.asleep = false;
@@ -255,6 +256,29 @@ void World<D>::wake_from(std::span<const BodyId> ids) {
     rested_[i] = 0;
   }
   rouse_touches();
+}
+
+template <int D>
+Scratch<BodyId> World<D>::with_untold_sleepers(std::span<const BodyId> ids) const {
+  Scratch<BodyId> all;
+  all.assign(ids.begin(), ids.end());
+  if (!may_rest_ || config_.contacts == ContactMethod::none) return all;
+  Scratch<std::uint8_t> is_told(bodies_.size());
+  each_touch([&](const Touch<D>& touch) {
+    is_told[index_of(touch.record.a)] = is_told[index_of(touch.record.b)] = true;
+  });
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const Body<D>& sleeper = bodies_[i];
+    if (!sleeper.asleep || is_told[i]) continue;
+    const auto touches = [&](BodyId id) {
+      const Body<D>& body = bodies_[index_of(id)];
+      const double slack = thinner(body, sleeper) * kStepSettings.slack;
+      return body.id != sleeper.id && body.collides && sleeper.collides &&
+             collide(placed(body), placed(sleeper), slack).has_value();
+    };
+    if (std::ranges::any_of(ids, touches)) all.push_back(sleeper.id);
+  }
+  return all;
 }
 
 template <int D>

@@ -204,6 +204,8 @@ class World {
   Scratch<Pair> links() const;  // of what wakes together
   Scratch<Pair> ties() const;   // those that are no contacts
   void wake_from(std::span<const BodyId> ids);
+  // With those beside them that came asleep: what these touch has never been looked at.
+  Scratch<BodyId> with_untold_sleepers(std::span<const BodyId> ids) const;
   void wake_from(BodyId id) { wake_from(std::span(&id, 1)); }
   void disturb() {
     ahead_.reset();

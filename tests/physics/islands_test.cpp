@@ -241,5 +241,39 @@ TEST(Islands, WhatHangsOnASleeperSwingsAboutIt) {
   }
 }
 
+// What a stack that came asleep stands on was never looked at: it is when that goes.
+template <int D>
+void expect_put_asleep_falls(ContactMethod method, bool is_moved) {
+  WorldConfig<D> config = falling<D>();
+  config.contacts = method;
+  World<D> world(config);
+  world.add(floor_at<D>());
+  for (int i = 0; i < 4; ++i) {
+    Body<D> box = box_at<D>(up<D>(i + 0.5));
+    box.asleep = true;
+    world.add(box);
+  }
+  run(world, 0.5);
+  EXPECT_EQ(world.work().asleep, 4u);
+  if (is_moved)
+    world.place(1, along<D>(5, 0.5), Vec<D>(0.0));
+  else
+    world.remove(1);
+  run(world, 2);
+  for (BodyId id = 2; id <= 4; ++id) {
+    const double wanted = static_cast<double>(id) - 1.5;
+    EXPECT_NEAR(world.find(id)->position.y, wanted, 0.05) << to_string(method) << ", " << id;
+  }
+}
+
+TEST(Islands, WhatCameAsleepFallsWhenItsFootGoes) {
+  for (const ContactMethod method :
+       {ContactMethod::impulse, ContactMethod::soft, ContactMethod::direct})
+    for (const bool is_moved : {false, true}) {
+      expect_put_asleep_falls<2>(method, is_moved);
+      expect_put_asleep_falls<3>(method, is_moved);
+    }
+}
+
 }  // namespace
 }  // namespace lantern::physics
