@@ -1,24 +1,18 @@
 // What cannot leave: bodies in closed rooms, however fast they fly and spin.
-#include <cstdlib>
 #include <string>
 
 #include <gtest/gtest.h>
 
 #include "closed_room.hpp"
+#include "how_many.hpp"
 
 namespace lantern::physics {
 namespace {
 
-// More of them where somebody has the time.
-int rooms_a_method(int usual) {
-  const char* const wanted = std::getenv("LANTERN_CLOSED_ROOMS");
-  return wanted != nullptr ? std::atoi(wanted) : usual;
-}
-
 // Nobody's centre is outside at the end of any step, and the energy never grows.
 template <int D>
 void expect_closed(ContactMethod method, int rooms, int steps, const RoomBounds& bounds) {
-  for (int seed = 1; seed <= rooms_a_method(rooms); ++seed) {
+  for (int seed = 1; seed <= how_many("LANTERN_CLOSED_ROOMS", rooms); ++seed) {
     ClosedRoom<D> room(static_cast<std::uint64_t>(seed), method, bounds);
     SCOPED_TRACE(std::to_string(D) + "D, " + std::string(to_string(method)) + ", room " +
                  std::to_string(seed));

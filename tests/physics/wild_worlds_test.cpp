@@ -1,9 +1,9 @@
 // Worlds drawn at random: none makes energy, none lets anything out, none takes for ever.
-#include <cstdlib>
 #include <string>
 
 #include <gtest/gtest.h>
 
+#include "how_many.hpp"
 #include "wild_world.hpp"
 
 namespace lantern::physics {
@@ -11,16 +11,10 @@ namespace {
 
 constexpr std::uint64_t kWildSeed = 7;
 
-// More of them where somebody has the time.
-int wild_worlds(int usual) {
-  const char* const wanted = std::getenv("LANTERN_WILD_WORLDS");
-  return wanted != nullptr ? std::atoi(wanted) : usual;
-}
-
 // What is refused is told, and no more than one in a hundred.
 template <int D>
 void expect_tame(ContactMethod method, int usual) {
-  const int count = wild_worlds(usual);
+  const int count = how_many("LANTERN_WILD_WORLDS", usual);
   int refused = 0;
   for (int number = 0; number < count; ++number) {
     const WildReport report =
