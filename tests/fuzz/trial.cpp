@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/hash.hpp"
+#include "base/printable.hpp"
 #include "draw/page.hpp"
 #include "fuzz/energy.hpp"
 #include "language/text/problems.hpp"

@@ -53,7 +53,7 @@ TEST(Shape, ATurnedBoxHasTheSmallestBoxAroundItsCorners) {
 }
 
 TEST(Shape, AnAxisBoxDoesNotTurn) {
-  EXPECT_EQ((bounding_box<2>(AxisBox<2>{{1, 2}}, {3, 4}, {0.7})),
+  EXPECT_EQ((bounding_box<2>(AxisBox<2>{{1, 2}}, {3, 4}, Rotation<2>{0.7})),
             (bounding_box<2>(AxisBox<2>{{1, 2}}, {3, 4})));
 }
 
