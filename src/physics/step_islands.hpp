@@ -52,6 +52,21 @@ double coasting_reach(const Body<D>& body, double h) {
 }
 
 template <int D>
+template <class F>
+void World<D>::find_ties(Active& active, F&& moves) const {
+  const auto look_at = [&](const auto& tie, std::size_t i, Scratch<std::size_t>& found) {
+    const auto a = static_cast<std::uint32_t>(index_of(tie.a));
+    const auto b = static_cast<std::uint32_t>(index_of(tie.b));
+    if (!moves(a) && !moves(b)) return;
+    found.push_back(i);
+    active.bodies.insert(active.bodies.end(), {a, b});
+  };
+  for (std::size_t i = 0; i < joints_.size(); ++i) look_at(joints_[i].second, i, active.joints);
+  for (std::size_t i = 0; i < forces_.springs.size(); ++i)
+    look_at(forces_.springs[i], i, active.springs);
+}
+
+template <int D>
 struct World<D>::StepIslands {
   // Two bodies that may touch. Of what an IslandPair holds only what is known before the island is
   // moved: there may be millions.

@@ -180,18 +180,7 @@ class World {
     std::size_t asleep = 0;                // bodies in all
   };
   template <class F>
-  void find_ties(Active& active, F&& moves) const {
-    const auto look_at = [&](const auto& tie, std::size_t i, Scratch<std::size_t>& found) {
-      const auto a = static_cast<std::uint32_t>(index_of(tie.a));
-      const auto b = static_cast<std::uint32_t>(index_of(tie.b));
-      if (!moves(a) && !moves(b)) return;
-      found.push_back(i);
-      active.bodies.insert(active.bodies.end(), {a, b});
-    };
-    for (std::size_t i = 0; i < joints_.size(); ++i) look_at(joints_[i].second, i, active.joints);
-    for (std::size_t i = 0; i < forces_.springs.size(); ++i)
-      look_at(forces_.springs[i], i, active.springs);
-  }
+  void find_ties(Active& active, F&& moves) const;
   // What looking ahead found out for the next step.
   struct Ahead {
     double h = 0;
