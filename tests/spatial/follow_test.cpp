@@ -40,7 +40,7 @@ class Crowd {
 };
 
 template <int D>
-void expect_same_pairs(StructureKind kind, bool split_static, std::uint64_t seed) {
+void expect_pairs_followed(StructureKind kind, bool split_static, std::uint64_t seed) {
   SCOPED_TRACE(fmt::format("{} in {}D, seed {}", to_string(kind), D, seed));
   Random random(seed);
   BroadPhaseConfig<D> config, simple;
@@ -70,16 +70,16 @@ void expect_same_pairs(StructureKind kind, bool split_static, std::uint64_t seed
 }
 
 template <int D>
-void expect_same_pairs() {
+void expect_pairs_followed() {
   std::uint64_t seed = 0;
   for (const StructureKind kind : kStructureKinds)
     if (is_possible(kind, D))
       for (const bool split_static : {true, false})
-        for (int i = 0; i < 2; ++i) expect_same_pairs<D>(kind, split_static, ++seed);
+        for (int i = 0; i < 2; ++i) expect_pairs_followed<D>(kind, split_static, ++seed);
 }
 
-TEST(Follow, FindsThePairsOfAnUpdate2D) { expect_same_pairs<2>(); }
-TEST(Follow, FindsThePairsOfAnUpdate3D) { expect_same_pairs<3>(); }
+TEST(Follow, FindsThePairsOfAnUpdate2D) { expect_pairs_followed<2>(); }
+TEST(Follow, FindsThePairsOfAnUpdate3D) { expect_pairs_followed<3>(); }
 
 // Of ten thousand that rest nobody is asked anything, wherever they lie.
 TEST(Follow, AsksNobodyWhoRestsElsewhere) {

@@ -15,7 +15,7 @@ namespace {
 // Trees of a few levels may be drawn larger than others.
 constexpr double kScales[] = {1.8, 1.65, 1.5, 1.35, 1.2, 1.1, 1.0, 0.88, 0.76, 0.66, 0.57, 0.5};
 constexpr double kLargest = 1.2;
-constexpr std::uint32_t kFewRows = 4;
+constexpr std::uint32_t kFewLevels = 4;
 // Of a condensed tree: the first is comfortable, the others are for ways that must be open.
 constexpr double kFoldScales[] = {0.6, 0.5, 0.4, 0.3, 0.25};
 constexpr std::size_t kMostBranches = 300;
@@ -105,7 +105,7 @@ bool fits(const std::vector<Branch>& branches, const Wanted& wanted, const Vec<2
   const TreeScale scale(s, rows, room.y);
   if (s > kLargest) {
     const double airy = (2 * rows - 1) * full_height(s) + scale.under;
-    if (rows > kFewRows || airy > room.y) return false;
+    if (rows > kFewLevels || airy > room.y) return false;
   }
   return spread(branches, wanted, scale, words).width <= room.x;
 }
