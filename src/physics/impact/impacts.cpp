@@ -496,13 +496,6 @@ class ImpactMotion {
   // on the way: since they stand from then on, others may meet them, and all are looked at anew.
   // When the budget is used up all others are contacts, too.
   std::optional<Impact<D>> next_event() {
-    for (;;) {
-      bool pressed = false;
-      const std::optional<Impact<D>> next = next_event(pressed);
-      if (!pressed) return next;
-    }
-  }
-  std::optional<Impact<D>> next_event(bool& pressed) {
     if (std::ranges::none_of(island_.pairs, &IslandPair<D>::located)) return std::nullopt;
     if (budget_ <= 0) {
       for (IslandPair<D>& pair : island_.pairs) pair.pressed = true;
@@ -515,6 +508,7 @@ class ImpactMotion {
     const Scratch<Trajectory<D>> flying = trajectories(within);
     forget_what_left_its_way(flying);
     std::optional<Impact<D>> first;
+    bool pressed = false;
     for (std::size_t i = 0; i < island_.pairs.size(); ++i) {
       stop_if_asked();
       IslandPair<D>& pair = island_.pairs[i];
@@ -547,7 +541,7 @@ class ImpactMotion {
       }
     }
     if (first) foreseen_[static_cast<std::size_t>(first->pair - island_.pairs.data())] = {};
-    return first;
+    return pressed ? next_event() : first;
   }
 
   const IslandMove<D>& move_;
