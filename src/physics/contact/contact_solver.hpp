@@ -174,8 +174,21 @@ struct IslandMove {
   WorldWork& work;
 };
 
+// Turns the body freely, as if its angular momentum were more by `lag` meanwhile, by its own method
+// or by the world's, and by what its integrator adds to that. False if it does not turn.
+template <int D>
+bool turn_on(Body<D>& body, const Increment<D>& increment, const Spin<D>& lag, double h,
+             RotationMethod worlds) {
+  const Spin<D> turning =
+      body.kind == BodyKind::kinematic_body ? body.kinematic_spin : body.angular_momentum + lag;
+  if (turning == Spin<D>(0.0) && increment.turn == Spin<D>(0.0)) return false;
+  turn_freely(body, h, body.rotation.value_or(worlds), lag);
+  if (increment.turn != Spin<D>(0.0)) body.orientation = turned(body.orientation, increment.turn);
+  return true;
+}
+
 // What the bodies' free motion would be: x += h (v + kick) + drift, and so on. Static and kinematic
-// bodies, too. Turned by the body's own method, or by the world's.
+// bodies, too.
 template <int D>
 void fly(Body<D>& body, const Increment<D>& increment, double h, RotationMethod worlds,
          WorldWork& work) {
@@ -184,14 +197,8 @@ void fly(Body<D>& body, const Increment<D>& increment, double h, RotationMethod 
   body.position += body.velocity * h;
   if (increment.drift != Vec<D>(0.0)) body.position += increment.drift;
   body.angular_momentum += increment.twist;
-  const Spin<D> turning = body.kind == BodyKind::kinematic_body
-                              ? body.kinematic_spin
-                              : body.angular_momentum + increment.lag;
-  if (turning == Spin<D>(0.0) && increment.turn == Spin<D>(0.0)) return;
   if (body.is_dynamic() && body.inverse_inertia == Spin<D>(0.0)) return;
-  turn_freely(body, h, body.rotation.value_or(worlds), increment.lag);
-  if (increment.turn != Spin<D>(0.0)) body.orientation = turned(body.orientation, increment.turn);
-  ++work.rotations_integrated;
+  if (turn_on(body, increment, increment.lag, h, worlds)) ++work.rotations_integrated;
 }
 
 // Moves the island under forces, joints and those of its pairs that are pressed: turns its bodies'

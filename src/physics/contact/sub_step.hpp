@@ -214,14 +214,10 @@ class SubStep {
       body.angular_momentum += increment.twist + solved.twist;
       body.position += solved.mean.velocity * h;
       if (body.inverse_inertia == Spin<D>(0.0)) continue;
-      const Spin<D> turning = body.angular_momentum + solved.lag;
       const Spin<D> pushed = solved.mean.spin - solved.turning_spin;
-      if (turning == Spin<D>(0.0) && pushed == Spin<D>(0.0)) continue;
-      turn_freely(body, h, body.rotation.value_or(config.rotation), solved.lag);
-      if (increment.turn != Spin<D>(0.0))
-        body.orientation = turned(body.orientation, increment.turn);
+      const bool turns = turn_on(body, increment, solved.lag, h, config.rotation);
       if (pushed != Spin<D>(0.0)) turn_with_momentum(body, Spin<D>(pushed * h));
-      ++work.rotations_integrated;
+      work.rotations_integrated += turns || pushed != Spin<D>(0.0);
     }
   }
 
