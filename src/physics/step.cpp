@@ -307,10 +307,10 @@ struct World<D>::Step : World<D>::StepIslands {
   Box<D> enlarged(std::uint32_t place) const {
     const std::uint32_t i = local(place);
     const Body<D>& body = body_at(place);
-    const Box<D> box =
-        i < looks.size() ? bounding_box(body.shape, body.position, looks[i].axes) : body.box();
+    const Look<D> look = i < looks.size() ? looks[i] : Look<D>(body, h);
+    const Box<D> box = bounding_box(body.shape, body.position, look.axes);
     const double gone =
-        i == kNone ? std::max(coasting_reach(body, h), this->reach_before(place)) : reach[i];
+        i == kNone ? std::max(look.coasting_reach(h), this->reach_before(place)) : reach[i];
     const Vec<D> way(knows_forces ? gone : 0);
     return {box.lo - way, box.hi + way};
   }
@@ -504,8 +504,9 @@ void World<D>::store(std::span<const BodyId> ids, double h,
   Scratch<Proxy<D>> proxies;
   for (const BodyId id : ids) {
     const Body<D>& body = bodies_[index_of(id)];
-    const Vec<D> reach(config_.contacts == ContactMethod::none ? 0 : coasting_reach(body, h));
-    const Box<D> box = body.box();
+    const Look<D> look(body, h);
+    const Vec<D> reach(config_.contacts == ContactMethod::none ? 0 : look.coasting_reach(h));
+    const Box<D> box = bounding_box(body.shape, body.position, look.axes);
     proxies.push_back({id, {box.lo - reach, box.hi + reach}, !body.moves(), body.stirs()});
   }
   structure().insert(proxies, watch);

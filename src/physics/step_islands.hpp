@@ -46,10 +46,6 @@ struct Look {
   double turning;  // how far its surface turns
   double thick;
 };
-template <int D>
-double coasting_reach(const Body<D>& body, double h) {
-  return Look<D>(body, h).coasting_reach(h);
-}
 
 template <int D>
 template <class F>
@@ -161,7 +157,8 @@ struct World<D>::StepIslands {
       moved[to] = world.bodies_[place];
       rested[to] = world.rested_[place];
       increments[to] = {};
-      reach[to] = std::max(at_first ? 0 : coasting_reach(moved[to], h), reach_before(place));
+      const double coasting = at_first ? 0 : Look<D>(moved[to], h).coasting_reach(h);
+      reach[to] = std::max(coasting, reach_before(place));
     }
   }
   double reach_before(std::uint32_t place) const {
