@@ -204,7 +204,7 @@ using Real = long double;
 
 constexpr int kMostHits = 1'000'000;
 
-struct Ball {
+struct LineBall {
   std::size_t body = 0;
   Real mass = 0, place = 0, speed = 0, reach = 0;
 };
@@ -229,14 +229,14 @@ class Collisions : public ErrorMetric {
       balls_.push_back({i, mass_of_body(scenario, i), glm::dot(away, along_),
                         glm::dot(body.velocity, along_), reach_along(body, along_)});
     }
-    std::ranges::sort(balls_, {}, &Ball::place);
+    std::ranges::sort(balls_, {}, &LineBall::place);
     for (std::size_t i = 0; i + 1 < balls_.size(); ++i) {
       const double e = restitution_between(scenario, balls_[i].body, balls_[i + 1].body);
       restitution_.push_back(e);
       if (e != 1) drop(energy_error_);
       if (gap(i) < -touching(i)) refuse_problem(scenario, "bodies begin in each other");
     }
-    for (const Ball& ball : balls_) {
+    for (const LineBall& ball : balls_) {
       energy_ += ball.mass * ball.speed * ball.speed;
       momentum_ += ball.mass * ball.speed;
       momentum_size_ += ball.mass * std::abs(ball.speed);
@@ -247,9 +247,9 @@ class Collisions : public ErrorMetric {
   void look(const Observation& now) override {
     advance(now.time);
     Real largest = 0, momentum = 0, energy = 0;
-    for (const Ball& ball : balls_) largest = std::max(largest, std::abs(ball.speed));
+    for (const LineBall& ball : balls_) largest = std::max(largest, std::abs(ball.speed));
     Worst off;
-    for (const Ball& ball : balls_) {
+    for (const LineBall& ball : balls_) {
       const Vec<3>& v = now.states[ball.body].velocity;
       const Real speed = glm::dot(v, along_);
       const double aside = glm::length(v - along_ * static_cast<double>(speed));
@@ -293,8 +293,8 @@ class Collisions : public ErrorMetric {
       const auto hit = next_hit(until - time_);
       fly(hit ? hit->second : until - time_);
       if (!hit) return;
-      Ball& a = balls_[hit->first];
-      Ball& b = balls_[hit->first + 1];
+      LineBall& a = balls_[hit->first];
+      LineBall& b = balls_[hit->first + 1];
       const Real impulse = (1 + restitution_[hit->first]) * (a.speed - b.speed) * a.mass * b.mass /
                            (a.mass + b.mass);
       a.speed -= impulse / a.mass;
@@ -303,12 +303,12 @@ class Collisions : public ErrorMetric {
   }
 
   void fly(Real seconds) {
-    for (Ball& ball : balls_) ball.place += ball.speed * seconds;
+    for (LineBall& ball : balls_) ball.place += ball.speed * seconds;
     time_ += seconds;
   }
 
   Vec<3> along_{0.0};
-  std::vector<Ball> balls_;        // in order along the line
+  std::vector<LineBall> balls_;    // in order along the line
   std::vector<Real> restitution_;  // of each and the next
   Real time_ = 0, energy_ = 0, momentum_ = 0, momentum_size_ = 0;
   Worst& speeds_ = norm("v", "1", "error of the velocities at the end, over the largest of them");
