@@ -82,9 +82,16 @@ struct CrushSettings {
 inline constexpr CrushSettings kCrushSettings;
 
 // For each contact whether it crushes a body: that it presses, and another one does against it.
-// Nothing if none does. `body_of(id)` is the body where the step has left it.
+// Nothing if none does. `body_of(id)` is the body where the step has left it; none is thinner than
+// `thinnest`.
 template <int D, class BodyOf>
-Scratch<std::uint8_t> crushing(std::span<const Contact<D>> contacts, BodyOf&& body_of) {
+Scratch<std::uint8_t> crushing(std::span<const Contact<D>> contacts, BodyOf&& body_of,
+                               double thinnest = 0) {
+  double deepest = 0;
+  for (const Contact<D>& contact : contacts)
+    for (const ManifoldPoint<D>& p : contact.manifold.points())
+      deepest = std::max(deepest, -p.separation);
+  if (!(deepest > kCrushSettings.deep / 2 * thinnest)) return {};
   struct Press {
     BodyId body;
     std::size_t contact;
@@ -131,9 +138,9 @@ struct ToldPair {
 // before, `told` now. A pair that parts is said to have done so after `frames` steps.
 template <int D, class BodyOf>
 void tell_events(std::span<const Contact<D>> contacts, int frames, BodyOf&& body_of,
-                 std::span<const ToldPair> old, std::vector<ToldPair>& told,
+                 double thinnest, std::span<const ToldPair> old, std::vector<ToldPair>& told,
                  std::vector<ContactEvent>& events) {
-  const Scratch<std::uint8_t> crush = crushing<D>(contacts, body_of);
+  const Scratch<std::uint8_t> crush = crushing<D>(contacts, body_of, thinnest);
   told.clear();
   events.clear();
   std::size_t i = 0, j = 0;

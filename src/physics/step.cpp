@@ -27,11 +27,12 @@ struct World<D>::Step : World<D>::StepIslands {
   using StepIslands::world, StepIslands::h, StepIslands::moved, StepIslands::rested;
   using typename StepIslands::Group, typename StepIslands::NearPair;
 
-  bool knows_forces = true;        // else boxes are those of bodies as they are
-  Scratch<Proxy<D>> boxes = {};    // of bodies, enlarged by how far each may come
-  std::uint64_t narrow_pairs = 0;  // of the broad phase's, looked at by the narrow phase
-  Scratch<Look<D>> looks = {};     // at those that take part
-  bool struck = false;             // an impact was located
+  bool knows_forces = true;             // else boxes are those of bodies as they are
+  Scratch<Box<D>> enlarged_boxes = {};  // of those that take part, by how far each may come
+  Scratch<Proxy<D>> boxes = {};         // of those that moved
+  std::uint64_t narrow_pairs = 0;       // of the broad phase's, looked at by the narrow phase
+  Scratch<Look<D>> looks = {};          // at those that take part
+  bool struck = false;                  // an impact was located
   decltype(world.roots_) roots = {};
   Outcome& outcome = world.cleared_outcome();
 
@@ -59,6 +60,8 @@ struct World<D>::Step : World<D>::StepIslands {
 
   void refresh_boxes() {
     if (!collides()) return;
+    enlarged_boxes.clear();
+    for (const std::uint32_t place : places) enlarged_boxes.push_back(enlarged(place));
     require_boxes();
     if (!looks_for_contacts()) return;
     if (!world.told_all_) {
@@ -202,8 +205,8 @@ struct World<D>::Step : World<D>::StepIslands {
       });
     tell_events<D>(
         outcome.contacts, contact_solver(world.config_.contacts).frames_remembered,
-        [&](BodyId id) -> const Body<D>& { return moved[place_of(id)]; }, old, outcome.told,
-        outcome.events);
+        [&](BodyId id) -> const Body<D>& { return moved[place_of(id)]; }, thinnest(), old,
+        outcome.told, outcome.events);
     auto event = outcome.events.begin();
     for (Touch<D>& touch : touching) {
       while (event->pair() != touch.record.pair()) ++event;
@@ -306,6 +309,7 @@ struct World<D>::Step : World<D>::StepIslands {
   }
   Box<D> enlarged(std::uint32_t place) const {
     const std::uint32_t i = local(place);
+    if (i < enlarged_boxes.size()) return enlarged_boxes[i];
     const Body<D>& body = body_at(place);
     const Look<D> look = i < looks.size() ? looks[i] : Look<D>(body, h);
     const Box<D> box = bounding_box(body.shape, body.position, look.axes);
@@ -334,6 +338,11 @@ struct World<D>::Step : World<D>::StepIslands {
   const Touch<D>* slept_touch(const Pair& pair) const {
     const auto touch = std::ranges::lower_bound(world.slept_, pair, {}, this->pair_of);
     return touch != world.slept_.end() && touch->record.pair() == pair ? &*touch : nullptr;
+  }
+  double thinnest() const {  // of the bodies that take part
+    double least = HUGE_VAL;
+    for (const Look<D>& look : looks) least = std::min(least, look.thick);
+    return least;
   }
   bool collides() const { return world.config_.contacts != ContactMethod::none; }
   bool locates_impacts() const {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "base/scratch.hpp"
@@ -106,13 +107,21 @@ class QuickOrder {
     }
   }
 
-  // Contacts in order of their keys, which are below `end`; of equal ones as they were told.
+  // Contacts in order of their keys, which are below `end`; of equal ones as they were told. Digit
+  // by digit, from the last one: an island may be much smaller than `end`.
   const Scratch<std::uint32_t>& in_order(std::uint32_t end) {
-    begin_.assign(end + 1, 0);
-    for (const std::uint32_t key : keys_) ++begin_[key + 1];
-    for (std::uint32_t key = 0; key < end; ++key) begin_[key + 1] += begin_[key];
+    constexpr std::uint32_t kBits = 6, kDigits = 1 << kBits;
     sorted_.resize(keys_.size());
-    for (std::uint32_t i = 0; i < keys_.size(); ++i) sorted_[begin_[keys_[i]]++] = i;
+    std::iota(sorted_.begin(), sorted_.end(), 0u);
+    for (std::uint32_t shift = 0; (end - 1) >> shift != 0; shift += kBits) {
+      std::array<std::uint32_t, kDigits + 1> begin{};
+      const auto digit = [&](std::uint32_t i) { return keys_[i] >> shift & (kDigits - 1); };
+      for (const std::uint32_t i : sorted_) ++begin[digit(i) + 1];
+      for (std::uint32_t k = 0; k < kDigits; ++k) begin[k + 1] += begin[k];
+      moved_.resize(keys_.size());
+      for (const std::uint32_t i : sorted_) moved_[begin[digit(i)]++] = i;
+      std::swap(sorted_, moved_);
+    }
     return sorted_;
   }
 
@@ -122,7 +131,7 @@ class QuickOrder {
   Scratch<std::uint32_t> above_;  // of each body: how many lie upon each other on it
   std::uint32_t highest_ = 0;
   Scratch<std::uint32_t> keys_;  // of each contact: its height, then layer and points
-  Scratch<std::uint32_t> begin_, sorted_;
+  Scratch<std::uint32_t> sorted_, moved_;
 };
 
 template <int D>
@@ -279,9 +288,9 @@ class QuickSweeps {
     constexpr std::size_t kAtATime = 64;
     QuickSweep sweep;
     ways_.assign(bodies_.size(), {});
+    old_ = bodies_;
     double squared_before = std::numeric_limits<double>::infinity(), run = 0;
     for (int i = 1;; ++i) {
-      old_ = bodies_;
       sweep.largest = sweep.squared = {};
       sweep.friction_rows = 0;
       for (std::size_t from = 0; from < groups_.size(); from += kAtATime) {
@@ -305,9 +314,9 @@ class QuickSweeps {
   void go_on(const QuickSweep& sweep) {
     for (std::size_t i = 0; i < bodies_.size(); ++i)
       for (std::size_t k = 0; k < Body::kPushed; ++k) {
-        double &now = bodies_[i].motion[k], &way = ways_[i].motion[k];
-        way = sweep.goes_on ? sweep.beta * (way + (now - old_[i].motion[k])) : 0;
-        now += way;
+        double &now = bodies_[i].motion[k], &way = ways_[i].motion[k], &old = old_[i].motion[k];
+        way = sweep.goes_on ? sweep.beta * (way + (now - old)) : 0;
+        old = now += way;
       }
   }
 

@@ -38,6 +38,7 @@ class DepthBound {
   // Pairs may lie as deep as they do now, but should be out if they lie too deep by little.
   DepthBound(Island<D>& island, double wanted, WorldWork& work)
       : island_(island), work_(work), error_(std::max(wanted, kDepthSettings.strictest)) {
+    island_.find_axes();
     note_poses();
     for (const IslandPair<D>& pair : island_.pairs) {
       now_.gaps.push_back(least_gap(pair.seen ? *pair.seen : look(pair, pair.reach), pair.reach));
@@ -91,6 +92,11 @@ class DepthBound {
     Scratch<Mat<D>> axes;       // how they lay
   };
 
+  struct Way {
+    Vec<D> gone{0.0};
+    double turned = 0;  // how far its surface
+  };
+
   static double least_gap(const Seen& seen, double most) {
     if (seen)
       for (const ManifoldPoint<D>& p : seen->points()) most = std::min(most, p.separation);
@@ -118,22 +124,24 @@ class DepthBound {
   // Whether any body has moved. No surface comes nearer to another than both have moved against
   // each other. (Where boxes overlap, depth may be taken along another axis, and jump.)
   bool follow() {
-    const State old = std::exchange(now_, {std::move(now_.gaps), {}, {}});
-    note_poses();
+    island_.find_axes();
     bool moved = false;
-    Scratch<double> turns(island_.bodies.size());
-    for (std::size_t i = 0; i < turns.size(); ++i) {
-      const Mat<D> turned = now_.axes[i] - old.axes[i];
-      for (int k = 0; k < D; ++k) turns[i] += glm::dot(turned[k], turned[k]);
-      turns[i] = turning_reach<D>(island_.bodies[i].shape) * std::sqrt(turns[i]);
-      moved |= turns[i] > 0 || now_.positions[i] != old.positions[i];
+    ways_.clear();
+    for (std::size_t i = 0; i < island_.bodies.size(); ++i) {
+      const Body<D>& body = island_.bodies[i];
+      const Mat<D> turned = island_.axes[i] - now_.axes[i];
+      double turn = 0;
+      for (int k = 0; k < D; ++k) turn += glm::dot(turned[k], turned[k]);
+      if (turn > 0) turn = turning_reach<D>(body.shape) * std::sqrt(turn);
+      ways_.push_back({body.position - now_.positions[i], turn});
+      moved |= turn > 0 || body.position != now_.positions[i];
     }
     if (!moved) return false;
-    const auto way = [&](std::uint32_t i) { return now_.positions[i] - old.positions[i]; };
+    note_poses();
     for (std::size_t i = 0; i < island_.pairs.size(); ++i) {
       const IslandPair<D>& pair = island_.pairs[i];
-      const auto [a, b] = std::pair(pair.rows.a, pair.rows.b);
-      const double nearer = glm::length(way(b) - way(a)) + turns[a] + turns[b];
+      const Way &a = ways_[pair.rows.a], &b = ways_[pair.rows.b];
+      const double nearer = glm::length(b.gone - a.gone) + a.turned + b.turned;
       double& gap = now_.gaps[i];
       gap -= nearer;
       if (gap > 0 || (nearer <= kDepthSettings.still * error_ && gap >= -wanted_[i])) continue;
@@ -143,7 +151,6 @@ class DepthBound {
   }
 
   void note_poses() {
-    island_.find_axes();
     now_.axes = island_.axes;
     now_.positions.clear();
     for (const Body<D>& body : island_.bodies) now_.positions.push_back(body.position);
@@ -223,6 +230,7 @@ class DepthBound {
   WorldWork& work_;
   double error_;
   State now_;
+  Scratch<Way> ways_;                  // of the bodies, since `now_`
   Scratch<double> promised_, wanted_;  // depths of pairs
   bool tired_ = false;                 // a pair was missed in this step
   bool settled_ = false;               // where bodies are, no pair lies too deep
