@@ -158,7 +158,7 @@ TEST(Trial, IsNotMadeInAShortRun) {
 
 TEST(Trial, IsToldOfALongRun) {
   const auto folder = fresh_folder("trial");
-  write_text(folder / "pile.toml", pile_of(500, "contacts = \"soft\"", 600));
+  write_text(folder / "pile.toml", pile_of(1500, "contacts = \"soft\"", 600));
   const std::string said = (folder / "said").string();
   const Outcome o =
       shell("begin check " + (folder / "pile.toml").string() + " 2>" + said +
