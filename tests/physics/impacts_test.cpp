@@ -246,6 +246,44 @@ TEST(Impacts, ElasticBoxesKeepTheirEnergy) {
   }
 }
 
+// A block that lies on the floor and turns: one end comes down, the other parts, until the first is
+// struck, which brings it down, too.
+template <int D>
+void expect_blow_at_both_ends(std::uint64_t seed) {
+  Random random(seed);
+  for (int round = 0; round < 50; ++round) {
+    WorldConfig<D> config;
+    config.contacts = ContactMethod::soft;
+    World<D> world(config);
+    Body<D> floor;
+    floor.kind = BodyKind::static_body;
+    Vec<D> up(0.0);
+    up.y = 1;
+    floor.shape = HalfSpace<D>{up};
+    floor.material = {1, 0};
+    world.add(floor);
+    Body<D> block = box_at<D>(Vec<D>(0.0));
+    Vec<D> half(random.between(0.1, 0.5));
+    half.x = 1;
+    block.shape = OrientedBox<D>{half};
+    block.material = {1, 0};
+    block.position.y = half.y;
+    block.velocity.y = -random.between(0.1, 10);
+    Spin<D> spin(0.0);
+    spin_component(spin, D == 2 ? 0 : 2) = -block.velocity.y * random.between(1.01, 1.3);
+    world.add(block, spin);
+    const double before = energy<D>(world.bodies(), world.forces()).kinetic();
+    world.step(1.0 / 60);
+    EXPECT_GT(world.work().impacts_located, 0u);
+    EXPECT_NEAR(energy<D>(world.bodies(), world.forces()).kinetic() / before, 1, 1e-12) << round;
+  }
+}
+
+TEST(Impacts, ABlowAtBothEndsMakesNoEnergy) {
+  expect_blow_at_both_ends<2>(1);
+  expect_blow_at_both_ends<3>(2);
+}
+
 template <int D>
 double gap_of(const Manifold<D>& manifold) {
   double least = HUGE_VAL;

@@ -27,16 +27,24 @@ void expect_tame(ContactMethod method, int usual) {
   EXPECT_LE(refused * 100, std::max(count, 100));
 }
 
-class WildWorlds : public testing::TestWithParam<ContactMethod> {};
+class EachMethod : public testing::TestWithParam<ContactMethod> {};
 
-TEST_P(WildWorlds, AreTameInThePlane) { expect_tame<2>(GetParam(), 140); }
-TEST_P(WildWorlds, AreTameInSpace) { expect_tame<3>(GetParam(), 60); }
+TEST_P(EachMethod, AreTameInThePlane) { expect_tame<2>(GetParam(), 140); }
+TEST_P(EachMethod, AreTameInSpace) { expect_tame<3>(GetParam(), 60); }
 
-INSTANTIATE_TEST_SUITE_P(ByMethod, WildWorlds,
+INSTANTIATE_TEST_SUITE_P(WildWorlds, EachMethod,
                          testing::Values(ContactMethod::none, ContactMethod::impulse,
                                          ContactMethod::soft, ContactMethod::direct,
                                          ContactMethod::lecture),
                          [](const auto& of) { return std::string(to_string(of.param)); });
+
+// A needle of 3e-4 units that drag brakes, at 200 units a second onto a wall of 5e-3: it went
+// through. An elastic blow through a stack, at two points of which one had parted: it made 2e-2 of
+// the energy.
+TEST(WildWorlds, AreTameWhereTheyWereNot) {
+  EXPECT_EQ((WildWorld<3>(kWildSeed, 1248, ContactMethod::direct).run().what), "");
+  EXPECT_EQ((WildWorld<2>(kWildSeed, 1034, ContactMethod::soft).run().what), "");
+}
 
 }  // namespace
 }  // namespace lantern::physics

@@ -202,7 +202,8 @@ class ImpactMotion {
       const auto seen = collide(placed(a), placed(b), std::max(pair.reach, way_of(a, b, seconds)));
       if (!seen) continue;
       const double gap = gap_along(a, b, seen->normal), thin = thinner(a, b);
-      if (gap < -thin / 2) continue;  // they lie in each other already
+      if (gap < -(thickness<D>(a.shape) + thickness<D>(b.shape)) / 4)
+        continue;  // they lie in each other already: which side is which is not clear
       // Others press them together, though they part.
       if (gap < -thin * kImpactSettings.deep / 4) pair.pressed = true;
       all.push_back({pair.rows.a, pair.rows.b, seen->normal, b.position - a.position, gap,
@@ -310,8 +311,9 @@ class ImpactMotion {
     to.twist = from.twist + (to.twist - from.twist) * share;
   }
 
-  // With friction, Newton's law may give energy (Kane and Levinson, "Dynamics", 1985). Without
-  // restitution it never does. Between the two blows the energy is a parabola,
+  // With friction, Newton's law may give energy (Kane and Levinson, "Dynamics", 1985), and without
+  // it to two points of which one parts until the other is struck. Without restitution it never
+  // does. Between the two blows the energy is a parabola,
   //
   //   E(s) = E0 + s (p.v0) + s^2 (p.v1 - p.v0) / 2      p: the second blow's
   //   impulses less the first's
@@ -354,7 +356,7 @@ class ImpactMotion {
   void resolve(ContactRows<D>& rows, SolverBody<D>& a, SolverBody<D>& b) {
     const SolverBody<D> old_a = a, old_b = b;
     strike(rows, a, b, rows.restitution);
-    if (rows.restitution > 0 && rows.friction > 0)
+    if (rows.restitution > 0 && (rows.friction > 0 || rows.count > 1))
       take_back_gained_energy(rows, a, b, old_a, old_b);
   }
 
