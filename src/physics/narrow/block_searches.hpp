@@ -21,9 +21,16 @@ struct SeparatingAxis {
 
 inline constexpr double kAxisBias = 1e-3;
 
+template <int D>
+double least_half(const PlacedCore<D>& a, const PlacedCore<D>& b) {
+  const Vec<D> least = glm::min(a.half, b.half);
+  return D == 2 ? std::min(least.x, least.y) : std::min(least.x, std::min(least.y, least[D - 1]));
+}
+
 // The smallest half size of both that is not 0; 0 if all are.
 template <int D>
-double smallest_half(const PlacedCore<D>& a, const PlacedCore<D>& b) {
+inline double smallest_half(const PlacedCore<D>& a, const PlacedCore<D>& b) {
+  if (const double least = least_half(a, b); least > 0) return least;
   double least = std::numeric_limits<double>::infinity();
   for (const PlacedCore<D>* block : {&a, &b})
     for (int i = 0; i < D; ++i)
@@ -53,12 +60,15 @@ class AxisSearch {
 
   // False once an axis parts them; the others are not measured then.
   bool run() {
-    if (!try_faces(a_, b_, AxisAcross::face_of_a)) return false;
-    if (!same_axes() && !try_faces(b_, a_, AxisAcross::face_of_b)) return false;
+    for (int i = 0; i < D; ++i)
+      for (int j = 0; j < D; ++j)
+        of_a_[i][j] = of_b_[j][i] = std::abs(glm::dot(a_.axes[i], b_.axes[j]));
+    if (!try_faces(a_, b_, of_a_, AxisAcross::face_of_a)) return false;
+    if (!same_axes_ && !try_faces(b_, a_, of_b_, AxisAcross::face_of_b)) return false;
     if (best_ != kinds_.data()) face_ = chosen_;
     if constexpr (D == 3)
       if (!try_edges()) return false;
-    return try_sides();
+    return full_ || try_sides();
   }
   // The one to build the contact on, the one of the largest separation, and the best of a face; its
   // normal is 0 if neither block has any.
@@ -67,16 +77,10 @@ class AxisSearch {
   const SeparatingAxis<D>& face() const { return *face_; }
 
  private:
-  bool same_axes() const {
-    if (!(a_.axes == b_.axes)) return false;
+  bool try_faces(const PlacedCore<D>& own, const PlacedCore<D>& other, const Mat<D>& cosines,
+                 AxisAcross across) {
     for (int i = 0; i < D; ++i)
-      if (a_.half[i] <= 0 || b_.half[i] <= 0) return false;
-    return true;
-  }
-
-  bool try_faces(const PlacedCore<D>& own, const PlacedCore<D>& other, AxisAcross across) {
-    for (int i = 0; i < D; ++i)
-      if (is_face(own, i) && !try_across(own, other, i, across)) return false;
+      if (is_face(own, i) && !try_across(own, other, cosines[i], i, across)) return false;
     settle();
     return true;
   }
@@ -91,8 +95,8 @@ class AxisSearch {
 
   bool try_sides() {
     for (int i = 0; i < D; ++i) {
-      if (!is_face(a_, i) && !try_across(a_, b_, i, AxisAcross::side)) return false;
-      if (!is_face(b_, i) && !try_across(b_, a_, i, AxisAcross::side)) return false;
+      if (!is_face(a_, i) && !try_across(a_, b_, of_a_[i], i, AxisAcross::side)) return false;
+      if (!is_face(b_, i) && !try_across(b_, a_, of_b_[i], i, AxisAcross::side)) return false;
     }
     settle();
     return true;
@@ -105,13 +109,12 @@ class AxisSearch {
     return true;
   }
 
-  bool try_across(const PlacedCore<D>& own, const PlacedCore<D>& other, int axis,
-                  AxisAcross across) {
-    const Vec<D> n = own.axes[axis];
-    const double along = glm::dot(n, offset_);
+  bool try_across(const PlacedCore<D>& own, const PlacedCore<D>& other, const Vec<D>& cosines,
+                  int axis, AxisAcross across) {
+    const double along = glm::dot(own.axes[axis], offset_);
     trace_.lengths += 1 + D;
-    return consider(n, along, std::abs(along) - own.half[axis] - other.reach(n), across, axis,
-                    axis);
+    const double separation = std::abs(along) - own.half[axis] - glm::dot(other.half, cosines);
+    return consider(own.axes[axis], along, separation, across, axis, axis);
   }
 
   bool try_edges(int i, int j) {
@@ -127,7 +130,7 @@ class AxisSearch {
   bool consider(const Vec<D>& n, double along, double separation, AxisAcross across, int axis_a,
                 int axis_b) {
     if (trace_.axes) trace_.note(along < 0 ? -n : n, separation - a_.radius - b_.radius, across);
-    if (separation - (a_.radius + b_.radius) > margin_) return false;
+    if (separation - radii_ > margin_) return false;
     if (!(separation > most_)) return true;
     most_ = separation;
     *best_ = {along < 0 ? -n : n, separation, across, axis_a, axis_b};
@@ -145,7 +148,9 @@ class AxisSearch {
 
   const PlacedCore<D>&a_, &b_;
   const Vec<D> offset_ = b_.center - a_.center;
-  const double bias_ = kAxisBias * smallest_half(a_, b_);
+  const double radii_ = a_.radius + b_.radius, bias_ = kAxisBias * smallest_half(a_, b_);
+  const bool full_ = least_half(a_, b_) > 0, same_axes_ = full_ && a_.axes == b_.axes;
+  Mat<D> of_a_, of_b_;  // cosines of each axis of one to those of the other, without signs
   static constexpr double kNone = -std::numeric_limits<double>::infinity();
   std::array<SeparatingAxis<D>, 4> kinds_;   // the best of each that was measured
   SeparatingAxis<D>* best_ = kinds_.data();  // of the kind that is being measured, if

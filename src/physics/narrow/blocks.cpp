@@ -79,33 +79,48 @@ Facing facing(const PlacedCore<D>& block, const Vec<D>& normal) {
 // The corners of a face in their order around it: 4 of a rectangle, 2 of an edge, 1 of a point.
 template <int D>
 Outline<D> outline_of(const PlacedCore<D>& block, const Facing& face) {
-  Vec<D> center{0.0};
-  center[face.axis] = face.positive ? block.half[face.axis] : -block.half[face.axis];
-  std::array<int, 2> spread{};
-  std::size_t count = 0;
+  Vec<D> corner{0.0};
+  corner[face.axis] = face.positive ? block.half[face.axis] : -block.half[face.axis];
+  std::array<int, D - 1> spread{};
+  std::uint32_t count = 0;
   for (int i = 0; i < D; ++i)
     if (i != face.axis && block.half[i] > 0) spread[count++] = i;
 
   Outline<D> outline;
   const std::uint32_t corners = 1u << count;
   for (std::uint32_t k = 0; k < corners; ++k) {
-    Vec<D> corner = center;
     if (count > 0) corner[spread[0]] = block.half[spread[0]] * (k == 0 || k == 3 ? -1 : 1);
-    if (count > 1) corner[spread[1]] = block.half[spread[1]] * (k < 2 ? -1 : 1);
-    outline.add({block.world(corner), k, name_of((k + corners - 1) % corners, k)});
+    if (count > 1) corner[spread[D - 2]] = block.half[spread[D - 2]] * (k < 2 ? -1 : 1);
+    outline.add({block.world(corner), k, name_of((k + corners - 1) & (corners - 1), k)});
   }
   return outline;
 }
 
-// The part of an outline behind a plane; `height` is above it. An edge of two corners is not a
-// loop: each of its ends is cut on its own.
+// Leaves what is behind a plane; `height` is above it. An edge is no loop: one end of it is cut.
 template <int D, class Height>
-Outline<D> cut(const Outline<D>& outline, const Height& height, double slack, std::uint32_t side) {
-  Outline<D> kept;
-  const bool is_loop = outline.count > 2;
+void cut(Outline<D>& outline, const Height& height, double slack, std::uint32_t side) {
   std::array<double, kMostCorners<D>> heights;
-  for (int i = 0; i < outline.count; ++i)
+  bool is_behind = true;
+  for (int i = 0; i < outline.count; ++i) {
     heights[static_cast<std::size_t>(i)] = height(outline[i].point);
+    is_behind &= heights[static_cast<std::size_t>(i)] <= slack;
+  }
+  if (is_behind) return;
+  if (D == 2 || outline.count <= 2) {
+    const std::size_t end = heights[0] <= slack, start = 1 - end;
+    const bool stays = outline.count == 2 && heights[start] <= slack;
+    if (!stays || std::min(heights[0], heights[1]) > 0) {  // the kept corner is the edge's end
+      outline.room[0] = outline.room[start];
+      outline.count = stays;
+      return;
+    }
+    Corner<D>& moved = outline.room[end];
+    const double share = heights[end] / (heights[end] - heights[start]);
+    moved = {moved.point + (outline.room[start].point - moved.point) * share, moved.line,
+             name_of(side, side)};
+    return;
+  }
+  Outline<D> kept;
   for (int i = 0; i < outline.count; ++i) {
     const int after = i + 1 < outline.count ? i + 1 : 0;
     const Corner<D>&here = outline[i], &next = outline[after];
@@ -116,16 +131,16 @@ Outline<D> cut(const Outline<D>& outline, const Height& height, double slack, st
     if (inside == next_inside) continue;
     const Vec<D> at = here.point + (next.point - here.point) * (h / (h - h_next));
     const bool is_cut = std::min(h, h_next) <= 0;  // if not, the kept corner is the edge's end
-    if (inside && is_loop) {
+    if (inside) {
       if (is_cut)
         kept.add({at, side, name_of(here.line, side)});
       else
         kept[kept.count - 1].line = side;
-    } else if (next_inside && is_cut) {
-      kept.add({at, here.line, name_of(side, is_loop ? here.line : side)});
+    } else if (is_cut) {
+      kept.add({at, here.line, name_of(side, here.line)});
     }
   }
-  return kept;
+  outline = kept;
 }
 
 template <int D>
@@ -176,55 +191,11 @@ Outline<D> clipped_face(const PlacedCore<D>& reference, int axis, const PlacedCo
       const auto height = [&](const Vec<D>& p) {
         return way * glm::dot(p - reference.center, reference.axes[i]) - reference.half[i];
       };
-      if (reference.half[i] > 0) outline = cut(outline, height, slack, side);
+      if (reference.half[i] > 0) cut(outline, height, slack, side);
       ++side;
     }
   }
   return outline;
-}
-
-// The contact in which a face of `reference` across `axis` meets `other`. `normal` is unit, from
-// reference to other, and within a right angle of the face's; separations are along it. No more
-// than `margin` apart; the manifold stays empty if nothing of the other block's face is above the
-// reference. Returns, of cores that are `apart`, how far its closest point really is from the other
-// core.
-template <int D>
-double face_contact(const PlacedCore<D>& reference, const PlacedCore<D>& other, int axis,
-                    const Vec<D>& normal, double margin, bool apart, Manifold<D>& manifold) {
-  const double slack = kSlack * smallest_half(reference, other);
-  const double sign = glm::dot(reference.axes[axis], normal) < 0 ? -1 : 1;
-  const Vec<D> outward = reference.axes[axis] * sign;
-  const double cosine = glm::dot(outward, normal);  // heights along a leaning normal are longer
-  const double radii = reference.radius + other.radius;
-  const Facing face = facing(other, normal);
-
-  double least_distance = std::numeric_limits<double>::infinity();
-  std::array<double, kMostCorners<D>> heights;
-  Outline<D> close;
-  const Outline<D> outline = clipped_face(reference, axis, other, face, slack);
-  for (int i = 0; i < outline.count; ++i) {
-    const Vec<D> p = outline[i].point;
-    if (apart) least_distance = std::min(least_distance, distance_to(reference, p));
-    const double height = (glm::dot(p - reference.center, outward) - reference.half[axis]) / cosine;
-    if (height - radii > margin) continue;
-    heights[static_cast<std::size_t>(close.count)] = height;
-    close.add(outline[i]);
-  }
-
-  const std::uint32_t faces =
-      static_cast<std::uint32_t>(axis * 2 + (sign > 0 ? 1 : 0)) << 3 | face.name();
-  const auto add = [&](int i) {
-    const double separation = heights[static_cast<std::size_t>(i)] - radii;
-    manifold.add({close[i].point - normal * (other.radius + separation / 2), separation,
-                  faces << 6 | close[i].name});
-  };
-  if constexpr (D == 3)
-    if (close.count > 4) {
-      for (const int i : widest_four(close, heights, normal, slack)) add(i);
-      return least_distance;
-    }
-  for (int i = 0; i < close.count; ++i) add(i);
-  return least_distance;
 }
 
 // Kinds of contact, in the upper bits of feature names.
@@ -233,25 +204,6 @@ constexpr std::uint32_t kFaceOfA = 0u << 16, kFaceOfB = 1u << 16, kEdges = 2u <<
 
 // A normal within this of a face's (the cosine, 2 degrees) has that face's contact.
 constexpr double kNearFace = 0.9995;
-
-template <int D>
-void mark(Manifold<D>& manifold, std::uint32_t kind) {
-  for (auto& point : manifold.room) point.feature |= kind;
-}
-
-// `normal` is the face's or leans a little.
-template <int D>
-double contact_on_face(const SeparatingAxis<D>& face, const PlacedCore<D>& a,
-                       const PlacedCore<D>& b, const Vec<D>& normal, double margin, bool apart,
-                       Manifold<D>& manifold) {
-  const bool of_a = face.across == AxisAcross::face_of_a;
-  manifold.normal = normal;
-  const double least_distance =
-      of_a ? face_contact(a, b, face.axis_a, normal, margin, apart, manifold)
-           : face_contact(b, a, face.axis_b, -normal, margin, apart, manifold);
-  mark(manifold, of_a ? kFaceOfA : kFaceOfB);
-  return least_distance;
-}
 
 // The edge of a block along an axis that lies farthest out along the normal, and its name.
 struct NamedEdge {
@@ -286,12 +238,55 @@ double contact_of_edges(const PlacedCore<3>& a, const PlacedCore<3>& b,
   return std::sqrt(points.square());
 }
 
+// The contact of edges, or in which a face of one block meets the other. `along` is unit, from a to
+// b, and within a right angle of the face's; separations are along it. No more than `margin` apart;
+// the manifold stays empty if nothing of the other block's face is above the reference. Returns, of
+// cores that are `apart`, how far its closest point really is from the other core.
 template <int D>
-double contact_on(const SeparatingAxis<D>& axis, const PlacedCore<D>& a, const PlacedCore<D>& b,
-                  double margin, bool apart, Manifold<D>& manifold) {
+double contact_on(const SeparatingAxis<D>& found, const PlacedCore<D>& a, const PlacedCore<D>& b,
+                  const Vec<D>& along, double margin, bool apart, Manifold<D>& manifold) {
   if constexpr (D == 3)
-    if (axis.across == AxisAcross::edges) return contact_of_edges(a, b, axis, manifold);
-  return contact_on_face(axis, a, b, axis.normal, margin, apart, manifold);
+    if (found.across == AxisAcross::edges) return contact_of_edges(a, b, found, manifold);
+  const bool of_a = found.across == AxisAcross::face_of_a;
+  const PlacedCore<D>&reference = of_a ? a : b, &other = of_a ? b : a;
+  const int axis = found.axis_a;  // of a face its only one
+  const Vec<D> normal = of_a ? along : -along;
+  manifold.normal = along;
+  const double slack = kSlack * smallest_half(reference, other);
+  const double sign = glm::dot(reference.axes[axis], normal) < 0 ? -1 : 1;
+  const Vec<D> outward = reference.axes[axis] * sign;
+  const double cosine = glm::dot(outward, normal);  // heights along a leaning normal are longer
+  const double radii = reference.radius + other.radius;
+  const Facing face = facing(other, normal);
+
+  double least_distance = std::numeric_limits<double>::infinity();
+  std::array<double, kMostCorners<D>> heights;
+  Outline<D> outline = clipped_face(reference, axis, other, face, slack);
+  int close = 0;
+  for (int i = 0; i < outline.count; ++i) {
+    const Vec<D> p = outline[i].point;
+    if (apart) least_distance = std::min(least_distance, distance_to(reference, p));
+    const double height = (glm::dot(p - reference.center, outward) - reference.half[axis]) / cosine;
+    if (height - radii > margin) continue;
+    heights[static_cast<std::size_t>(close)] = height;
+    outline[close++] = outline[i];
+  }
+  outline.count = close;
+
+  const std::uint32_t faces =
+      static_cast<std::uint32_t>(axis * 2 + (sign > 0 ? 1 : 0)) << 3 | face.name();
+  const auto add = [&](int i) {
+    const double separation = heights[static_cast<std::size_t>(i)] - radii;
+    manifold.add({outline[i].point - normal * (other.radius + separation / 2), separation,
+                  (of_a ? kFaceOfA : kFaceOfB) | faces << 6 | outline[i].name});
+  };
+  if constexpr (D == 3)
+    if (close > 4) {
+      for (const int i : widest_four(outline, heights, normal, slack)) add(i);
+      return least_distance;
+    }
+  for (int i = 0; i < close; ++i) add(i);
+  return least_distance;
 }
 
 template <int D>
@@ -303,8 +298,7 @@ double least_separation(const Manifold<D>& manifold) {
 
 // The deepest point stands for the true separation, which is known to be nearly that.
 template <int D>
-void set_least_separation(Manifold<D>& manifold, double exact) {
-  const double least = least_separation(manifold);
+void set_least_separation(Manifold<D>& manifold, double least, double exact) {
   for (auto& point : manifold.room)
     point.separation = point.separation == least ? exact : std::max(point.separation, exact);
 }
@@ -313,20 +307,21 @@ void set_least_separation(Manifold<D>& manifold, double exact) {
 // face's normal they still have that face's points, so that a box over the rim of another one, or a
 // capsule, settles on it rather than rocking.
 template <int D>
-Manifold<D> contact_of_closest(const PlacedCore<D>& a, const PlacedCore<D>& b,
-                               const ClosestFeatures<D>& closest, const Direction<D>& normal,
-                               const SeparatingAxis<D>& face, double margin) {
-  const Manifold<D> single =
+Contact<D> contact_of_closest(const PlacedCore<D>& a, const PlacedCore<D>& b,
+                              const ClosestFeatures<D>& closest, const Direction<D>& normal,
+                              const SeparatingAxis<D>& face, double margin) {
+  const Contact<D> single =
       one_point(closest.points.a, a.radius, b.radius, normal, kClosest | closest.feature);
   if (glm::dot(face.normal, normal.unit) < kNearFace) return single;
   const double radii = a.radius + b.radius, exact = normal.length - radii;
   const double size = radii + smallest_half(a, b);
   const double near = std::min(margin, exact + 0.1 * size);
   Manifold<D> many;
-  contact_on_face(face, a, b, normal.unit, near, false, many);
+  contact_on(face, a, b, normal.unit, near, false, many);
   // Heights along the leaning normal are nearly distances, or the face is not what is closest.
-  if (many.count < 2 || std::abs(least_separation(many) - exact) > 1e-3 * size) return single;
-  set_least_separation(many, exact);
+  const double least = least_separation(many);
+  if (many.count < 2 || std::abs(least - exact) > 1e-3 * size) return single;
+  set_least_separation(many, least, exact);
   return many;
 }
 
@@ -339,13 +334,14 @@ bool is_exact(const SeparatingAxis<D>& axis, const PlacedCore<D>& a, const Place
   if (apart && (axis.across == AxisAcross::edges || axis.separation < bound - rounding))
     return false;  // they may still have a face's points, along another normal
   manifold.count = 0;
-  const double least_distance = contact_on(axis, a, b, margin, apart, manifold);
+  const double least_distance = contact_on(axis, a, b, axis.normal, margin, apart, manifold);
   if (manifold.count == 0) return false;
   const double allowed = apart ? rounding : kAxisBias * smallest_half(a, b) + rounding;
   const double exact = axis.separation - a.radius - b.radius;
-  if (std::abs(least_separation(manifold) - exact) > allowed) return false;
+  const double least = least_separation(manifold);
+  if (std::abs(least - exact) > allowed) return false;
   if (apart && least_distance > bound + rounding) return false;
-  set_least_separation(manifold, exact);
+  set_least_separation(manifold, least, exact);
   return true;
 }
 
@@ -365,8 +361,10 @@ Contact<D> touch_blocks(const PlacedCore<D>& a, const PlacedCore<D>& b, double m
   const double rounding = kRounding * size;
   const bool apart = bound > rounding;
   Manifold<D>& manifold = contact.emplace();
-  if (is_exact(axes.chosen(), a, b, bound, rounding, margin, manifold)) return contact;
-  if (!apart && is_exact(axes.greatest(), a, b, bound, rounding, margin, manifold)) return contact;
+  for (const SeparatingAxis<D>* axis : {&axes.chosen(), &axes.greatest()}) {
+    if (is_exact(*axis, a, b, bound, rounding, margin, manifold)) return contact;
+    if (apart || axis == &axes.greatest()) break;
+  }
   contact.reset();
 
   const ClosestFeatures<D> closest = ClosestSearch<D>(a, b, axes.greatest(), trace).run();

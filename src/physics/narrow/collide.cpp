@@ -12,8 +12,8 @@ namespace {
 
 // Of cores whose closest points are apart along `normal`: `on_a` is that of the first.
 template <int D>
-Contact<D> touch_along(const Direction<D>& normal, const Vec<D>& on_a, double radius_a,
-                       double radius_b, double margin, NarrowTrace<D>& trace) {
+inline Contact<D> touch_along(const Direction<D>& normal, const Vec<D>& on_a, double radius_a,
+                              double radius_b, double margin, NarrowTrace<D>& trace) {
   const double separation = normal.length - radius_a - radius_b;
   trace.note(normal.unit, separation, AxisAcross::closest_points);
   if (separation > margin) return std::nullopt;
@@ -228,7 +228,6 @@ std::optional<Manifold<D>> collide(const Placed<D>& a, const Placed<D>& b, doubl
   narrow::PlacedCore<D> core_a, core_b;
   const bool solid_a = narrow::place(a, Vec<D>(0.0), core_a);
   const bool solid_b = narrow::place(b, offset, core_b);
-  if (!solid_a && !solid_b) return std::nullopt;  // two half-spaces
   const bool in_order = solid_a && solid_b ? narrow::is_in_order(core_a, core_b, offset) : solid_a;
   const Placed<D>&first = in_order ? a : b, &second = in_order ? b : a;
   const std::size_t told = trace.axes ? trace.axes->size() : 0;
@@ -237,11 +236,11 @@ std::optional<Manifold<D>> collide(const Placed<D>& a, const Placed<D>& b, doubl
     core_b.center = Vec<D>(0.0);
   }
   const narrow::PlacedCore<D>&one = in_order ? core_a : core_b, &other = in_order ? core_b : core_a;
-  std::optional<Manifold<D>> contact;
-  if (const auto* space = std::get_if<HalfSpace<D>>(&second.shape))
-    contact = narrow::touch_wall<D>(one, {other.center, space->normal}, margin, trace);
-  else
-    contact = narrow::touch_cores(one, other, margin, trace);
+  const auto* space = std::get_if<HalfSpace<D>>(&second.shape);
+  std::optional<Manifold<D>> contact =
+      !solid_a && !solid_b ? std::optional<Manifold<D>>()  // two half-spaces
+      : space ? narrow::touch_wall<D>(one, {other.center, space->normal}, margin, trace)
+              : narrow::touch_cores(one, other, margin, trace);
   if (!in_order && trace.axes) narrow::turn_over<D>(std::span(*trace.axes).subspan(told));
   if (!contact) return contact;
   if (!in_order) contact->normal = -contact->normal;

@@ -29,14 +29,13 @@ Vec<D> fallback_normal() {
 // What closed form a core has; one that is a box by its shape is a box, whatever its sizes.
 enum class CoreKind { point, box, segment };  // pairs are handled in this order
 
-// Half sizes of 0 make a box of the core a rectangle, a segment or a point.
+// Half sizes of 0 make a box of the core a rectangle, a segment or a point. `place` sets it.
 template <int D>
-struct PlacedCore {
+struct PlacedCore : Core<D> {
+  using Core<D>::half;
   CoreKind kind = CoreKind::box;
-  Vec<D> center{0.0};
-  Mat<D> axes{1.0};  // columns: unit vectors
-  Vec<D> half{0.0};
-  double radius = 0;
+  Vec<D> center;
+  Mat<D> axes;  // columns: unit vectors
 
   // How far the core reaches from its centre along a unit vector.
   double reach(const Vec<D>& n) const {
@@ -71,21 +70,16 @@ struct Wall {
 
 // A shape's core at `center`, wherever it was placed. False if it has none: a half-space is there.
 template <int D>
-bool place(const Placed<D>& placed, const Vec<D>& center, PlacedCore<D>& core) {
+inline bool place(const Placed<D>& placed, const Vec<D>& center, PlacedCore<D>& core) {
   core.center = center;
-  return visit_shape<D>(
-      placed.shape,
-      [&](const Core<D>& of) {
-        core.kind = std::holds_alternative<Sphere>(placed.shape)    ? CoreKind::point
-                    : std::holds_alternative<Capsule>(placed.shape) ? CoreKind::segment
-                                                                    : CoreKind::box;
-        if (of.turns && core.kind != CoreKind::point)
-          core.axes = placed.axes ? *placed.axes : matrix(placed.orientation);
-        core.half = of.half;
-        core.radius = of.radius;
-        return true;
-      },
-      [](const HalfSpace<D>&) { return false; });
+  core.kind = std::holds_alternative<Sphere>(placed.shape)    ? CoreKind::point
+              : std::holds_alternative<Capsule>(placed.shape) ? CoreKind::segment
+                                                              : CoreKind::box;
+  const auto set = [&](const Core<D>& of) { return static_cast<Core<D>&>(core) = of, true; };
+  if (!visit_shape<D>(placed.shape, set, [](const HalfSpace<D>&) { return false; })) return false;
+  const bool turns = core.turns && core.kind != CoreKind::point;
+  core.axes = !turns ? Mat<D>(1.0) : placed.axes ? *placed.axes : matrix(placed.orientation);
+  return true;
 }
 
 // Calls f(corner, name) for each corner of a core; those that coincide, for want of thickness,
@@ -104,19 +98,19 @@ void each_corner(const PlacedCore<D>& core, const F& f) {
   }
 }
 
-// The contact of two cores in one point. `a` and `b` are points of the cores.
-template <int D>
-Manifold<D> one_point(const Vec<D>& a, double radius_a, double radius_b, const Direction<D>& from_a,
-                      std::uint32_t feature = 0) {
-  Manifold<D> manifold;
-  manifold.normal = from_a.unit;
-  const double separation = from_a.length - radius_a - radius_b;
-  manifold.add({a + from_a.unit * (radius_a + separation / 2), separation, feature});
-  return manifold;
-}
-
 template <int D>
 using Contact = std::optional<Manifold<D>>;
+
+// The contact of two cores in one point. `a` and `b` are points of the cores.
+template <int D>
+inline Contact<D> one_point(const Vec<D>& a, double radius_a, double radius_b,
+                            const Direction<D>& from_a, std::uint32_t feature = 0) {
+  Contact<D> contact(std::in_place);
+  contact->normal = from_a.unit;
+  const double separation = from_a.length - radius_a - radius_b;
+  contact->add({a + from_a.unit * (radius_a + separation / 2), separation, feature});
+  return contact;
+}
 
 // By search. It does not look at the order of bodies: `collide` has sorted them.
 template <int D>
