@@ -49,7 +49,7 @@ struct RowSettings {
 inline constexpr RowSettings kRowSettings;
 
 template <int D>
-struct ContactPoint {  // made in `set_points`; there is room for more of them than there are
+struct ContactPoint {  // made by `set_points` and `refresh`; there is room for more than there are
   std::uint32_t feature;
   // From a body's centre to its surface: what turns with it (in its own axes) and what does not (a
   // ball that rolls keeps its lowest point).

@@ -47,25 +47,24 @@ struct ContactRows {
                   const Mat<D>& axes_a, const Mat<D>& axes_b, const Contact<D>* remembered,
                   double scale) {
     const Solid solid_a = solid_of(body_a.shape), solid_b = solid_of(body_b.shape);
+    const Vec<D> at_a = body_a.position, at_b = body_b.position;
     normal = manifold.normal;
     count = manifold.count;
-    shallow = kRowSettings.shallow * thinner(body_a, body_b);
+    shallow = kRowSettings.shallow * std::min(solid_a.thin, solid_b.thin);
     find_face(body_a, body_b, axes_a, axes_b, solid_a.radius > 0, solid_b.radius > 0);
     for (int i = 0; i < manifold.count; ++i) {
       const auto at = static_cast<std::size_t>(i);
       const ManifoldPoint<D>& from = manifold.room[at];
       ContactPoint<D>& p = room[at];
       p.feature = from.feature;
-      p.separation = p.gap = p.inverse_normal_mass = p.inverse_tangent_mass = 0;
-      p.pn = p.bounce = p.correction = 0;
-      p.arm_a = p.arm_b = p.pt = p.slip = p.kicked_slip = p.wanted_slip = Vec<D>(0.0);
-      p.coupling = p.carried = Vec<D>(0.0);
+      p.inverse_tangent_mass = p.pn = p.correction = 0;
+      p.pt = p.kicked_slip = p.wanted_slip = p.coupling = p.carried = Vec<D>(0.0);
       p.sticks = false;
-      p.round_a = normal * solid_a.radius;
-      p.round_b = normal * -solid_b.radius;
-      const Vec<D> half_gap = normal * (from.separation / 2);
-      const Vec<D> to_a = from.position - half_gap - body_a.position;
-      const Vec<D> to_b = from.position + half_gap - body_b.position;
+      p.round_a = manifold.normal * solid_a.radius;
+      p.round_b = manifold.normal * -solid_b.radius;
+      const Vec<D> half_gap = manifold.normal * (from.separation / 2);
+      const Vec<D> to_a = from.position - half_gap - at_a;
+      const Vec<D> to_b = from.position + half_gap - at_b;
       p.core_a = (to_a - p.round_a) * axes_a;  // a vector times a matrix: by its inverse
       p.core_b = (to_b - p.round_b) * axes_b;
       // While bodies slide or roll on each other, the corner (or the round side) of one of them
@@ -77,8 +76,7 @@ struct ContactRows {
                 : body_a.inverse_mass == 0 ? 1
                 : body_b.inverse_mass == 0 ? 0
                                            : 0.5;
-      p.offset =
-          from.separation - glm::dot(normal, (body_b.position - body_a.position) + to_b - to_a);
+      p.offset = from.separation - glm::dot(manifold.normal, (at_b - at_a) + to_b - to_a);
     }
     if (remembered != nullptr) take_over(manifold, *remembered, scale);
   }
@@ -93,14 +91,17 @@ struct ContactRows {
                double lag_b = 0) {
     const double lag = std::max(body_a.is_dynamic() ? lag_a : 0, body_b.is_dynamic() ? lag_b : 0);
     carries = carries_round(body_a) || carries_round(body_b);
-    const bool turns_late = flat != Vec<D>(0.0) && turns_alike(faces_a ? body_b : body_a);
-    const double ahead = turns_late ? std::min(lag, 0.5) : 0;
-    const Spin<D> turn = (faces_a ? solver_b.spin : solver_a.spin) * (carries ? 0 : ahead * h);
-    const Vec<D> lies = turn_face(faces_a ? axes_b : axes_a, turn);
+    const bool rolls = flat != Vec<D>(0.0);
+    const double ahead = rolls && turns_alike(faces_a ? body_b : body_a) ? std::min(lag, 0.5) : 0;
+    const double turning = carries ? 0 : ahead * h;
+    const Vec<D> lies = !rolls    ? normal
+                        : faces_a ? turn_face(axes_b, solver_b.spin * turning)
+                                  : turn_face(axes_a, solver_a.spin * turning);
+    const Vec<D> apart = body_b.position - body_a.position;
     const auto along = tangents(normal);
     for (ContactPoint<D>& p : points()) {
       const Vec<D> to_a = axes_a * p.core_a + p.round_a, to_b = axes_b * p.core_b + p.round_b;
-      const Vec<D> gap = (body_b.position - body_a.position) + to_b - to_a;
+      const Vec<D> gap = apart + to_b - to_a;
       p.separation = glm::dot(lies, gap) + p.offset;
       p.gap = p.separation > touching ? p.separation : 0;
       p.arm_a = to_a + gap * p.share;
@@ -292,16 +293,18 @@ struct ContactRows {
   void take_over(const Manifold<D>& manifold, const Contact<D>& old, double scale) {
     constexpr auto kMost = static_cast<std::size_t>(Manifold<D>::kMostPoints);
     std::array<bool, kMost> has{}, given{};
+    const std::size_t now = points().size(), before = old.manifold.points().size();
+    std::size_t left = std::min(now, before);
     const auto pass_on = [&](std::size_t from, std::size_t to) {
       room[to].pn = old.normal_impulses[from] * scale;
       room[to].pt = across(old.friction_impulses[from] * scale);
       has[to] = given[from] = true;
+      --left;
     };
-    const std::size_t now = points().size(), before = old.manifold.points().size();
     for (std::size_t i = 0; i < now; ++i)
       for (std::size_t j = 0; j < before; ++j)
         if (old.manifold.room[j].feature == room[i].feature) pass_on(j, i);
-    for (;;) {
+    while (left > 0) {
       double nearest = shallow * shallow;
       std::size_t from = kMost, to = kMost;
       for (std::size_t i = 0; i < now; ++i)
@@ -346,6 +349,7 @@ struct ContactRows {
     Vec<D> half{0.0};
     double radius = 0;  // how far the surface is from the part of the body that turns
     double near = -1;   // so near to a corner of the core is at it; a half-space has none
+    double thin = geometry::kEndless;  // half of its smallest width
 
     // Of a point in the body's own axes. A sphere's centre is one, an end of a capsule's segment.
     bool is_corner(const Vec<D>& point) const {
@@ -358,9 +362,10 @@ struct ContactRows {
     return visit_shape<D>(
         shape,
         [](const Core<D>& core) {
-          double size = core.radius;
-          for (int i = 0; i < D; ++i) size = std::max(size, core.half[i]);
-          return Solid{core.half, core.radius, kRowSettings.corner * size};
+          double size = core.radius, least = core.half[0];
+          for (int i = 0; i < D; ++i)
+            size = std::max(size, core.half[i]), least = std::min(least, core.half[i]);
+          return Solid{core.half, core.radius, kRowSettings.corner * size, least + core.radius};
         },
         [](const HalfSpace<D>&) { return Solid{}; });
   }

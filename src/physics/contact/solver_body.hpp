@@ -45,8 +45,8 @@ struct SolverBody : Motion<D> {
 };
 
 template <int D>
-Vec<D> relative_velocity(const Motion<D>& a, const Vec<D>& arm_a, const Motion<D>& b,
-                         const Vec<D>& arm_b) {
+inline Vec<D> relative_velocity(const Motion<D>& a, const Vec<D>& arm_a, const Motion<D>& b,
+                                const Vec<D>& arm_b) {
   return (b.velocity + cross(b.spin, arm_b)) - (a.velocity + cross(a.spin, arm_a));
 }
 
@@ -68,13 +68,12 @@ inline std::array<Vec<3>, 2> tangents(const Vec<3>& n) {
 // How much relative velocity along `direction` an impulse of 1 along it gives: the inverse of the
 // effective mass.
 template <int D>
-double inverse_effective_mass(const SolverBody<D>& a, const Vec<D>& arm_a, const SolverBody<D>& b,
-                              const Vec<D>& arm_b, const Vec<D>& direction) {
-  const Spin<D> turn_a = cross(arm_a, direction);
-  const Spin<D> turn_b = cross(arm_b, direction);
-  const Spin<D> gained_a = a.inverse_inertia * turn_a;
-  const Spin<D> gained_b = b.inverse_inertia * turn_b;
-  return a.inverse_mass + b.inverse_mass + dot(turn_a, gained_a) + dot(turn_b, gained_b);
+inline double inverse_effective_mass(const SolverBody<D>& a, const Vec<D>& arm_a,
+                                     const SolverBody<D>& b, const Vec<D>& arm_b,
+                                     const Vec<D>& direction) {
+  const Spin<D> turn_a = cross(arm_a, direction), turn_b = cross(arm_b, direction);
+  return a.inverse_mass + b.inverse_mass + dot(turn_a, a.inverse_inertia * turn_a) +
+         dot(turn_b, b.inverse_inertia * turn_b);
 }
 
 // Symmetric positive definite linear equations, solved directly by Cholesky factors. Each line of
