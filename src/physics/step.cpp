@@ -18,13 +18,13 @@
 namespace lantern::physics {
 template <int D>
 struct World<D>::Step : World<D>::StepIslands {
-  using StepIslands::farthest, StepIslands::joint_memories, StepIslands::forces, StepIslands::near,
-      StepIslands::manifolds, StepIslands::joints, StepIslands::joint, StepIslands::wake;
-  using StepIslands::place_of, StepIslands::in_world, StepIslands::local, StepIslands::places;
-  using StepIslands::reach, StepIslands::increments, StepIslands::woke, StepIslands::take_part;
-  using StepIslands::root, StepIslands::touching, StepIslands::touch_of, StepIslands::kNone;
   using StepIslands::StepIslands;
-  using StepIslands::world, StepIslands::h, StepIslands::moved, StepIslands::rested;
+  using StepIslands::world, StepIslands::h, StepIslands::moved, StepIslands::rested,
+      StepIslands::farthest, StepIslands::joint_memories, StepIslands::forces, StepIslands::near,
+      StepIslands::manifolds, StepIslands::joints, StepIslands::joint, StepIslands::wake,
+      StepIslands::place_of, StepIslands::in_world, StepIslands::local, StepIslands::places,
+      StepIslands::reach, StepIslands::increments, StepIslands::woke, StepIslands::take_part,
+      StepIslands::root, StepIslands::touching, StepIslands::touch_of, StepIslands::kNone;
   using typename StepIslands::Group, typename StepIslands::NearPair;
 
   bool knows_forces = true;             // else boxes are those of bodies as they are
@@ -97,10 +97,8 @@ struct World<D>::Step : World<D>::StepIslands {
       auto found = nearing(pair);
       if (!found) continue;
       while (touch != world.touching_.end() && touch->record.pair() < pair) ++touch;
-      if (touch != world.touching_.end() && touch->record.pair() == pair)
-        found->touch = &*touch;
-      else
-        found->touch = slept_touch(pair);
+      const bool touched = touch != world.touching_.end() && touch->record.pair() == pair;
+      found->touch = touched ? &*touch : slept_touch(pair);
       near.push_back(*found);
     }
     // They are made when their islands are moved, and remembered for the next step.
@@ -178,8 +176,7 @@ struct World<D>::Step : World<D>::StepIslands {
     if (world.config_.wanted_error > 0.0 && !struck && !met_unforeseen()) return true;
     bool stayed = true;
     for (std::size_t i = 0; i < moved.size(); ++i) {
-      if (!moved[i].is_pushed()) continue;
-      if (!strayed(i)) continue;
+      if (!moved[i].is_pushed() || !strayed(i)) continue;
       reach[i] = 2 * std::max(way_gone(i), glm::length(moved[i].velocity) * h);
       stayed = false;
     }
@@ -205,8 +202,9 @@ struct World<D>::Step : World<D>::StepIslands {
       });
     tell_events<D>(
         outcome.contacts, contact_solver(world.config_.contacts).frames_remembered,
-        [&](BodyId id) -> const Body<D>& { return moved[place_of(id)]; }, thinnest(), old,
-        outcome.told, outcome.events);
+        [&](BodyId id) -> const Body<D>& { return moved[place_of(id)]; },
+        looks.empty() ? 0 : std::ranges::min(looks, {}, &Look<D>::thick).thick, old, outcome.told,
+        outcome.events);
     auto event = outcome.events.begin();
     for (Touch<D>& touch : touching) {
       while (event->pair() != touch.record.pair()) ++event;
@@ -338,11 +336,6 @@ struct World<D>::Step : World<D>::StepIslands {
   const Touch<D>* slept_touch(const Pair& pair) const {
     const auto touch = std::ranges::lower_bound(world.slept_, pair, {}, this->pair_of);
     return touch != world.slept_.end() && touch->record.pair() == pair ? &*touch : nullptr;
-  }
-  double thinnest() const {  // of the bodies that take part
-    double least = HUGE_VAL;
-    for (const Look<D>& look : looks) least = std::min(least, look.thick);
-    return least;
   }
   bool collides() const { return world.config_.contacts != ContactMethod::none; }
   bool locates_impacts() const {

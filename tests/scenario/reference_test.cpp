@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "base/printable.hpp"
 #include "base/random.hpp"
 #include "language/counts.hpp"
 #include "language/language.hpp"

@@ -128,9 +128,7 @@ struct ContactRows {
   void warm_start(SolverBody<D>& body_a, SolverBody<D>& body_b) {
     for (ContactPoint<D>& p : points())
       p.kicked_slip = across(relative_velocity(body_a, p.arm_a, body_b, p.arm_b));
-    for (ContactPoint<D>& p : points()) {
-      apply(p, normal * p.pn + p.pt, body_a, body_b);
-    }
+    for (ContactPoint<D>& p : points()) apply(p, normal * p.pn + p.pt, body_a, body_b);
   }
 
   // One sweep over velocities, for a sub-step of `h` seconds; over normals from the last point to
