@@ -55,9 +55,9 @@ template <int D>
 void Trials::see(const Players<D>& players) {
   const double last = std::exchange(since_last_, {}).seconds(), most = 0.05 * left_();
   const WorldConfig<D>& config = players.world().config();
-  if (done_ || steps_seen_++ < next_trial_ || 2 * last > most ||
-      config.contacts != ContactMethod::soft || config.wanted_error ||
-      traits_of(config.broad_phase.kind).is_own)
+  const std::uint64_t steps = players.world().work().steps;
+  if (done_ || steps < next_trial_ || 2 * last > most || config.contacts != ContactMethod::soft ||
+      config.wanted_error || traits_of(config.broad_phase.kind).is_own)
     return;
   done_ = true;  // unless nothing is to be said
   work_.trial_worlds += 2;
@@ -65,7 +65,7 @@ void Trials::see(const Players<D>& players) {
   try {
     const SettingTrial trial =
         try_out(players.world(), scenario.world.time_step, std::min(1.0, most));
-    next_trial_ = steps_seen_ + 40 * static_cast<std::uint64_t>(trial.steps);
+    next_trial_ = steps + 40 * static_cast<std::uint64_t>(trial.steps);
     const std::string text = trial.text();
     done_ = !text.empty();
     if (done_)

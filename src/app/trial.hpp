@@ -43,8 +43,8 @@ class Trials : public WorldWatch {
 
   std::function<double()> left_;
   Work& work_;
-  Stopwatch since_last_;  // step of the run
-  std::uint64_t steps_seen_ = 0, next_trial_ = 0;
+  Stopwatch since_last_;          // step of the run
+  std::uint64_t next_trial_ = 0;  // after so many steps of the world
   bool done_ = false;
 };
 

@@ -61,12 +61,7 @@ double turning_reach(const Shape<D>& shape) {
 template <int D>
 double thickness(const Shape<D>& shape) {
   return visit_shape<D>(
-      shape,
-      [](const Core<D>& core) {
-        double least = core.half[0];
-        for (int i = 1; i < D; ++i) least = std::min(least, core.half[i]);
-        return least + core.radius;
-      },
+      shape, [](const Core<D>& core) { return core.thickness(); },
       [](const HalfSpace<D>&) { return kEndless; });
 }
 

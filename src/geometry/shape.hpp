@@ -1,6 +1,7 @@
 // The collision volumes of bodies, and the boxes that envelop them in the broad phase.
 #pragma once
 
+#include <algorithm>
 #include <variant>
 
 #include "geometry/box.hpp"
@@ -49,6 +50,12 @@ struct Core {
   Vec<D> half{0.0};  // along the body's own axes, or the world's if it does not turn
   double radius = 0;
   bool turns = true;  // with its body
+
+  double thickness() const {  // half of its smallest width
+    double least = half[0];
+    for (int i = 1; i < D; ++i) least = std::min(least, half[i]);
+    return least + radius;
+  }
 };
 
 // One function for each shape: std::visit(EachShape{...}, shape) does not compile if one is

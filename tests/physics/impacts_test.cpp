@@ -255,11 +255,7 @@ void expect_blow_at_both_ends(std::uint64_t seed) {
     WorldConfig<D> config;
     config.contacts = ContactMethod::soft;
     World<D> world(config);
-    Body<D> floor;
-    floor.kind = BodyKind::static_body;
-    Vec<D> up(0.0);
-    up.y = 1;
-    floor.shape = HalfSpace<D>{up};
+    Body<D> floor = floor_at<D>();
     floor.material = {1, 0};
     world.add(floor);
     Body<D> block = box_at<D>(Vec<D>(0.0));

@@ -3,6 +3,7 @@
 
 #include "base/random.hpp"
 #include "fuzz/fuzz_trees.hpp"
+#include "how_many.hpp"
 
 namespace lantern::spatial {
 namespace {
@@ -36,18 +37,12 @@ void mutate(Bytes& bytes, Random& random) {
   }
 }
 
-// Under sanitizers, where each takes ten times as long, a third of them.
-#ifdef __SANITIZE_ADDRESS__
-constexpr int kShare = 3;
-#else
-constexpr int kShare = 1;
-#endif
-
 TEST(Fuzz, TreesKeepTheirInvariantsOnAnyBytes) {
   fuzz_trees({});
   for (std::uint8_t structure = 0; structure < 7; ++structure) {
     Random random(structure);
-    const int rounds = (structure == 4 || structure == 5 ? 30 : 150) / kShare;
+    const int rounds =
+        how_many("LANTERN_TREE_BYTES", structure == 4 || structure == 5 ? 30 : 150, 3);
     for (int round = 0; round < rounds; ++round) {
       Bytes bytes = random_bytes(random, structure);
       for (int change = 0; change < 10; ++change) {

@@ -182,9 +182,10 @@ TableDoc world_table() {
           "leaves a round top 2 to 4 % too fast; in 3D, a plank with unlike inertias that rocks "
           "under another integrator than the Euler methods may swing 8 % wider or 16 % less "
           "within 20 s. Taut joints under 500 times a plank's weight part by 6 % of it by `direct` "
-          "and `impulse`, and in fast chains beside contacts by up to two links for a step, which by "
+          "and `impulse`, and in fast chains beside contacts by up to two links for a step, which "
+          "by "
           "`explicit_euler` may gain energy. What bounces in a stack until it is too slow to may "
-          "lose 5e-7 of its energy in a step."),
+          "lose 5e-7 of its energy in a step, or gain 6e-7."),
       key(&W::integrator, "integrator",
           "How forces become motion. By `semi_implicit_euler` places follow the new velocities, "
           "half a step ahead of what a steady force speeds up, but for balls on what stands still; "

@@ -50,7 +50,7 @@ struct ContactRows {
     const Vec<D> at_a = body_a.position, at_b = body_b.position;
     normal = manifold.normal;
     count = manifold.count;
-    shallow = kRowSettings.shallow * std::min(solid_a.thin, solid_b.thin);
+    shallow = kRowSettings.shallow * std::min(solid_a.thickness, solid_b.thickness);
     find_face(body_a, body_b, axes_a, axes_b, solid_a.radius > 0, solid_b.radius > 0);
     for (int i = 0; i < manifold.count; ++i) {
       const auto at = static_cast<std::size_t>(i);
@@ -347,7 +347,7 @@ struct ContactRows {
     Vec<D> half{0.0};
     double radius = 0;  // how far the surface is from the part of the body that turns
     double near = -1;   // so near to a corner of the core is at it; a half-space has none
-    double thin = geometry::kEndless;  // half of its smallest width
+    double thickness = geometry::kEndless;
 
     // Of a point in the body's own axes. A sphere's centre is one, an end of a capsule's segment.
     bool is_corner(const Vec<D>& point) const {
@@ -360,10 +360,9 @@ struct ContactRows {
     return visit_shape<D>(
         shape,
         [](const Core<D>& core) {
-          double size = core.radius, least = core.half[0];
-          for (int i = 0; i < D; ++i)
-            size = std::max(size, core.half[i]), least = std::min(least, core.half[i]);
-          return Solid{core.half, core.radius, kRowSettings.corner * size, least + core.radius};
+          double size = core.radius;
+          for (int i = 0; i < D; ++i) size = std::max(size, core.half[i]);
+          return Solid{core.half, core.radius, kRowSettings.corner * size, core.thickness()};
         },
         [](const HalfSpace<D>&) { return Solid{}; });
   }

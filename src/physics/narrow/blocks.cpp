@@ -361,10 +361,8 @@ Contact<D> touch_blocks(const PlacedCore<D>& a, const PlacedCore<D>& b, double m
   const double rounding = kRounding * size;
   const bool apart = bound > rounding;
   Manifold<D>& manifold = contact.emplace();
-  for (const SeparatingAxis<D>* axis : {&axes.chosen(), &axes.greatest()}) {
-    if (is_exact(*axis, a, b, bound, rounding, margin, manifold)) return contact;
-    if (apart || axis == &axes.greatest()) break;
-  }
+  if (is_exact(axes.chosen(), a, b, bound, rounding, margin, manifold)) return contact;
+  if (!apart && is_exact(axes.greatest(), a, b, bound, rounding, margin, manifold)) return contact;
   contact.reset();
 
   const ClosestFeatures<D> closest = ClosestSearch<D>(a, b, axes.greatest(), trace).run();
