@@ -13,6 +13,7 @@ constexpr double kTooLongToRepeat = 10;  // seconds
 constexpr TimingRule kQuick{3, 0.002};
 constexpr TimingRule kGood{15, 0.05};
 constexpr TimingRule kOnce{1, 0};
+const std::optional<std::string> kNoProblem = "it has no [problem]";
 
 // What is refused of a scenario gets a place in its file: its [problem], if it has one.
 template <class Act>
@@ -33,14 +34,23 @@ bool can_be_measured_by(std::string_view name) {
 }
 
 std::optional<std::string> why_not(const Solver& solver, const Scenario& scenario) {
-  if (!scenario.problem && (solver.is_peer() || solver.name() == kAdaptive))
-    return "it has no [problem]";
+  if (!scenario.problem && (solver.is_peer() || solver.name() == kAdaptive)) return kNoProblem;
   return solver.cannot(scenario);
 }
 
 Plan::Plan(PlanOptions options, const std::function<void(const Scenario&)>& told)
     : options_(std::move(options)), prepared_(options_.scenarios.size()) {
-  if (options_.peers) solvers_ = load_peers(missing_peers_);
+  const auto wanted = [&](std::string_view engine) {
+    std::vector<Unsuited> reasons;
+    for (const Scenario& scenario : options_.scenarios) {
+      const auto reason = scenario.problem ? engine_cannot(engine, scenario) : kNoProblem;
+      if (!reason) return true;
+      reasons.push_back({scenario.name, std::string(engine), *reason, true});
+    }
+    std::ranges::move(reasons, std::back_inserter(unsuited_));
+    return false;
+  };
+  if (options_.peers) solvers_ = load_peers(missing_peers_, wanted);
   peers_ = solvers_.size();
   adaptive_ = solvers_.size();
   solvers_.push_back(std::make_unique<DormandPrinceSolver>());

@@ -250,20 +250,6 @@ bool only_watches(const std::vector<Step>& steps) {
   return true;
 }
 
-// What no peer can do, whatever it is: bodies that are steered, levels, scripts that change the
-// scene on its way. Nothing if there is none of it.
-std::optional<std::string> only_lantern_can(const Scenario& scenario) {
-  if (scenario.level) return "it has a level";
-  if (scenario.bodies.empty()) return "it has no bodies";
-  for (const BodySpec& body : scenario.bodies) {
-    if (body.brain != Brain::none) return "body '" + body.name + "' is steered";
-    if (body.asleep) return "body '" + body.name + "' begins asleep";
-  }
-  if (!scenario.problem && !only_watches(scenario.steps))
-    return "its script changes bodies on their way";
-  return std::nullopt;
-}
-
 class PeerSolver : public Solver {
  public:
   explicit PeerSolver(Peer peer) : peer_(std::move(peer)) {}
@@ -273,7 +259,8 @@ class PeerSolver : public Solver {
   PeerSettings settings() const override { return peer_.settings; }
 
   std::optional<std::string> cannot(const Scenario& scenario) const override {
-    if (auto reason = only_lantern_can(scenario)) return reason;
+    const std::string_view name = peer_.name;
+    if (auto reason = engine_cannot(name.substr(0, name.find(':')), scenario)) return reason;
     return peer_.cannot(peer_scene(scenario));
   }
 
@@ -294,6 +281,23 @@ constexpr PeerModule kModules[] = {
 };
 
 }  // namespace
+
+// What no peer can do, whatever it is: bodies that are steered, levels, scripts that change the
+// scene on its way; and what one of them cannot at all.
+std::optional<std::string> engine_cannot(std::string_view engine, const Scenario& scenario) {
+  if (scenario.level) return "it has a level";
+  if (scenario.bodies.empty()) return "it has no bodies";
+  for (const BodySpec& body : scenario.bodies) {
+    if (body.brain != Brain::none) return "body '" + body.name + "' is steered";
+    if (body.asleep) return "body '" + body.name + "' begins asleep";
+  }
+  if (!scenario.problem && !only_watches(scenario.steps))
+    return "its script changes bodies on their way";
+  if (engine == "Box2D" && scenario.world.dimension == 3) return "Box2D is flat";
+  if (engine == "MuJoCo" && scenario.world.gravitation > 0)
+    return "MuJoCo has no forces between two bodies but tendons";
+  return std::nullopt;
+}
 
 std::optional<std::string> LanternSolver::cannot(const Scenario& scenario) const {
   if (method_.contacts && scenario.world.contacts == ContactMethod::none)
@@ -359,9 +363,13 @@ std::optional<Library> load_module(const PeerModule& module, std::vector<std::st
   return std::nullopt;
 }
 
-std::vector<std::unique_ptr<Solver>> load_peers(std::vector<std::string>& missing) {
+std::vector<std::unique_ptr<Solver>> load_peers(
+    std::vector<std::string>& missing, const std::function<bool(std::string_view)>& wanted) {
+  std::vector<PeerModule> modules;
+  for (const PeerModule& module : kModules)
+    if (wanted(module.name)) modules.push_back(module);
   std::vector<std::unique_ptr<Solver>> solvers;
-  for (Peer& peer : peers_of<Peer>(kModules, "lantern_peers", missing))
+  for (Peer& peer : peers_of<Peer>(modules, "lantern_peers", missing))
     solvers.push_back(std::make_unique<PeerSolver>(std::move(peer)));
   return solvers;
 }

@@ -67,8 +67,14 @@ std::vector<Peer> peers_of(std::span<const PeerModule> modules, const char* entr
   return peers;
 }
 
-// The engines whose modules are there; lines are added to `missing` as above.
-std::vector<std::unique_ptr<Solver>> load_peers(std::vector<std::string>& missing);
+// Why the engine, "MuJoCo", does not run the scenario in any of its ways, as far as it is known
+// without its module. Nothing if the module must be asked.
+std::optional<std::string> engine_cannot(std::string_view engine, const Scenario& scenario);
+
+// The engines that are wanted and whose modules are there; lines are added to `missing` as above.
+std::vector<std::unique_ptr<Solver>> load_peers(
+    std::vector<std::string>& missing,
+    const std::function<bool(std::string_view)>& wanted = [](auto) { return true; });
 
 // The libraries of boxes that `bench pairs` measures beside: "CGAL 5.5.1 (double)". Lines are added
 // to `missing` as above.

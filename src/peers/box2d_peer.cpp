@@ -174,7 +174,6 @@ class Box2dRun : public PeerRun {
 bool fits(double value) { return std::isfinite(number(value)); }
 
 std::optional<std::string> cannot(const PeerScene& scene, bool finer) {
-  if (!scene.is_flat()) return "Box2D is flat";
   if (finer && !scene.collides() && scene.links.empty()) return kNothingToSolve;
   for (const PeerBody& body : scene.bodies) {
     if (scene.collides() && std::holds_alternative<Capsule>(body.shape))

@@ -350,7 +350,6 @@ constexpr Variant kVariants[] = {{"MuJoCo:Euler", "Euler", false},
 
 std::optional<std::string> cannot(const PeerScene& scene, const Variant& variant) {
   if (variant.is_hard && !scene.collides()) return "nothing touches: its contacts do not matter";
-  if (scene.gravitation > 0) return "MuJoCo has no forces between two bodies but tendons";
   for (const PeerBody& body : scene.bodies) {
     if (body.kind == BodyKind::kinematic_body)
       return "body '" + body.name + "': MuJoCo has no bodies that keep their velocity";
