@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <ctime>
 #include <vector>
@@ -42,12 +43,25 @@ class CpuStopwatch {
 
 // Seconds of what was timed, over repeats. Zero repeats: not timed.
 struct Timing {
+  static constexpr int kFewest = 6;  // repeats below which no interval covers a median by 95 %
+
   int repeats = 0;
   double median = 0;
   double least = 0;
   double lower_quartile = 0;
   double upper_quartile = 0;
+  // Between which two repeats the median of all that could be taken lies with 95 %, whatever their
+  // distribution (from the binomial one); from the least to the greatest of fewer than kFewest.
+  double low = 0, high = 0;
   double spread() const { return upper_quartile - lower_quartile; }  // interquartile range
+  bool is_narrow() const { return repeats >= kFewest && high - low <= 0.05 * median; }
+  // Whether another measurement would find it quicker, too: the intervals are apart, and the
+  // medians by more than what the places of code and data in memory make of one and the same run
+  // (Mytkowicz et al., "Producing Wrong Data Without Doing Anything Obviously Wrong!", 2009).
+  bool is_quicker_than(const Timing& other) const {
+    return std::min(repeats, other.repeats) >= kFewest && high < other.low &&
+           1.1 * median < other.median;
+  }
   bool operator==(const Timing&) const = default;
 };
 
@@ -55,6 +69,7 @@ struct Timing {
 struct TimingRule {
   int repeats = 15;
   double least_seconds = 0.05;
+  int most = 0;  // go on until the median's interval is narrow, or to so many repeats
 };
 
 // The value below which lies `share` (0 ... 1) of the values, between neighbours by their distance;
@@ -71,8 +86,19 @@ inline double quantile(std::vector<double> values, double share) {
 // Of the seconds that each repeat took. No repeats: not timed.
 inline Timing timing_of(const std::vector<double>& seconds) {
   if (seconds.empty()) return {};
-  return {static_cast<int>(seconds.size()), quantile(seconds, 0.5), quantile(seconds, 0),
-          quantile(seconds, 0.25), quantile(seconds, 0.75)};
+  std::vector<double> sorted = seconds;
+  std::ranges::sort(sorted);
+  const std::size_t n = sorted.size();
+  std::size_t outside = 0;  // repeats at either end: the median is there with 2.5 % at most
+  double chance = std::exp2(-static_cast<double>(n)), below = chance;
+  while (below <= 0.025) {
+    ++outside;
+    chance *= static_cast<double>(n - outside + 1) / static_cast<double>(outside);
+    below += chance;
+  }
+  outside = std::max<std::size_t>(outside, 1);
+  return {static_cast<int>(n),    quantile(sorted, 0.5), sorted[0],          quantile(sorted, 0.25),
+          quantile(sorted, 0.75), sorted[outside - 1],   sorted[n - outside]};
 }
 
 // Seconds of one call of `work`, which is called once before for warmth. Without repeats it is not

@@ -144,6 +144,8 @@ int run_experiment(Experiment& experiment, const ExperimentRun& as) {
     folder.finish();
     if (!experiment.complaint().empty()) complain(experiment.complaint());
     if (folder.wanted() && experiment.is_good()) say("the report is in " + as.output);
+    if (folder.wanted() && !experiment.picture_to_show().empty())
+      say(fmt::format("to show it: {}/{}.png", as.output, experiment.picture_to_show()));
     return experiment.is_good() ? kGood : kFailed;
   } catch (const Refused& refused) {
     throw UsageError(refused.what());

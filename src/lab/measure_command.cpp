@@ -246,6 +246,7 @@ class Measure : public Experiment {
         if (const Row* old = known(job)) measurement_.rows.push_back(*old);
       throw;
     }
+    measurement_.circumstances.load_at_end = load_of_machine();
     if (problems_.empty()) bars_ = measured_bars();  // they belong to the whole
   }
 
@@ -272,12 +273,21 @@ class Measure : public Experiment {
     if (!was_run()) return {};
     std::vector<Picture> pages = {{"overview", draw_overview(m, bars_)}};
     for (const ProblemRows& problem : by_problem(m.rows)) {
+      pages.push_back({problem.problem + "_slide", draw_slide(problem, m)});
       pages.push_back({problem.problem, draw_problem(problem, m)});
       if (std::ranges::any_of(problem.rows, [](const Row& row) { return !row.samples.empty(); }))
         pages.push_back({problem.problem + "_drift", draw_drift(problem, m)});
     }
     if (!m.peers.empty()) pages.push_back({"peers", draw_peers(m)});
     return pages;
+  }
+
+  std::string picture_to_show() const override {
+    const std::vector<Row>& rows = measurement_.rows;
+    const bool one = was_run() && std::ranges::all_of(rows, [&](const Row& row) {
+                       return row.problem == rows[0].problem;
+                     });
+    return one ? rows[0].problem + "_slide" : "";
   }
 
   bool is_good() const override { return was_run() || done_ < stages(); }

@@ -10,8 +10,8 @@ constexpr int kOwnHalvings = 6;          // of a scenario's own step
 constexpr double kFinerReference = 16;   // times finer than the finest measured step
 constexpr double kTooLongToRepeat = 10;  // seconds
 
-constexpr TimingRule kQuick{3, 0.002};
-constexpr TimingRule kGood{15, 0.05};
+constexpr TimingRule kQuick{Timing::kFewest, 0.002, 15};
+constexpr TimingRule kGood{15, 0.05, 45};
 constexpr TimingRule kOnce{1, 0};
 const std::optional<std::string> kNoProblem = "it has no [problem]";
 

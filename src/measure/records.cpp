@@ -1,6 +1,11 @@
 #include "measure/records.hpp"
 
+#include <cstdlib>
+#include <ctime>
 #include <fstream>
+
+#include <fmt/chrono.h>
+#include <sched.h>
 
 #include "embedded/lab_version.hpp"
 
@@ -76,9 +81,26 @@ std::string processor() {
 
 }  // namespace
 
+double load_of_machine() {
+  double load = 0;
+  return ::getloadavg(&load, 1) == 1 ? load : std::nan("");
+}
+
 Circumstances here() {
-  return {
-      std::string(kVersion), std::string(kLabHash), compiler(), LANTERN_FLAGS, processor(), 1, ""};
+  cpu_set_t usable;
+  const bool known = ::sched_getaffinity(0, sizeof(usable), &usable) == 0;
+  const double load = load_of_machine();
+  return {std::string(kVersion),
+          std::string(kLabHash),
+          compiler(),
+          LANTERN_FLAGS,
+          processor(),
+          1,
+          "",
+          fmt::format("{:%F %R} UTC", fmt::gmtime(std::time(nullptr))),
+          known ? CPU_COUNT(&usable) : 0,
+          load,
+          load};
 }
 
 }  // namespace lantern::measure

@@ -165,7 +165,8 @@ struct Row {
   std::vector<DriftSample> samples;
   double penetration = 0;  // the deepest, units
   double skin = 0;         // the widest of a body, units (Simulation::skin)
-  Timing timing;
+  Timing timing;           // by the clock
+  Timing processor;        // of the same repeats: whose median is the run's time
   Counted counted;
   std::uint64_t hash = 0;  // of the last state
 
@@ -189,10 +190,16 @@ struct Circumstances {
   std::string flags;
   std::string processor;
   std::uint64_t seed = 1;
-  std::string effort;  // "quick", "normal", "full"
+  std::string effort = {};  // "quick", "normal", "full"
+  std::string date = {};    // "2026-03-01 12:00 UTC", when it began
+  int cores = 0;            // that it may use; it uses one
+  // Processes that ran or wanted to, the mean of a minute, when it began and when it ended.
+  double load_at_start = 0, load_at_end = 0;
 };
 
-// Of this build on this machine.
+double load_of_machine();
+
+// Of this build on this machine, now.
 Circumstances here();
 
 // An engine beside Lantern, and how it was run.

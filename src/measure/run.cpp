@@ -384,27 +384,33 @@ Row evaluated(const Trials& trials, const Solver& solver, double h, double* proc
 
 void time_in_turn(const Trials& trials, std::span<const TimedRun> runs,
                   const std::function<void(std::size_t)>& told) {
-  std::vector<std::vector<double>> repeats(runs.size());
+  std::vector<std::vector<double>> clock(runs.size()), processor(runs.size());
   bool any = true;
   for (int round = 0; any; ++round) {
     any = false;
     for (std::size_t i = 0; i < runs.size(); ++i) {
       const auto& [solver, row, rule] = runs[i];
-      if (round >= rule.repeats) continue;
+      if (round >= rule.repeats && (round >= rule.most || timing_of(processor[i]).is_narrow()))
+        continue;
       any = true;
-      double spent = 0;
+      double spent = 0, passed = 0;
       int times = 0;
       for (; times == 0 || spent < rule.least_seconds; ++times) {
         Runner runner(trials.scenario, trials.schedule, *solver, row->step);
         runner.run(*trials.reference.make(), ignore);
         if (!row->is_peer()) LANTERN_CHECK(runner.simulation().hash(), ==, row->hash);
-        spent += runner.seconds();
+        spent += runner.processor_seconds();
+        passed += runner.seconds();
       }
-      repeats[i].push_back(spent / times);
+      processor[i].push_back(spent / times);
+      clock[i].push_back(passed / times);
       told(i);
     }
   }
-  for (std::size_t i = 0; i < runs.size(); ++i) runs[i].row->timing = timing_of(repeats[i]);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    runs[i].row->timing = timing_of(clock[i]);
+    runs[i].row->processor = timing_of(processor[i]);
+  }
 }
 
 double estimated_seconds(const Scenario& scenario, const Schedule& schedule, const Solver& solver,

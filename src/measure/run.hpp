@@ -74,8 +74,9 @@ struct TimedRun {
 };
 
 // Times them in turn: one repeat of each, then the next of each, so that what else the machine does
-// meanwhile falls on all alike. `told` is called after each repeat with the place of its run. Two
-// runs of Lantern that differ are a broken invariant.
+// meanwhile falls on all alike; whose median is known well enough has no further ones. `told` is
+// called after each repeat with the place of its run. Two runs of Lantern that differ are a broken
+// invariant.
 void time_in_turn(const Trials& trials, std::span<const TimedRun> runs,
                   const std::function<void(std::size_t)>& told);
 

@@ -195,6 +195,8 @@ class Experiment {
     DrawList list;
   };
   virtual std::vector<Picture> pages() const { return {}; }
+  // Which of them to project, of one that is about one thing; else empty.
+  virtual std::string picture_to_show() const { return ""; }
   virtual bool is_good() const { return true; }
   virtual std::string complaint() const { return ""; }  // at the end
   virtual void set_circumstances(Circumstances circumstances, std::string command) = 0;

@@ -2,7 +2,7 @@
 
 #include <tuple>
 
-#include "report/problem_rows.hpp"
+#include "report/pages.hpp"
 
 namespace lantern::report {
 namespace {
@@ -39,11 +39,11 @@ std::string figure_or_nothing(const std::optional<double>& value) {
 }
 std::string count_or_nothing(std::uint64_t n) { return n > 0 ? fmt::format("{}", n) : kNothing; }
 
-std::string quartiles_text(const Row& row) {
-  if (row.timing.repeats == 0) return kNothing;
-  return fmt::format("{} ({} – {})", seconds_text(row.timing.median),
-                     seconds_text(row.timing.lower_quartile),
-                     seconds_text(row.timing.upper_quartile));
+std::string interval_text(const Row& row) {
+  const Timing& t = row.processor;
+  if (t.repeats == 0) return kNothing;
+  return fmt::format("{} ({} – {}){}", seconds_text(t.median), seconds_text(t.low),
+                     seconds_text(t.high), t.is_narrow() ? "" : " wide");
 }
 
 // The most exact run of a method, and what became of the others.
@@ -67,7 +67,7 @@ std::vector<Cell> best_of(const MethodRows& method, const WorkCount& work) {
   const auto count = best ? work.of(*best) : std::nullopt;
   return {short_name(method),
           fmt::format("{}/{}", ok, method.rows.size()),
-          order ? fmt::format("{:.2f}", *order) : kNothing,
+          order ? order->words() : kNothing,
           best ? figure(*best->error()) : kNothing,
           best ? figure(best->step) : kNothing,
           seconds ? seconds_text(*seconds) : kNothing,
@@ -80,7 +80,9 @@ std::vector<Cell> cells_of(const Row& row) {
   return {row.method,
           figure(row.step),
           figure_or_nothing(row.error()),
-          quartiles_text(row),
+          interval_text(row),
+          row.timing.repeats ? seconds_text(row.timing.median) : kNothing,
+          count_or_nothing(static_cast<std::uint64_t>(row.timing.repeats)),
           count_or_nothing(row.counted.steps),
           count_or_nothing(row.counted.force_evaluations),
           count_or_nothing(row.counted.constraint_rows),
@@ -106,6 +108,19 @@ struct SharedProblem {
   }
 };
 
+// How many medians are known well.
+std::string wide_words(const Measurement& measurement) {
+  std::size_t timed = 0, wide = 0;
+  for (const Row& row : measurement.rows) {
+    timed += row.processor.repeats > 0;
+    wide += row.processor.repeats > 0 && !row.processor.is_narrow();
+  }
+  return fmt::format(
+      "Times are processor seconds, medians of repeats taken in turn. Of {} medians {} are wide: "
+      "their 95 % interval is more than 5 % of them.",
+      timed, wide);
+}
+
 class Writer {
  public:
   explicit Writer(std::span<const Measurement> measurements) {
@@ -119,9 +134,12 @@ class Writer {
     document_.title = "Error against cost";
     document_.about =
         "Problems whose answers are known, method by method: how far each run is off, and what it "
-        "costs. Down and to the left is better. Pale bars reach from the lower to the upper "
-        "quartile of the repeats; runs that failed lie at the upper edge. The pale stairs join the "
-        "runs that no other beats in both.";
+        "costs: processor time, the median of repeats that the runs took in turn. Down and to the "
+        "left is better. Pale bars are 95 % intervals of the medians, which were repeated until "
+        "these were within 5 %, or are called wide; methods whose intervals overlap, or whose "
+        "medians are within 10 %, tie. Behind an order: how far slopes from step to step lie from "
+        "it. Runs that failed lie at the upper edge. The pale stairs join the runs that no other "
+        "beats in both, among those that do the world's step.";
     document_.legends = {"Lantern’s methods", "Other engines"};
     for (const ProblemRows& problem : by_problem(all))
       for (const MethodRows& method : by_method(problem))
@@ -141,6 +159,7 @@ class Writer {
       document_.notes.push_back(fmt::format("Machine {}: {} runs, seed {}.", machine_letter(i),
                                             measurements[i].rows.size(),
                                             measurements[i].circumstances.seed));
+    for (const Measurement& m : measurements) document_.notes.push_back(wide_words(m));
     for (const SharedProblem& problem : shared_problems()) add(problem);
   }
 
@@ -183,7 +202,7 @@ class Writer {
     const ProblemRows& any = problem.any();
     Chapter& chapter = document_.chapters.emplace_back();
     chapter.title = problem_words(any);
-    chapter.words = {file_name(any)};
+    chapter.words = {who_is_quickest(any), file_name(any)};
     chapter.notes = notes_on(any);
     std::vector<std::vector<Plot>> plots(problem.of.size());  // of each machine
     problem.each([&](std::size_t machine, const ProblemRows& rows) {
@@ -230,7 +249,7 @@ class Writer {
   static Table best_table(const SharedProblem& problem) {
     const WorkCount work = work_count(problem.any());
     const std::string norm = main_norm(problem.any());
-    Table table{"", columns_of({"method|", "runs ok", "order", norm.empty() ? "least error" : norm,
+    Table table{"", columns_of({"method|", "ok", "order", norm.empty() ? "least error" : norm,
                                 "step, s", "time", work.name, "not ok|"})};
     problem.each([&](std::size_t machine, const ProblemRows& rows) {
       for (const MethodRows& method : by_method(rows))
@@ -240,9 +259,10 @@ class Writer {
   }
 
   static Table runs_table(const SharedProblem& problem) {
-    Table table{"All runs", columns_of({"method|", "step, s", "error", "time (quartiles)", "steps",
-                                        "force evaluations", "constraint rows", "energy drift",
-                                        "penetration", "status|", "|"})};
+    Table table{"All runs",
+                columns_of({"method|", "step, s", "error", "processor time (95 %)", "by the clock",
+                            "repeats", "steps", "force evaluations", "constraint rows",
+                            "energy drift", "penetration", "status|", "|"})};
     table.folded = true;
     problem.each([&](std::size_t machine, const ProblemRows& rows) {
       for (const MethodRows& method : by_method(rows))
@@ -281,9 +301,10 @@ Table engines_table(std::span<const PeerRecord> peers) {
 }
 
 std::string to_table(const Measurement& measurement) {
+  if (measurement.rows.empty()) return "";
   Document document = document_of(std::span(&measurement, 1), {});
   document.about.clear();
-  document.notes.clear();
+  document.notes = {circumstances_text(measurement.circumstances), wide_words(measurement)};
   return to_text(document);
 }
 

@@ -35,7 +35,7 @@ std::string to_csv(const Circumstances& circumstances);
 // The same for how each engine was run, a record each.
 std::string to_csv(const std::vector<PeerRecord>& peers);
 
-// lantern.measure/1: circumstances, peers and rows, one row a line. What is not finite becomes
+// lantern.measure/2: circumstances, peers and rows, one row a line. What is not finite becomes
 // null; bytes of texts that are no UTF-8 become U+FFFD.
 std::string to_json(const Measurement& measurement);
 

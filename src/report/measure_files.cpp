@@ -22,6 +22,16 @@ void each_field(R& row, Visit&& visit) {
   visit(Field("samples", ""), row.samples);
   visit_fields(visit, "penetration", row.penetration, "skin", row.skin);
   each_timing(row.timing, "timing", "spread", "seconds_spread", visit);
+  const bool timed = row.timing.repeats > 0;
+  const auto processor = [&](const char* name, const char* column, auto& seconds) {
+    visit(Field(name, column, "processor"), IfTimed(seconds, timed));
+  };
+  processor("median", "processor_seconds_median", row.processor.median);
+  processor("low", "processor_seconds_low", row.processor.low);
+  processor("high", "processor_seconds_high", row.processor.high);
+  processor("least", "processor_seconds_least", row.processor.least);
+  processor("lower_quartile", "processor_seconds_lower_quartile", row.processor.lower_quartile);
+  processor("upper_quartile", "processor_seconds_upper_quartile", row.processor.upper_quartile);
   visit(Field("steps", "steps", "counted"), row.counted.steps);
   visit(Field("force_evaluations", "force_evaluations", "counted"), row.counted.force_evaluations);
   visit(Field("constraint_rows", "constraint_rows", "counted"), row.counted.constraint_rows);
@@ -33,7 +43,9 @@ template <class C, class Visit>
 requires std::same_as<std::remove_const_t<C>, Circumstances>
 void each_field(C& c, Visit&& visit) {
   visit_fields(visit, "version", c.version, "sources", c.sources, "compiler", c.compiler, "flags",
-               c.flags, "processor", c.processor, "seed", c.seed, "effort", c.effort);
+               c.flags, "processor", c.processor, "seed", c.seed, "effort", c.effort, "date",
+               c.date, "cores", c.cores, "load_at_start", c.load_at_start, "load_at_end",
+               c.load_at_end);
 }
 
 template <class P, class Visit>
@@ -50,7 +62,7 @@ void each_field(P& peer, Visit&& visit) {
 namespace lantern::report {
 namespace {
 
-constexpr std::string_view kFormat = "lantern.measure/1";
+constexpr std::string_view kFormat = "lantern.measure/2";
 
 using Json = nlohmann::json;
 
@@ -165,13 +177,17 @@ void require_sane(const Row& row, const Json& json) {
                               shown(json.at("problem")))};
   if (!(row.step >= 0 && std::isfinite(row.step)))
     throw Damaged{fmt::format("step {}: it is no step", shown(json.at("step")))};
-  const Timing& t = row.timing;
-  const double in_order[] = {0,        t.least,          t.lower_quartile,
-                             t.median, t.upper_quartile, std::numeric_limits<double>::max()};
-  if (!std::ranges::is_sorted(in_order) ||
-      std::ranges::any_of(in_order, [](double x) { return std::isnan(x); }))
-    throw Damaged{
-        fmt::format("timing {}: its quartiles are in no order", json.at("timing").dump())};
+  constexpr double kMost = std::numeric_limits<double>::max();
+  const auto require_order = [&](const char* name, std::initializer_list<double> in_order) {
+    if (!std::ranges::is_sorted(in_order) ||
+        std::ranges::any_of(in_order, [](double x) { return std::isnan(x); }))
+      throw Damaged{
+          fmt::format("{} {}: its quartiles are in no order", name, json.at(name).dump())};
+  };
+  const Timing &t = row.timing, &p = row.processor;
+  require_order("timing", {0, t.least, t.lower_quartile, t.median, t.upper_quartile, kMost});
+  require_order("processor", {0, p.least, p.lower_quartile, p.median, p.upper_quartile, kMost});
+  require_order("processor", {p.least, p.low, p.median, p.high, kMost});
 }
 
 }  // namespace
@@ -234,7 +250,8 @@ std::optional<Measurement> read_measurement(std::string_view text, std::string* 
       measurement.peers.push_back(read_fields<PeerRecord>(peer));
     for (const Json& row : json.at("rows").get_ref<const Json::array_t&>()) {
       place = fmt::format("rows[{}].", measurement.rows.size());
-      measurement.rows.push_back(read_fields<Row>(row));
+      Row& read = measurement.rows.emplace_back(read_fields<Row>(row));
+      read.processor.repeats = read.timing.repeats;
       require_sane(measurement.rows.back(), row);
     }
     return measurement;

@@ -6,7 +6,7 @@
 namespace lantern::report {
 namespace {
 
-constexpr const char* kSeconds = "seconds for the whole run: median, quartiles";
+constexpr const char* kSeconds = "processor seconds of a run: median, its 95 % interval";
 constexpr double kNearOrder = 0.25;  // an order of 3.4 is no h³
 constexpr double kFarOff = 1e3;      // errors beyond are at the edge, or the others would be a line
 
@@ -16,8 +16,7 @@ PlotPoint point_of(const Row& row, double cost) {
   point.beyond = !error || !std::isfinite(*error);
   point.at = {cost, point.beyond ? 0 : *error};
   if (cost == seconds_of(row))
-    point.spread =
-        Box<2>{{row.timing.lower_quartile, point.at.y}, {row.timing.upper_quartile, point.at.y}};
+    point.spread = Box<2>{{row.processor.low, point.at.y}, {row.processor.high, point.at.y}};
   return point;
 }
 
@@ -220,15 +219,23 @@ Plot cost_plot(const ProblemRows& problem, const Cost& cost, const Looks& looks,
     if (with_orders && twin != twins.end())
       series.name += ": errors equal those of " + method_words(twin->second);
     else if (with_orders && order)
-      series.name += fmt::format(": order {:.2f}", *order);
+      series.name += ": order " + order->words();
     if (order) {
-      const int nearest = static_cast<int>(std::lround(*order));
-      const bool is_near = std::abs(*order - nearest) <= kNearOrder;
+      const int nearest = static_cast<int>(std::lround(order->exponent));
+      const bool is_near = std::abs(order->exponent - nearest) <= kNearOrder;
       if (!c.is_peer && is_near && nearest >= 1 && nearest <= 6 && !series.points.empty())
         orders.insert(nearest);
     }
     plot.series.push_back(std::move(series));
+    if (const auto floor = observed_floor(c.rows); !floor.empty() && cost(floor.back()))
+      plot.guides.push_back({plot.guides.empty() ? "stops falling" : "",
+                             {{*cost(floor.back()), *floor.back().error()},
+                              {4 * *cost(floor.back()), *floor.back().error()}}});
   }
+  double reference = 0;
+  for (const Row& row : problem.rows) reference = std::max(reference, row.reference_error);
+  if (reference > 0 && most > 0)
+    plot.guides.push_back({"the reference's own error", {{least, reference}, {most, reference}}});
   const bool whole = has_whole_errors(problem);
   if (!whole) send_far_ones_off(plot);
   add_slopes(orders, plot);
@@ -273,8 +280,7 @@ Plot step_plot(const ProblemRows& problem, const Cost& value, const Looks& looks
         PlotPoint point{{row.step, *y}, !std::isfinite(*y), "", false, {}};
         point.open = whole && row.error() > 0.0;
         if (y == seconds_of(row))
-          point.spread =
-              Box<2>{{row.step, row.timing.lower_quartile}, {row.step, row.timing.upper_quartile}};
+          point.spread = Box<2>{{row.step, row.processor.low}, {row.step, row.processor.high}};
         series.points.push_back(point);
       }
     plot.series.push_back(std::move(series));

@@ -105,7 +105,7 @@ std::vector<LegendEntry> legend_of(const Plot& plot) {
 // were made, at the page's lower edge. Gives the y of the rule above it.
 double draw_page_foot(const std::vector<std::string>& notes, const std::string& small,
                       DrawList& list, Labels& labels) {
-  constexpr std::size_t kMostLines = 3;
+  constexpr std::size_t kMostLines = 5;
   constexpr double kLineHeight = 26;
   const TextStyle quiet{kLeastDeskLabel + 0.1, Weight::regular, Role::quiet_ink, Role::none};
   const double width = list.page.x - 2 * kMargin, bottom = list.page.y - 26;
@@ -256,7 +256,7 @@ class OverviewPage {
     const std::string how = fmt::format(
         "{} problem{}, {} runs. Each plot: a run's error (of the quantity named at its upper "
         "right) "
-        "against its seconds, both logarithmic; lower left is better.",
+        "against its processor seconds, both logarithmic; lower left is better.",
         problems_.size(), problems_.size() == 1 ? "" : "s",
         std::ranges::count_if(measurement_.rows, &Row::was_run));
     labels_.add(shortened(how, inner(), quiet), {{kOverviewMargin, 110}, 0}, quiet, place);
@@ -268,9 +268,8 @@ class OverviewPage {
     draw_plot_legend(legend_, band(y, y + height), kSmall, list_, labels_);
     y += height + 4;
     const std::string rest =
-        "Dashed: other engines. Open marks: runs that diverged, collapsed (placed by their steps "
-        "if not timed) or were off. Thin bars: quartiles. Stairs: no run has both less error and "
-        "less time. Dashed grey: estimated rounding floor.";
+        "Dashed: other engines. Open marks: failed runs. Thin bars: 95 % intervals. Stairs: "
+        "unbeaten runs of the world's step. Dashed grey: floors.";
     labels_.add(shortened(rest, inner(), kSmallPrint), {{kOverviewMargin, y + 17}, 0}, kSmallPrint,
                 band(y, y + 26));
     return y + 44;
@@ -336,17 +335,22 @@ void draw_page_title(const std::string& title, const std::string& rest, double m
 
 std::string circumstances_text(const Circumstances& c) {
   std::string text = "Lantern " + c.version;
-  for (const std::string& part : {c.compiler, c.flags, c.processor})
+  for (const std::string& part : {c.date, c.processor, c.compiler, c.flags})
     if (!part.empty()) text += " · " + part;
+  if (c.cores > 0)
+    text += fmt::format(" · {} core{}, load {:.1f} to {:.1f}", c.cores, c.cores == 1 ? "" : "s",
+                        c.load_at_start, c.load_at_end);
   return text +
          fmt::format(" · seed {}{}", c.seed, c.effort.empty() ? "" : " · effort: " + c.effort);
 }
 
 DrawList draw_problem(const ProblemRows& problem, const Measurement& measurement) {
   auto [left, right] = plots_of(problem, looks_of(measurement.rows));
-  return draw_plots(
-      problem, has_whole_errors(problem) ? "outcome against cost" : "error against cost",
-      std::move(left), std::move(right), notes_on(problem), measurement.circumstances);
+  std::vector<std::string> notes = notes_on(problem);
+  notes.insert(notes.begin(), who_is_quickest(problem));
+  return draw_plots(problem,
+                    has_whole_errors(problem) ? "outcome against cost" : "error against cost",
+                    std::move(left), std::move(right), std::move(notes), measurement.circumstances);
 }
 
 DrawList draw_drift(const ProblemRows& problem, const Measurement& measurement) {
@@ -354,6 +358,32 @@ DrawList draw_drift(const ProblemRows& problem, const Measurement& measurement) 
   LANTERN_CHECK(plots.has_value(), ==, true);
   return draw_plots(problem, "drift with time", std::move(plots->error), std::move(plots->energy),
                     {}, measurement.circumstances);
+}
+
+DrawList draw_slide(const ProblemRows& problem, const Measurement& measurement) {
+  DrawList list;
+  Labels labels(list);
+  const TextStyle head{38, Weight::semibold, Role::ink, Role::none};
+  const TextStyle words{29, Weight::regular, Role::ink, Role::none};
+  const double width = list.page.x - 2 * kMargin;
+  labels.add(shortened(problem_words(problem) + ": error against run time", width, head),
+             {{kMargin, 66}, 0}, head, {{kMargin, 20}, {list.page.x - kMargin, 84}});
+  std::vector<std::string> lines = wrapped(who_is_quickest(problem), width, words);
+  if (lines.size() > 3) lines.resize(3), lines[2] = shortened(lines[2] + " …", width, words);
+  double y = list.page.y - 34 - 36 * static_cast<double>(lines.size() - 1);
+  const double bottom = y - 46;
+  for (const std::string& line : lines) {
+    labels.add(line, {{kMargin, y}, 0}, words,
+               {{kMargin, bottom}, {list.page.x - kMargin, list.page.y - 10}});
+    y += 36;
+  }
+  Plot plot = plots_of(problem, looks_of(measurement.rows)).first;
+  plot.title.clear();
+  for (PlotSeries& series : plot.series)  // orders are on the other page
+    series.name = series.name.substr(0, series.name.find(": "));
+  plot.size = 27;
+  draw_plot(plot, {{kMargin, 96}, {list.page.x - kMargin, bottom}}, list, labels);
+  return list;
 }
 
 DrawList draw_overview(const Measurement& measurement, const std::vector<Bar>& bars) {

@@ -21,6 +21,9 @@ std::string circumstances_text(const Circumstances& circumstances);
 DrawList draw_problem(const ProblemRows& problem, const Measurement& measurement);
 DrawList draw_drift(const ProblemRows& problem, const Measurement& measurement);
 
+// One plot to be projected: error against run time, names at the lines, who_is_quickest() below.
+DrawList draw_slide(const ProblemRows& problem, const Measurement& measurement);
+
 // All of a measurement on one page: a small plot of each problem, and the bars.
 // In the proportions of A3, 1600 units wide (2263 high) or as much larger as many problems need;
 // for fewer than five only as high as these need.

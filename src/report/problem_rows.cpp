@@ -186,7 +186,7 @@ Looks looks_of(std::span<const Row> rows) {
   return looks;
 }
 
-std::optional<double> observed_order(std::span<const Row> rows) {
+std::optional<Order> observed_order(std::span<const Row> rows) {
   constexpr double kBegun = 0.5;      // an error larger than this says nothing of the order
   constexpr double kOverFloor = 100;  // times the estimate
   constexpr double kEven = 0.35;      // how far a local slope may be from the middle one
@@ -216,7 +216,23 @@ std::optional<double> observed_order(std::span<const Row> rows) {
   }
   if (length < 2) return std::nullopt;
   const double order = fitted(std::span(samples).subspan(from, length + 1));
-  return order > 0 ? std::optional(order) : std::nullopt;
+  if (!(order > 0)) return std::nullopt;
+  double spread = 0;
+  for (const double one : std::span(slopes).subspan(from, length))
+    spread = std::max(spread, std::abs(one - order));
+  return Order{order, spread};
+}
+
+std::span<const Row> observed_floor(std::span<const Row> rows) {
+  const auto falls = [&](std::size_t i) {
+    const auto a = rows[i - 1].error(), b = rows[i].error();
+    return !a || !b || !(*b > 0) || *b < 0.75 * *a;
+  };
+  std::size_t first = rows.size();
+  while (first > 1 && !falls(first - 1)) --first;
+  const bool fell =
+      first > 1 && first < rows.size() && rows[first - 2].error() > rows[first - 1].error();
+  return fell && !is_adaptive(rows[0].method) ? rows.subspan(first - 1) : std::span<const Row>();
 }
 
 double rounding_floor(double steps) { return 0x1p-52 * std::sqrt(std::max(1.0, steps)); }
@@ -255,6 +271,51 @@ std::vector<std::vector<std::string>> equal_methods(const ProblemRows& problem) 
   return groups;
 }
 
+// Of each method that does the world's step, its quickest run that is off by at most so much; the
+// quickest first.
+std::vector<const Row*> quickest(const ProblemRows& problem, double error) {
+  std::map<std::string, const Row*> best;
+  for (const Row& row : problem.rows) {
+    if (is_adaptive(row.method) || !(row.error() <= error) || !row.error() || !seconds_of(row))
+      continue;
+    const Row*& known = best[row.method];
+    if (!known || row.processor.median < known->processor.median) known = &row;
+  }
+  std::vector<const Row*> all;
+  for (const auto& [method, row] : best) all.push_back(row);
+  std::ranges::sort(all, {}, [](const Row* row) { return row->processor.median; });
+  return all;
+}
+
+std::string who_is_quickest(const ProblemRows& problem) {
+  const auto name = [](const Row* row) {
+    const std::string words = row->is_peer() ? row->method : method_words(row->method);
+    return words.substr(0, words.find(" (double)"));
+  };
+  const bool whole = has_whole_errors(problem);
+  std::string text, before;
+  for (int decade = whole ? -15 : -1; decade >= -15; --decade) {
+    const double error = whole ? 0 : std::stod(fmt::format("1e{}", decade));
+    const std::vector<const Row*> all = quickest(problem, error);
+    if (all.size() < 2) continue;
+    std::vector<std::string> first;
+    for (const Row* row : all)
+      if (!all[0]->processor.is_quicker_than(row->processor)) first.push_back(name(row));
+    std::string who = listed(first);
+    std::ranges::sort(first);
+    if (std::exchange(before, listed(first)) == listed(first)) continue;
+    if (first.size() > 3) who = fmt::format("{} methods, {} among them,", first.size(), first[0]);
+    text += text.empty() ? whole ? "For a right outcome " : "At an error of " + figure(error) + " "
+                         : "; from " + figure(error) + " down ";
+    text += first.size() > 1
+                ? who + (first.size() == all.size() ? " tie" : " tie, ahead of the others")
+                : fmt::format("{} costs {:.2g} of what {} costs", who,
+                              all[0]->processor.median / all[1]->processor.median, name(all[1]));
+  }
+  if (!text.empty()) return text + ".";
+  return "Who is the quickest cannot be told here: no two methods were timed at one error.";
+}
+
 std::vector<std::string> notes_on(const ProblemRows& problem) {
   std::vector<std::string> notes;
   double reference_error = 0;
@@ -273,6 +334,13 @@ std::vector<std::string> notes_on(const ProblemRows& problem) {
         fmt::format("The reference is itself off by about {}, its distance from the same run at "
                     "twice its step; no smaller error is claimed.",
                     figure(reference_error)));
+  std::string floors;
+  for (const MethodRows& method : by_method(problem))
+    if (const auto floor = observed_floor(method.rows); !floor.empty())
+      floors += fmt::format("{}{} at {}", floors.empty() ? "" : ", ", method.name(),
+                            figure(*floor.back().error()));
+  if (!floors.empty())
+    notes.push_back("Floors, where smaller steps bring no smaller error: " + floors + ".");
   if (adaptive)
     notes.push_back(
         "Dormand–Prince solves the bare equations of motion, without the world's step: its seconds "
@@ -300,15 +368,15 @@ std::vector<std::size_t> pareto_front(std::span<const Vec<2>> cost_and_error) {
 std::vector<std::size_t> pareto_front(std::span<const Row> rows, const Cost& cost) {
   std::vector<Vec<2>> points;
   for (const Row& row : rows) {
-    const auto error = row.error(), price = cost(row);
+    const auto error = is_adaptive(row.method) ? std::nullopt : row.error(), price = cost(row);
     points.push_back(error && price ? Vec<2>{*price, *error} : Vec<2>(std::nan("")));
   }
   return pareto_front(points);
 }
 
 std::optional<double> seconds_of(const Row& row) {
-  if (row.timing.repeats < 1 || !std::isfinite(row.timing.median)) return std::nullopt;
-  return row.timing.median;
+  if (row.processor.repeats < 1 || !std::isfinite(row.processor.median)) return std::nullopt;
+  return row.processor.median;
 }
 
 }  // namespace lantern::report

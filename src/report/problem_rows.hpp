@@ -43,11 +43,22 @@ bool has_whole_errors(const ProblemRows& problem);
 using Looks = std::map<std::string, int>;
 Looks looks_of(std::span<const Row> rows);
 
+// An order, and how far the slopes between neighbouring rows lie from it, at most.
+struct Order {
+  double exponent = 0, spread = 0;
+  std::string words() const { return fmt::format("{:.2f}±{:.2f}", exponent, spread); }
+};
+
 // p in error ~ step^p: least squares through the logarithms of the rows above the rounding floor,
 // where the error has begun to shrink evenly. Nothing for fewer than three such rows, or if no even
 // piece is there, or if the error grows as steps shrink. An adaptive method has none: its steps are
 // tolerances.
-std::optional<double> observed_order(std::span<const Row> rows);
+std::optional<Order> observed_order(std::span<const Row> rows);
+
+// The rows, the largest step first, from which on no error is a quarter smaller than that before
+// it, if there are two at least and it fell above them: a floor, of rounding or of the method. None
+// of an adaptive method.
+std::span<const Row> observed_floor(std::span<const Row> rows);
 
 // An estimate of what rounding alone leaves after so many steps: 2^-52 times their square root, as
 // of a random walk (Henrici, "Discrete Variable Methods", 1962). Relative.
@@ -67,6 +78,13 @@ WorkCount work_count(const ProblemRows& problem);
 // they round differently. Names, two or more a group, in order of their first rows.
 std::vector<std::vector<std::string>> equal_methods(const ProblemRows& problem);
 
+// The line for a student: to be off by at most so much, which method is the quickest, how the next
+// one compares, and from which error on another one wins. Errors are decades, or 0 where they are
+// whole numbers. Each method takes its quickest run that is so good; whom another measurement might
+// rank otherwise are told as equal. Who does not do the world's step is left out. Or why there is
+// no such line.
+std::string who_is_quickest(const ProblemRows& problem);
+
 // What a reader must know beside the numbers: what the main norm is, how good its reference is, and
 // who is measured otherwise than the rest. A sentence each.
 std::vector<std::string> notes_on(const ProblemRows& problem);
@@ -80,10 +98,11 @@ using Cost = std::function<std::optional<double>(const Row&)>;
 // of them less; ascending in cost. Of equal points the first. Points that are not finite are out.
 std::vector<std::size_t> pareto_front(std::span<const Vec<2>> cost_and_error);
 
-// The same of rows, which should be of one problem: those that are ok, with an error and a cost.
+// The same of rows, which should be of one problem: those that are ok, with an error and a cost,
+// and that do the world's step, so that like stands beside like.
 std::vector<std::size_t> pareto_front(std::span<const Row> rows, const Cost& cost);
 
-// Seconds of a whole run; nothing for a row that was not timed.
+// Processor seconds of a whole run; nothing for a row that was not timed.
 std::optional<double> seconds_of(const Row& row);
 
 // One plot of a problem: its methods as series, the observed order behind each name if

@@ -312,16 +312,19 @@ class WebPage {
 
   void add_machines() {
     put("<div class=\"wide\"><table><thead><tr><th></th>");
-    for (const char* name : {"Lantern", "sources", "compiler", "flags", "processor", "effort"})
+    for (const char* name : {"Lantern", "sources", "compiler", "flags", "processor", "cores",
+                             "load", "date", "effort"})
       put("<th>{}</th>", name);
     put("</tr></thead><tbody>\n");
     for (std::size_t i = 0; i < document_.machines.size(); ++i) {
       const Circumstances& c = document_.machines[i];
       put("<tr{}><th>{}</th>", is_shared() ? fmt::format(" class=\"k{}\"", i) : "",
           is_shared() ? machine_name(i) : "");
-      for (const std::string* cell :
-           {&c.version, &c.sources, &c.compiler, &c.flags, &c.processor, &c.effort})
-        put("<td>{}</td>", escaped(*cell));
+      const std::string cores = fmt::format("{}", c.cores),
+                        load = fmt::format("{:.1f} to {:.1f}", c.load_at_start, c.load_at_end);
+      for (const std::string& cell :
+           {c.version, c.sources, c.compiler, c.flags, c.processor, cores, load, c.date, c.effort})
+        put("<td>{}</td>", escaped(cell));
       put("</tr>\n");
     }
     put("</tbody></table></div>\n");

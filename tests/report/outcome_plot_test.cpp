@@ -67,7 +67,7 @@ TEST(OutcomePage, IsLaidOutHoweverManyTakePart) {
       draw("timed");
       m.rows[0].status = Status::diverged;
       draw("one diverged");
-      for (Row& r : m.rows) r.timing = {};
+      for (Row& r : m.rows) r.timing = r.processor = {};
       draw("untimed");
       for (Row& r : m.rows) r.counted = {};
       draw("nothing counted");

@@ -19,7 +19,7 @@ std::vector<std::pair<std::string, Measurement>> measurements() {
   std::vector<std::pair<std::string, Measurement>> all = {
       {"nine", samples::measurement()}, {"none", {}}, {"one", samples::measurement(1)}};
   Measurement untimed = samples::measurement(8, 2);
-  for (Row& row : untimed.rows) row.timing = {};
+  for (Row& row : untimed.rows) row.timing = row.processor = {};
   all.push_back({"untimed", untimed});
   Measurement failed = samples::measurement(3, 3);
   for (Row& row : failed.rows) {

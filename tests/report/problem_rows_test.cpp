@@ -23,7 +23,7 @@ TEST(Order, IsFoundAboveTheFloor) {
   for (const double order : {1.0, 2.0, 4.0}) {
     const auto found = observed_order(power(order, 1, 1e-13, 9));
     ASSERT_TRUE(found) << order;
-    EXPECT_NEAR(*found, order, 0.02) << "rows at the floor were fitted too";
+    EXPECT_NEAR(found->exponent, order, 0.02) << "rows at the floor were fitted too";
   }
 }
 
@@ -33,7 +33,66 @@ TEST(Order, OfCoarseStepsThatDoNotShrinkYetIsNotMixedIn) {
   rows[1].norms[0].value = 0.3;
   const auto found = observed_order(rows);
   ASSERT_TRUE(found);
-  EXPECT_NEAR(*found, 2, 0.02);
+  EXPECT_NEAR(found->exponent, 2, 0.02);
+}
+
+TEST(Order, IsToldWithHowFarItsSlopesLieFromIt) {
+  EXPECT_LT(observed_order(power(2, 1, 0, 6))->spread, 1e-9);
+  std::vector<Row> rows = power(2, 1, 0, 6);
+  rows[3].norms[0].value *= 1.1;  // one slope is less by log2 1.1 = 0.14, the next one more
+  EXPECT_NEAR(observed_order(rows)->spread, 0.14, 0.03);
+}
+
+TEST(Floor, BeginsWhereTheErrorNoLongerFalls) {
+  const std::vector<Row> rows = power(2, 1, 1e-4, 9);
+  const auto floor = observed_floor(rows);
+  ASSERT_GE(floor.size(), 2u);
+  for (const Row& row : floor) EXPECT_EQ(row.error(), 1e-4);
+  EXPECT_TRUE(observed_floor(power(2, 1, 0, 9)).empty()) << "it falls to its end";
+  EXPECT_TRUE(observed_floor(power(0, 1, 0, 9)).empty()) << "it never fell";
+}
+
+Row timed_row(const std::string& method, double error, double seconds, double half = 0.01) {
+  Row row = samples::row(method, 0.1, error, seconds, 1);
+  row.processor.low = (1 - half) * seconds;
+  row.processor.high = (1 + half) * seconds;
+  return row;
+}
+std::string quickest_of(std::vector<Row> rows) {
+  return who_is_quickest({"p", "p", "plain", std::move(rows)});
+}
+
+TEST(WhoIsQuickest, IsToldFromTheCoarsestErrorThatTwoReachDown) {
+  EXPECT_EQ(
+      quickest_of({timed_row("velocity_verlet", 0.9e-2, 1), timed_row("velocity_verlet", 0.9e-4, 9),
+                   timed_row("runge_kutta_4", 0.9e-2, 3), timed_row("runge_kutta_4", 0.9e-4, 4.5)}),
+      "At an error of 0.1 velocity Verlet costs 0.33 of what Runge–Kutta 4 costs; from 0.001 down "
+      "Runge–Kutta 4 costs 0.5 of what velocity Verlet costs.");
+}
+
+TEST(WhoIsQuickest, IsATieWhereAnotherMeasurementMightRankOtherwise) {
+  const Row a = timed_row("velocity_verlet", 0.05, 1);
+  for (Row b : {timed_row("exact", 0.05, 1.5, 0.4), timed_row("exact", 0.05, 1.05, 0.001)})
+    EXPECT_NE(quickest_of({a, b}).find(" tie."), std::string::npos) << quickest_of({a, b});
+  Row few = timed_row("exact", 0.05, 3);
+  few.processor.repeats = 5;
+  EXPECT_NE(quickest_of({a, few}).find(" tie."), std::string::npos) << "five repeats rank nobody";
+  few.processor.repeats = 6;
+  EXPECT_EQ(quickest_of({a, few}).find(" tie."), std::string::npos);
+}
+
+TEST(WhoIsQuickest, HoldsStepsOfAWorldBesideEachOtherAlone) {
+  const std::vector<Row> rows = {timed_row("velocity_verlet", 0.05, 1), timed_row("exact", 0.05, 2),
+                                 timed_row("dormand_prince", 1e-9, 1e-3)};
+  EXPECT_EQ(quickest_of(rows).find("Dormand"), std::string::npos) << quickest_of(rows);
+  EXPECT_EQ(pareto_front(rows, seconds_of), (std::vector<std::size_t>{0}));
+}
+
+TEST(WhoIsQuickest, IsNotToldOfOneMethodOrWithoutTimes) {
+  EXPECT_NE(quickest_of({timed_row("exact", 0.05, 1)}).find("cannot be told"), std::string::npos);
+  EXPECT_NE(
+      quickest_of({timed_row("exact", 0.05, 0), timed_row("a", 0.05, 0)}).find("cannot be told"),
+      std::string::npos);
 }
 
 TEST(Order, OfAnErrorThatGrowsAsStepsShrinkIsNone) {

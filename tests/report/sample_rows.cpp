@@ -76,7 +76,9 @@ Row run(const Problem& problem, const Method& method, double h, Random& random) 
   if (contacts && row.version.empty())
     row.counted.constraint_rows = static_cast<std::uint64_t>(steps * 60 * sweeps);
   const double seconds = steps * each * (contacts ? 60 * sweeps / 10 : 1) * wobble;
-  row.timing = {15, seconds, 0.97 * seconds, 0.99 * seconds, 1.01 * seconds};
+  row.timing = {
+      15, seconds, 0.97 * seconds, 0.99 * seconds, 1.01 * seconds, 0.98 * seconds, 1.02 * seconds};
+  row.processor = row.timing;
   row.hash = random.bits();
   if (h * std::sqrt(problem.stiffness) > method.limit) {
     row.status = Status::diverged;
@@ -103,7 +105,8 @@ Row row(const std::string& method, double step, double error, double seconds,
   r.method = method;
   r.step = step;
   r.norms = {{"traj", error}};
-  if (seconds > 0) r.timing = {15, seconds, seconds, seconds, seconds};
+  if (seconds > 0)
+    r.processor = r.timing = {15, seconds, seconds, seconds, seconds, seconds, seconds};
   r.counted.steps = r.counted.force_evaluations = evaluations;
   return r;
 }
@@ -117,7 +120,11 @@ Measurement measurement(std::size_t problems, std::uint64_t seed) {
                      "-O3 -ffp-contract=off",
                      "Intel(R) Xeon(R) Platinum 8488C",
                      seed,
-                     "normal"};
+                     "normal",
+                     "2026-03-01 12:00 UTC",
+                     2,
+                     0.5,
+                     1.5};
   for (std::size_t i = 0; i < problems; ++i) {
     Problem problem = kProblems[i % std::size(kProblems)];
     const std::string name =

@@ -131,7 +131,7 @@ TEST(HtmlPage, ParsesStandsAloneAndEverySeriesCanBeChosen) {
     EXPECT_EQ(boxes.size(), looks_of(m.rows).size());
   }
   Measurement untimed = samples::measurement(2);
-  for (Row& row : untimed.rows) row.timing = {};
+  for (Row& row : untimed.rows) row.timing = row.processor = {};
   check(page_of(std::span(&untimed, 1), {}));
   check(page_of({}, {}));
 }
@@ -141,7 +141,7 @@ TEST(HtmlPage, TwoMachinesLieInOnePlotAndTheirStatesAreCompared) {
   both[1].circumstances.processor = "Another <processor> & \"more\" \x1b";
   std::size_t own = 0;
   for (Row& row : both[1].rows) {
-    row.timing.median *= 3;
+    row.processor.median *= 3;
     own += !row.is_peer();
   }
   std::ranges::find_if(both[1].rows, [](const Row& row) { return !row.is_peer(); })->hash ^= 1;

@@ -213,8 +213,9 @@ std::vector<Norm> ErrorMetric::norms() const {
 std::string trajectory_meaning(double length, double speed) {
   return fmt::format(
       "largest distance from the reference over the run: |Δx| / {:.3g} units or |Δv| / {:.3g} "
-      "units/s, whichever is larger",
-      length, speed);
+      "units/s, whichever is larger{}",
+      length, speed,
+      std::abs(length - 1) + std::abs(speed - 1) < 1e-9 ? "; over 1, so that it is absolute" : "");
 }
 
 TrajectoryMetric::TrajectoryMetric(long double length, long double speed, ExactStates exact)
