@@ -57,7 +57,10 @@ inline Rotation<3> turned(const Rotation<3>& r, const Vec<3>& by) {
   return {glm::normalize(glm::dquat(c, by * k) * r.q)};
 }
 
-// By which `from` must be turned to be `to`: at most half a turn.
+// By which `from` must be turned to be `to`: in 3D at most half a turn.
+inline double turn_between(const Rotation<2>& from, const Rotation<2>& to) {
+  return to.angle - from.angle;
+}
 inline Vec<3> turn_between(const Rotation<3>& from, const Rotation<3>& to) {
   const glm::dquat q = to.q * glm::conjugate(from.q);
   const Vec<3> v = (q.w < 0 ? -1.0 : 1.0) * Vec<3>(q.x, q.y, q.z);

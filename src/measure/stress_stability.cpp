@@ -211,6 +211,8 @@ double stability_limit(Integrator method, double zeta) {
       return runge_kutta_limit(zeta);
     case Integrator::implicit_midpoint:
     case Integrator::implicit_euler:
+    case Integrator::kahan_li_8:      // these two know no damping
+    case Integrator::dormand_prince:  // and are not tried
       break;
   }
   return std::numeric_limits<double>::infinity();

@@ -19,6 +19,8 @@ enum class Integrator {
   runge_kutta_4,
   implicit_midpoint,
   implicit_euler,
+  kahan_li_8,
+  dormand_prince,
 };
 
 enum class RotationMethod {

@@ -41,6 +41,15 @@ void check_config(const WorldConfig<D>& config) {
       throw Refused("world: sleep_after, sleep_speed or sleep_spin is negative or not finite");
 }
 
+// Some methods know only forces that follow from where bodies are.
+template <int D>
+void require_known(const WorldConfig<D>& config, const Body<D>& body, bool acts,
+                   const char* forces) {
+  const Integrator by = body.integrator.value_or(config.integrator);
+  if (acts && body.is_dynamic() && integration(by).of_places)
+    throw Refused(fmt::format("body '{}': {} knows forces of places alone, no {}", body.name,
+                              to_string(by), forces));
+}
 // Of lists that belong together, all at the places for which `goes(place)`.
 template <class F, class... Lists>
 void erase_where(F&& goes, Lists&... lists) {
@@ -99,11 +108,18 @@ World<D>::World(const World& as, const WorldConfig<D>& config) : World(config) {
                     w.next_spring_, w.next_joint_, w.time_, w.touching_, w.slept_, w.outcome_);
   };
   state_of(*this) = state_of(as);
+  if (config.integrator != as.config_.integrator && integration(config.integrator).of_places)
+    throw Refused(fmt::format("world: {} takes over no world that another integrator has moved",
+                              to_string(config.integrator)));
+  for (const Body<D>& body : bodies_)
+    require_known(config, body, config.contacts != ContactMethod::none, "contacts");
 }
 
 template <int D>
 BodyId World<D>::add(Body<D> body, const Spin<D>& angular_velocity) {
   check_body(body);
+  require_known(config_, body, config_.contacts != ContactMethod::none, "contacts");
+  require_known(config_, body, body.linear_drag > 0 || body.angular_drag > 0, "drag");
   derive_mass(body);
   if (!body.is_dynamic()) body.asleep = false;
   if (body.asleep) {
@@ -445,6 +461,7 @@ SpringId World<D>::add_spring(const Spring<D>& spring) {
   if (a.is_dynamic() && b.is_dynamic() && of_a != of_b)
     throw Refused(fmt::format("spring between '{}' and '{}': one is moved by {}, the other by {}",
                               a.name, b.name, to_string(of_a), to_string(of_b)));
+  for (const Body<D>* end : {&a, &b}) require_known(config_, *end, spring.damping > 0, "damping");
   wake_from(std::array{spring.a, spring.b});
   forces_.springs.push_back(spring);
   forces_.springs.back().id = next_spring_;
@@ -463,6 +480,7 @@ JointId World<D>::add_joint(const Joint<D>& joint) {
   require_finite<D>(joint.at_b, who, "at_b");
   if (joint.kind == JointKind::distance && !(std::isfinite(joint.length) && joint.length > 0))
     throw Refused(fmt::format("{}: length is {}, must be above 0", who, joint.length));
+  for (const Body<D>* end : {&a, &b}) require_known(config_, *end, true, "joints");
   wake_from(std::array{joint.a, joint.b});
   joints_.emplace_back(next_joint_, joint);
   joint_memories_.push_back({});

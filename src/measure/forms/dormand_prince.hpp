@@ -1,5 +1,5 @@
-// Dormand and Prince's pair of fifth and fourth order ("A family of embedded Runge-Kutta formulae",
-// Journal of Computational and Applied Mathematics 6, 1980), with the step chosen by the error.
+// Dormand and Prince's pair (physics/integrate/dormand_prince.hpp), with the step chosen by the
+// error.
 #pragma once
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 
 #include "base/error.hpp"
 #include "base/stop.hpp"
+#include "physics/integrate/dormand_prince.hpp"
 
 namespace lantern::measure {
 
@@ -62,14 +63,6 @@ class DormandPrince {
   // allowed.
   template <class Slope>
   Real attempt(const Slope& slope, Real time, Real h, const State& y) {
-    // Exact fractions; the last row is also the solution of fifth order.
-    static constexpr int kA[6][7] = {{1, 0, 0, 0, 0, 0, 5},
-                                     {3, 9, 0, 0, 0, 0, 40},
-                                     {44, -168, 160, 0, 0, 0, 45},
-                                     {19372, -76080, 64448, -1908, 0, 0, 6561},
-                                     {477901, -1806240, 1495424, 46746, -45927, 0, 167904},
-                                     {12985, 0, 64000, 92750, -45927, 18656, 142464}};
-    static constexpr Real kC[6] = {Real(1) / 5, Real(3) / 10, Real(4) / 5, Real(8) / 9, 1, 1};
     static constexpr Real kE[7] = {Real(71) / 57600,      0,
                                    Real(-71) / 16695,     Real(71) / 1920,
                                    Real(-17253) / 339200, Real(22) / 525,
@@ -78,10 +71,10 @@ class DormandPrince {
     for (int stage = 0; stage < 6; ++stage) {
       for (std::size_t i = 0; i < y.size(); ++i) {
         Real sum = 0;
-        for (int j = 0; j <= stage; ++j) sum += kA[stage][j] * k_[j][i];
-        next_[i] = y[i] + h * sum / kA[stage][6];
+        for (int j = 0; j <= stage; ++j) sum += kDormandPrince[stage][j] * k_[j][i];
+        next_[i] = y[i] + h * sum / kDormandPrince[stage][6];
       }
-      slope(time + kC[stage] * h, next_, k_[stage + 1]);
+      slope(time + time_of_stage<Real>(stage) * h, next_, k_[stage + 1]);
     }
     Real worst = 0;
     for (std::size_t i = 0; i < y.size(); ++i) {

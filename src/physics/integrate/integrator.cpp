@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/scratch.hpp"
+#include "physics/integrate/dormand_prince.hpp"
 #include "physics/integrate/implicit_stage.hpp"
 #include "physics/integrate/smooth_system.hpp"
 #include "physics/joint/constrained_motion.hpp"
@@ -180,6 +181,98 @@ constexpr Integration kRungeKutta4 = {
     .increments = {runge_kutta_4<2>, runge_kutta_4<3>},
     .with_joints = {constrained_runge_kutta_4<2>, constrained_runge_kutta_4<3>}};
 
+// --- the methods for forces that follow from places alone ---
+
+// The increments that lead to `end`.
+template <int D>
+void lead_to(const SmoothSystem<D>& system, const SmoothState<D>& end, double h,
+             std::span<Increment<D>> out) {
+  for (const std::size_t i : system.movers()) {
+    const Body<D>& body = system.bodies()[i];
+    out[i] = {end.kick[i], end.shift[i] - h * system.velocity(end, i), end.twist[i]};
+    if (system.turns(i))
+      out[i].turn = turn_between(freely_turned(body, body.angular_momentum + end.twist[i], h),
+                                 end.orientation[i]);
+  }
+}
+
+// Seventeen steps of Verlet, some of them back in time, whose errors cancel (Kahan and Li, Math.
+// Comp. 66, 1997, s17odr8a; Hairer, Lubich, Wanner, V.3.2): a flight, a kick half way, and a flight
+// that goes on into the next. Symplectic and reversible as each of them; and since free turns are
+// exact, also where torques turn bodies.
+template <int D>
+void kahan_li_8(SmoothSystem<D>& system, double h, std::span<Increment<D>> out) {
+  constexpr double kParts[] = {
+      0.13020248308889008087881763, 0.56116298177510838456196441,  -0.38947496264484728640807860,
+      0.15884190655515560089621075, -0.39590389413323757733623154, 0.18453964097831570709183254,
+      0.25837438768632204729397911, 0.29501172360931029887096624,  -0.60550853383003451169892108};
+  SmoothState<D> state = system.start();
+  double before = 0;
+  for (int step = 0; step < 17; ++step) {
+    const double part = h * kParts[std::min(step, 16 - step)];
+    system.fly(state, state, (before + part) / 2, true);
+    const Pull<D> pull = system.evaluate(state);
+    for (const std::size_t i : system.movers()) {
+      state.kick[i] += part * pull.acceleration[i];
+      state.twist[i] += part * pull.torque[i];
+    }
+    before = part;
+  }
+  system.fly(state, state, before / 2, true);
+  lead_to<D>(system, state, h, out);
+}
+constexpr Integration kKahanLi8 = {.name = "kahan_li_8",
+                                   .order = 8,
+                                   .of_places = true,
+                                   .increments = {kahan_li_8<2>, kahan_li_8<3>}};
+
+// How fast the numbers change that an orientation is written by; and some of them, as one.
+Rotation<2> rate_of(const Rotation<2>&, double spin) { return {spin}; }
+Rotation<3> rate_of(const Rotation<3>& r, const Vec<3>& spin) {
+  return {glm::dquat(0, spin / 2.0) * r.q};
+}
+void add_to(Rotation<2>& r, double time, const Rotation<2>& rate) { r.angle += time * rate.angle; }
+void add_to(Rotation<3>& r, double time, const Rotation<3>& rate) { r.q += time * rate.q; }
+void mend(Rotation<2>&) {}
+void mend(Rotation<3>& r) { r.q = glm::normalize(r.q); }
+
+// The solution of fifth order of Dormand and Prince's pair (dormand_prince.hpp), by six looks.
+template <int D>
+void dormand_prince(SmoothSystem<D>& system, double h, std::span<Increment<D>> out) {
+  const SmoothState<D> start = system.start();
+  SmoothState<D> state = start, rates[6];
+  for (int stage = 0; stage < 6; ++stage) {
+    const Pull<D> pull = system.evaluate(state);
+    rates[stage] = state;
+    for (const std::size_t i : system.movers()) {
+      rates[stage].shift[i] = system.velocity(state, i);
+      rates[stage].orientation[i] =
+          rate_of(state.orientation[i], system.angular_velocity(state, i));
+    }
+    rates[stage].kick = pull.acceleration;
+    rates[stage].twist = pull.torque;
+    system.fly(state, start, h * time_of_stage<double>(stage));  // what no force moves
+    for (const std::size_t i : system.movers()) {
+      state.shift[i] = state.kick[i] = Vec<D>(0.0);
+      state.twist[i] = Spin<D>(0.0);
+      if (system.turns(i)) state.orientation[i] = start.orientation[i];
+      for (int k = 0; k <= stage; ++k) {
+        const double time = h * kDormandPrince[stage][k] / kDormandPrince[stage][6];
+        state.shift[i] += time * rates[k].shift[i];
+        state.kick[i] += time * rates[k].kick[i];
+        state.twist[i] += time * rates[k].twist[i];
+        if (system.turns(i)) add_to(state.orientation[i], time, rates[k].orientation[i]);
+      }
+      if (system.turns(i)) mend(state.orientation[i]);
+    }
+  }
+  lead_to<D>(system, state, h, out);
+}
+constexpr Integration kDormandPrince5 = {.name = "dormand_prince",
+                                         .order = 5,
+                                         .of_places = true,
+                                         .increments = {dormand_prince<2>, dormand_prince<3>}};
+
 // --- the methods whose forces are those of a moment that is still to be found ---
 
 // Implicit midpoint: the forces are those halfway between the start and the end of the step. The
@@ -223,9 +316,9 @@ constexpr Integration kImplicitEuler = {
 // --- all methods ---
 
 MethodList<Integrator, Integration>& methods() {
-  static MethodList<Integrator, Integration> list = {&kExplicitEuler,    &kSemiImplicitEuler,
-                                                     &kVelocityVerlet,   &kRungeKutta4,
-                                                     &kImplicitMidpoint, &kImplicitEuler};
+  static MethodList<Integrator, Integration> list = {
+      &kExplicitEuler,    &kSemiImplicitEuler, &kVelocityVerlet, &kRungeKutta4,
+      &kImplicitMidpoint, &kImplicitEuler,     &kKahanLi8,       &kDormandPrince5};
   return list;
 }
 
@@ -267,6 +360,8 @@ void find_increments(Integrator integrator, std::span<const Body<D>> bodies,
                      std::uint64_t& evaluations) {
   if (!std::isfinite(h) || !(h > 0)) throw Refused(fmt::format("time step {} is not allowed", h));
   SmoothSystem<D> system(bodies, forces, evaluations);
+  if (integration(integrator).of_places && system.any_damping())
+    throw Refused(fmt::format("{} knows neither drag nor damping", to_string(integrator)));
   out.assign(bodies.size(), Increment<D>{});
   integration(integrator).increments.in<D>()(system, h, out);
 }

@@ -49,6 +49,8 @@ struct Integration {
   double lag = 0;             // of the mean velocity behind the new one, as a part of its change
   bool implicit = false;      // solves equations for the end of the step
   bool gains_energy = false;  // by itself, at any step
+  // Refuses drag, damping, joints and contacts: it knows forces that follow from places alone.
+  bool of_places = false;
   BothDimensions<FindIncrements> increments = {};
   BothDimensions<MoveConstrained> with_joints = {};  // if there is none, rows hold the joints
 };
@@ -62,8 +64,9 @@ Integrator add_integrator(const Integration& method);
 // kinematic, asleep). Deterministic: the same input gives the same bits. `evaluations` grows by the
 // number of times that all forces were evaluated. Throws Refused, naming the method and the step,
 // if an implicit method does not converge, for a step that is not above 0, and for a spring or push
-// on a body that is not there. A step beyond an explicit method's limit gives increments that grow,
-// in the end beyond all numbers: it is for the caller to look.
+// on a body that is not there, or for drag and damping that the method does not know. A step beyond
+// an explicit method's limit gives increments that grow, in the end beyond all numbers: it is for
+// the caller to look.
 template <int D>
 void find_increments(Integrator integrator, std::span<const Body<D>> bodies,
                      const Forces<D>& forces, double h, Scratch<Increment<D>>& out,

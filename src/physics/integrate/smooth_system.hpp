@@ -193,17 +193,20 @@ class SmoothSystem {
   }
 
   // Places are those of the start and the velocities of `with` for `time`; `with` may be `state`.
-  // Kinematic bodies are where they are at that time.
-  void fly(SmoothState<D>& state, const SmoothState<D>& with, double time) const {
+  // Kinematic bodies are where they are at that time. Or places go on from those of the state.
+  void fly(SmoothState<D>& state, const SmoothState<D>& with, double time,
+           bool goes_on = false) const {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const Body<D>& body = bodies_[i];
       if (body.kind == BodyKind::static_body || body.asleep) continue;
-      state.shift[i] = time * velocity(with, i);
+      const Vec<D> way = time * velocity(with, i);
+      state.shift[i] = goes_on ? state.shift[i] + way : way;
       // A body that only turns freely still moves the ends of its springs, if any are off its
       // centre; then it is among those that turn, unless it is not to be turned by forces.
       if (turns(i) || !body.may_turn || body.kind == BodyKind::kinematic_body)
         state.orientation[i] =
-            freely_turned(body, body.angular_momentum + gained_twist(with, i), time);
+            freely_turned(body, goes_on ? state.orientation[i] : body.orientation,
+                          body.angular_momentum + gained_twist(with, i), time);
     }
   }
 
