@@ -178,6 +178,34 @@ TEST(BodyMethods, OneSpringTakesOneMethod) {
       {"'bob', moved by semi_implicit_euler, and 'ann', moved by implicit_midpoint"});
 }
 
+// A ball on a spring beside another one, by a method that knows forces of places alone.
+std::string of_places(const std::string& world, const std::string& ball, const std::string& tie) {
+  return world_text("size = [8, 8]\n" + world,
+                    "[[body]]\nname = \"a\"\nradius = 0.1\nposition = [1, 1]\n" + ball +
+                        "[[body]]\nname = \"b\"\nradius = 0.1\nposition = [3, 1]\n" + tie +
+                        "[[step]]\ndo = \"show\"\n");
+}
+
+TEST(BodyMethods, OfPlacesAloneKnowNoOtherForces) {
+  for (const std::string name : {"kahan_li_8", "dormand_prince"}) {
+    const std::string by = "integrator = \"" + name + "\"\n", no = "'" + name + "' knows no ";
+    const std::string spring = "[[spring]]\na = \"a\"\nb = \"b\"\nstiffness = 1\n";
+    good(of_places(by + "gravity = [0, -10]\ngravitation = 1\n", "", spring));
+    expect_mistakes(of_places("contacts = \"soft\"\nintegrator = @\"" + name + "\"\n", "", ""),
+                    {no + "contacts", "places alone"});
+    expect_mistakes(of_places("contacts = \"soft\"\n", "integrator = @\"" + name + "\"\n", ""),
+                    {no + "contacts"});
+    expect_mistakes(of_places(by, "drag = @1\n", ""), {no + "drag"});
+    expect_mistakes(of_places(by, "angular_drag = @1\n", ""), {no + "drag"});
+    expect_mistakes(of_places("", by + "drag = @1\n", ""), {no + "drag"});
+    expect_mistakes(of_places(by, "", spring + "damping = @0.1\n"), {no + "damping"});
+    const std::string pin = "[[joint]]\nkind = @\"pin\"\na = \"a\"\nb = \"b\"\n";
+    expect_mistakes(of_places(by, "", pin), {no + "joints"});
+    expect_mistakes(of_places("", by, pin), {no + "joints"});
+    good(of_places(by, "integrator = \"velocity_verlet\"\ndrag = 1\n", ""));
+  }
+}
+
 TEST(BodyMethods, AMethodThatIsMeasuredHoldsForAllBodies) {
   Scenario s = good(world_text(kBobWorld, kBobs + kInsertBobs));
   s = moved_by(s, *method_named("velocity_verlet"), 0.01);

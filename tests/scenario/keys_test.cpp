@@ -691,7 +691,7 @@ std::vector<KeyCase> key_cases() {
       {"world",
        "integrator",
        {"\"explicit_euler\"", "\"semi_implicit_euler\"", "\"velocity_verlet\"", "\"runge_kutta_4\"",
-        "\"implicit_midpoint\"", "\"implicit_euler\""},
+        "\"implicit_midpoint\"", "\"implicit_euler\"", "\"kahan_li_8\"", "\"dormand_prince\""},
        bad_choice("runge_kuta_4", "runge_kutta_4")},
       {"world",
        "rotation",

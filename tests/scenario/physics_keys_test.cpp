@@ -98,9 +98,9 @@ TEST(World, RulesAreRead) {
 }
 
 TEST(World, IntegratorsKeepTheirNames) {
-  const std::vector<std::string> names = {"explicit_euler",    "semi_implicit_euler",
-                                          "velocity_verlet",   "runge_kutta_4",
-                                          "implicit_midpoint", "implicit_euler"};
+  const std::vector<std::string> names = {
+      "explicit_euler",    "semi_implicit_euler", "velocity_verlet", "runge_kutta_4",
+      "implicit_midpoint", "implicit_euler",      "kahan_li_8",      "dormand_prince"};
   for (std::size_t i = 0; i < names.size(); ++i)
     EXPECT_EQ(good(kFlat + "integrator = \"" + names[i] + "\"\n" + kShow).world.integrator,
               static_cast<Integrator>(i))

@@ -134,6 +134,12 @@ void check_matter(const TableReader& table, const BodySpec& body, const Draft& d
     table.bad_key("asleep", kNothingSleeps, kGiveSleep);
   else if (body.asleep && !is_dynamic)
     table.bad_key("asleep", "only a dynamic body sleeps", "leave out 'asleep'");
+  const WorldSpec& world = draft.scenario.world;
+  const Integrator by = body.integrator.value_or(world.integrator);
+  if (body.integrator)
+    check_knows(table, "integrator", by, world.contacts != ContactMethod::none, "contacts");
+  check_knows(table, "drag", by, is_dynamic && body.linear_drag > 0, "drag");
+  check_knows(table, "angular_drag", by, is_dynamic && body.angular_drag > 0, "drag");
   for (const char* key : {"integrator", "rotation"})
     if (table.is_good(key) && !is_dynamic)
       table.bad_key(key, "no force moves or turns this body",

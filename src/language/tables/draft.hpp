@@ -103,6 +103,11 @@ void for_each(const TableReader& from, std::string_view key, Draft& draft, F&& f
   }
 }
 
+// True, and a problem at the key, if the integrator knows forces of places alone and something else
+// `acts`.
+bool check_knows(const TableReader& table, std::string_view key, Integrator by, bool acts,
+                 std::string_view what);
+
 // Each reads its part of the file into the draft, in this order.
 using ReadPart = void(const TableReader& file, Draft& draft);
 ReadPart read_world, read_display, read_bodies, read_links, read_level, read_chart, read_problem,

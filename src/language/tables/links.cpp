@@ -48,6 +48,18 @@ void check_integrators(std::size_t a, std::size_t b, const TableReader& table, D
         "give both the same integrator");
 }
 
+void check_forces(const TableReader& table, const LinkSpec& link,
+                  std::initializer_list<std::optional<std::size_t>> ends, const Draft& draft) {
+  const bool is_spring = link.kind == LinkSpec::Kind::spring;
+  for (const auto& end : ends)
+    if (end && is_dynamic(*end, draft) &&
+        check_knows(
+            table, is_spring ? "damping" : "kind",
+            draft.scenario.bodies[*end].integrator.value_or(draft.scenario.world.integrator),
+            !is_spring || link.damping > 0, is_spring ? "damping" : "joints"))
+      return;
+}
+
 // Between `a` and `b`, or `a` and a point of the world.
 void read_pair(const TableReader& table, LinkSpec link, Draft& draft) {
   const bool has_b = table.has("b"), has_to = table.has("to");
@@ -61,6 +73,7 @@ void read_pair(const TableReader& table, LinkSpec link, Draft& draft) {
   const auto a = body_at(table, "a", draft), b = body_at(table, "b", draft);
   if (has_to) link.at_b = table.get<Vec<3>>("to").value_or(Vec<3>(0.0));
   if (!a || (has_b && !b)) return;
+  check_forces(table, link, {a, b}, draft);
   link.a = *a;
   link.b = b;
   if (b && *a == *b)
@@ -95,6 +108,7 @@ void read_chain(const TableReader& table, const LinkSpec& like, Draft& draft) {
   if (!is_dynamic(range->first, draft))
     table.bad_value("along", "it ties nothing that it could move",
                     "the pattern's bodies must be dynamic");
+  check_forces(table, like, {range->first}, draft);
   if (!has_room(range->count - 1, table.where(), draft)) return;
   for (std::size_t i = 0; i + 1 < range->count; ++i) {
     LinkSpec link = like;

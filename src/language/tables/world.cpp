@@ -3,6 +3,7 @@
 
 #include "language/keys/key.hpp"
 #include "language/script/script_reading.hpp"
+#include "physics/integrate/integrator.hpp"
 
 namespace lantern::language {
 namespace {
@@ -195,7 +196,10 @@ TableDoc world_table() {
           "by an angle a in a step of h seconds has at times a²h²k/16m of its energy too much, "
           "and may gain without bound where ah√(k/m) is above 3: a pendulum of 1 kg that swings "
           "by 20 J gets 2e8 J from a spring of 1e12 N a unit in 6 s at 60 steps a second; "
-          "`implicit_euler` loses instead."),
+          "`implicit_euler` loses instead. `kahan_li_8` (order 8, 17 evaluations of the forces a "
+          "step, symplectic and reversible) and `dormand_prince` (order 5, 6 evaluations) are for "
+          "forces that follow from places alone: gravity, `gravitation`, springs and pushes. They "
+          "refuse `contacts`, drag, the damping of springs, and joints."),
       key(&W::rotation, "rotation",
           "How free bodies rotate: exactly, to rounding, at any spin and step; or by a splitting "
           "of order 2 or 4, and exactly only where it would change the energy by more than a "
@@ -259,6 +263,14 @@ TableDoc world_table() {
   return table;
 }
 
+bool check_knows(const TableReader& table, std::string_view key, Integrator by, bool acts,
+                 std::string_view what) {
+  if (!acts || !integration(by).of_places) return false;
+  table.bad_value(key, fmt::format("'{}' knows no {}", to_string(by), what),
+                  "it takes forces that follow from places alone; \"runge_kutta_4\" knows others");
+  return true;
+}
+
 void read_world(const TableReader& file, Draft& draft) {
   draft.has_world = file.has("world");
   for (const TomlValue* value : file.tables("world")) {
@@ -272,6 +284,7 @@ void read_world(const TableReader& file, Draft& draft) {
     w.where = draft.position(value->where);
     for (const KeyDoc& key : world.doc().keys)
       if (world.has(key.key)) w.keys[key.key] = draft.position(world.key_place(key.key));
+    check_knows(world, "integrator", w.integrator, w.contacts != ContactMethod::none, "contacts");
     if (draft.scenario.display.depths && w.contacts == ContactMethod::none)
       world.bad_key("show_depths", kNothingTouches, kGiveContacts);
     check_camera(world, w, draft.dimension);
