@@ -98,7 +98,7 @@ enum class Effort {
   full,    // all that there is
 };
 
-// A method of Lantern's, or "dormand_prince", the adaptive reference of smooth problems.
+// A method of Lantern's, or "dormand_prince:adaptive", the reference of smooth problems.
 bool can_be_measured_by(std::string_view name);
 
 // Why the solver does not run the scenario; nothing if it does. The one place where this is

@@ -305,6 +305,15 @@ std::optional<std::string> LanternSolver::cannot(const Scenario& scenario) const
   const auto is_joint = [](const LinkSpec& link) { return link.kind != LinkSpec::Kind::spring; };
   if (method_.contacts == ContactMethod::lecture && std::ranges::any_of(scenario.links, is_joint))
     return "the lecture has no joints";
+  if (method_.integrator && integration(*method_.integrator).of_places) {
+    if (scenario.world.contacts != ContactMethod::none) return "its bodies collide";
+    for (const BodySpec& body : scenario.bodies)
+      if (body.linear_drag > 0 || body.angular_drag > 0)
+        return fmt::format("body '{}' has drag", body.name);
+    if (std::ranges::any_of(scenario.links, is_joint)) return "it has joints";
+    for (const LinkSpec& link : scenario.links)
+      if (link.damping > 0) return "its springs are damped";
+  }
   if (method_.rotation && scenario.world.dimension == 2) return "a flat body turns by its spin";
   return std::nullopt;
 }
@@ -318,9 +327,14 @@ std::vector<Method> methods_for(const Scenario& scenario) {
     return named(scenario.problem->methods);
   if (scenario.world.contacts != ContactMethod::none)
     return named({"lecture", "impulse", "impulse:100", "soft", "soft:16"});
-  if (has_forces(scenario))
-    return named({"explicit_euler", "semi_implicit_euler", "velocity_verlet", "runge_kutta_4",
-                  "implicit_midpoint", "implicit_euler"});
+  if (has_forces(scenario)) {
+    std::vector<Method> methods;
+    for (const std::string_view name : integrator_names()) {
+      const Method method = *method_named(name);
+      if (!LanternSolver(method).cannot(scenario)) methods.push_back(method);
+    }
+    return methods;
+  }
   if (scenario.world.dimension == 3 && std::ranges::any_of(scenario.bodies, turns_in_space))
     return named({"explicit_gyroscopic", "splitting_2", "splitting_4", "exact"});
   Method as_written;
@@ -348,7 +362,7 @@ std::optional<std::string> DormandPrinceSolver::cannot(const Scenario& scenario)
 }
 
 std::unique_ptr<Simulation> DormandPrinceSolver::start(const Scenario& scenario, double h) const {
-  if (const auto reason = cannot(scenario)) throw Refused("dormand_prince: {}", *reason);
+  if (const auto reason = cannot(scenario)) throw Refused("{}: {}", name(), *reason);
   if (scenario.world.dimension == 3) return std::make_unique<PointSimulation<3>>(scenario, h);
   return std::make_unique<PointSimulation<2>>(scenario, h);
 }

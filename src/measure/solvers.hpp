@@ -25,13 +25,13 @@ class LanternSolver : public Solver {
 // solid world turns, else the file's own method under the name "as written".
 std::vector<Method> methods_for(const Scenario& scenario);
 
-// Dormand and Prince's method as a solver: the reference for smooth problems, at its price.
+// Dormand and Prince's pair as a solver: the reference for smooth problems, at its price.
 // For scenes of points: bodies that neither collide nor are turned, without rods. It chooses its
 // steps itself; what it is given as a step says how exact it is to be: 1e-3 of the scene's size and
 // speed at the problem's largest step, and 32 times better for each halving, down to 1e-14.
 class DormandPrinceSolver : public Solver {
  public:
-  std::string name() const override { return "dormand_prince"; }
+  std::string name() const override { return "dormand_prince:adaptive"; }
   std::optional<std::string> cannot(const Scenario& scenario) const override;
   std::unique_ptr<Simulation> start(const Scenario& scenario, double h) const override;
 };

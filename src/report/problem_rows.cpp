@@ -7,7 +7,7 @@ namespace lantern::report {
 namespace {
 
 // It chooses its steps itself, and moves the bodies without the world's step.
-bool is_adaptive(std::string_view method) { return method == "dormand_prince"; }
+bool is_adaptive(std::string_view method) { return method == "dormand_prince:adaptive"; }
 
 struct KnownMethod {
   std::string_view name, words;
@@ -15,14 +15,16 @@ struct KnownMethod {
 };
 
 // The first ones are those that meet most often in one plot.
-constexpr std::array<KnownMethod, 17> kKnown{{
+constexpr std::array<KnownMethod, 19> kKnown{{
     {"velocity_verlet", "velocity Verlet", 0},
     {"explicit_euler", "explicit Euler", 1},
     {"runge_kutta_4", "Runge–Kutta 4", 2},
     {"implicit_midpoint", "implicit midpoint", 3},
     {"semi_implicit_euler", "semi-implicit Euler", 4},
     {"implicit_euler", "implicit Euler", 5},
-    {"dormand_prince", "Dormand–Prince", 6},
+    {"dormand_prince:adaptive", "Dormand–Prince, adaptive", 6},
+    {"kahan_li_8", "Kahan–Li 8", 8},
+    {"dormand_prince", "Dormand–Prince", 9},
     {"splitting_2", "splitting, order 2", 14},
     {"splitting_4", "splitting, order 4", 16},
     {"explicit_gyroscopic", "explicit gyroscopic", 15},

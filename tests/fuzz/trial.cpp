@@ -282,8 +282,8 @@ void Trial::show(const Frame& frame) {
 // One method at the coarsest step.
 void Trial::measure_it(Dice& dice) {
   static const std::vector<std::string> kMethods = {
-      "semi_implicit_euler", "velocity_verlet", "implicit_midpoint", "splitting_4", "soft:2",
-      "impulse:4",           "dormand_prince"};
+      "semi_implicit_euler", "velocity_verlet", "implicit_midpoint",       "splitting_4", "soft:2",
+      "impulse:4",           "dormand_prince",  "dormand_prince:adaptive", "kahan_li_8"};
   entered_(Stage::measuring);
   try {
     result_.measured = watch_.bounded([&] {

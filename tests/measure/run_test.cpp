@@ -267,14 +267,36 @@ TEST(Timing, HasTheMedianBetweenTwoOfItsRepeats) {
 TEST(Run, WhoDoesNotSuitIsKeptWithTheReason) {
   PlanOptions options;
   options.scenarios = {thrown()};
-  options.methods = {"impulse", "dormand_prince", "velocity_verlet"};
+  options.methods = {"impulse", "dormand_prince:adaptive", "velocity_verlet"};
   options.peers = false;
   const Plan plan(std::move(options), [](const Scenario&) {});
   ASSERT_EQ(plan.unsuited().size(), 2u);
   EXPECT_EQ(plan.unsuited()[0].solver, "impulse");
   EXPECT_EQ(plan.unsuited()[0].reason, "its bodies do not collide");
-  EXPECT_EQ(plan.unsuited()[1].solver, "dormand_prince");
+  EXPECT_EQ(plan.unsuited()[1].solver, "dormand_prince:adaptive");
   EXPECT_EQ(plan.unsuited()[1].reason, "it has no [problem]");
+}
+
+TEST(Run, MethodsOfPlacesAloneAreOfferedWhereTheySuit) {
+  const auto reason = [](std::string_view problem) {
+    std::string found = "none";
+    for (const char* name : {"kahan_li_8", "dormand_prince"}) {
+      const Scenario scenario = known_problem(problem);
+      const auto why = why_not(LanternSolver(*method_named(name)), scenario);
+      const std::vector<Method> offered = methods_for(scenario);
+      if (scenario.problem->methods.empty())
+        EXPECT_EQ(std::ranges::count(offered, name, &Method::name), why ? 0 : 1) << problem;
+      found = why.value_or("none");
+    }
+    return found;
+  };
+  EXPECT_EQ(reason("kepler"), "none");
+  EXPECT_EQ(reason("oscillator"), "none");
+  EXPECT_EQ(reason("oscillator_damped"), "its springs are damped");
+  EXPECT_EQ(reason("double_pendulum"), "it has joints");
+  EXPECT_EQ(reason("stack"), "its bodies collide");
+  EXPECT_TRUE(can_be_measured_by("dormand_prince"));
+  EXPECT_TRUE(can_be_measured_by("dormand_prince:adaptive"));
 }
 
 TEST(Run, AWrongStepNamesTheScenario) {

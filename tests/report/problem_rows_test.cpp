@@ -117,7 +117,7 @@ TEST(Order, IsNotClaimedFromTooLittle) {
   EXPECT_FALSE(observed_order(power(2, 1e-14, 0, 8))) << "only rounding";
   EXPECT_FALSE(observed_order(power(1, 1e6, 0, 8))) << "errors beyond all sense";
   std::vector<Row> adaptive = power(1, 1, 0, 8);
-  for (Row& row : adaptive) row.method = "dormand_prince";
+  for (Row& row : adaptive) row.method = "dormand_prince:adaptive";
   EXPECT_FALSE(observed_order(adaptive)) << "its steps are tolerances";
   std::vector<Row> failed = power(1, 1, 0, 8);
   for (Row& row : failed) row.status = Status::diverged;
@@ -173,7 +173,7 @@ TEST(MethodWords, ReadAsWords) {
 ProblemRows problem_of(std::vector<Row> rows) { return {"p", "p", "plain", std::move(rows)}; }
 
 TEST(Notes, DefineTheNormAndNameWhoIsMeasuredOtherwise) {
-  Row own = samples::row("dormand_prince", 0.1, 1e-9, 1e-3, 100);
+  Row own = samples::row("dormand_prince:adaptive", 0.1, 1e-9, 1e-3, 100);
   own.norms[0] = {"depth", 0.1, "units", "deepest overlap"};
   const std::vector<std::string> notes = notes_on(problem_of({own}));
   ASSERT_EQ(notes.size(), 2u);
