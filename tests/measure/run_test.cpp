@@ -284,8 +284,9 @@ TEST(Run, MethodsOfPlacesAloneAreOfferedWhereTheySuit) {
       const Scenario scenario = known_problem(problem);
       const auto why = why_not(LanternSolver(*method_named(name)), scenario);
       const std::vector<Method> offered = methods_for(scenario);
-      if (scenario.problem->methods.empty())
+      if (scenario.problem->methods.empty()) {
         EXPECT_EQ(std::ranges::count(offered, name, &Method::name), why ? 0 : 1) << problem;
+      }
       found = why.value_or("none");
     }
     return found;
