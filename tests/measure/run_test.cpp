@@ -313,7 +313,7 @@ TEST(Run, AWrongStepNamesTheScenario) {
 }
 
 TEST(Run, MethodsAreThoseThatMakeADifference) {
-  EXPECT_EQ(methods_for(thrown()).size(), 6u);
+  EXPECT_EQ(methods_for(thrown()).size(), 8u);
   EXPECT_EQ(methods_for(thrown("")).size(), 1u) << "free flight is the same by all";
   for (const Method& method : methods_for(thrown("contacts = \"soft\"")))
     EXPECT_TRUE(method.contacts.has_value()) << method.name;
