@@ -163,17 +163,17 @@ std::string told(const Pile& pile) {
 template <int D, int Count>
 StressResult stack_of() {
   const Pile pile = pile_of<D>(Count);
-  return at_most(1e-4, largest(pile.depth, pile.moved), "m", told(pile) + "; 16 sub-steps");
+  return at_most(5e-8, largest(pile.depth, pile.moved), "m", told(pile) + "; 16 sub-steps");
 }
 StressResult stack_of_100() {
   const Pile pile = pile_of<2>(100);
-  return at_most(1e-3, pile.moved, "m", told(pile) + "; 16 sub-steps");
+  return at_most(1e-8, pile.moved, "m", told(pile) + "; 16 sub-steps");
 }
 
 template <int D, int Decades>
 StressResult heavy_on_light() {
   const Pile pile = pile_of<D>(2, std::pow(10.0, Decades));
-  return at_most(5e-3, largest(pile.depth, pile.moved), "m",
+  return at_most(1e-8, largest(pile.depth, pile.moved), "m",
                  fmt::format("{}; 1e{} : 1", told(pile), Decades));
 }
 
@@ -209,7 +209,7 @@ double chain_stretch(JointKind kind, double ratio, int sub_steps = 16) {
 template <JointKind Kind>
 StressResult heavy_chain() {
   const double flat = chain_stretch<2>(Kind, 1000), solid = chain_stretch<3>(Kind, 1000);
-  return at_most(10e-3, largest(flat, solid), "m",
+  return at_most(1e-12, largest(flat, solid), "m",
                  fmt::format("2D {:.1e} m, 3D {:.1e} m; ten links, 1000 : 1", flat, solid));
 }
 
@@ -258,9 +258,9 @@ std::vector<StressCase> contact_cases() {
       {"pi_by_blocks", kGroup, "Two blocks of mass ratio 1e6 and a wall count the digits of pi.",
        none_above(0, "impacts", "off floor(pi 10^k), k = 0 ... 3: 3, 31, 314, 3141", pi_by_blocks)},
       {"sliding", "bars", "A box thrown along the floor stops after v^2/(2 mu g).",
-       none_above(1e-6, "m", "5 m/s, friction 0.1, 0.5, 1, 10; 2D and 3D", sliding<2>, sliding<3>)},
+       none_above(2e-11, "m", "5 m/s, friction 0.1, 0.5, 1, 10; 2D and 3D", sliding<2>, sliding<3>)},
       {"headings", "bars", "A box slides equally far in every direction.",
-       none_above(1e-6, "m", "24 headings, 3 m/s, friction 0.5", headings)}};
+       none_above(5e-13, "m", "24 headings, 3 m/s, friction 0.5", headings)}};
 }
 
 // The bars: 1 m boxes, g = 10, h = 1/60 s, 10 s unless said.
@@ -276,9 +276,9 @@ std::vector<StressCase> bar_cases() {
       {"torque_free_momentum", kGroup, "A tumbling box keeps its angular momentum.",
        none_above(1e-12, "relative", kBox, torque_free_momentum)},
       {"torque_free_energy", kGroup, "A tumbling box keeps its energy.",
-       none_above(2e-6, "relative", kBox, torque_free_energy)},
+       none_above(5e-13, "relative", kBox, torque_free_energy)},
       {"needle_energy", kGroup, "A spinning needle keeps its energy.",
-       none_above(2e-6, "relative", "1 : 100, nearly no inertia about its axis, 10 s at 1 ms",
+       none_above(1e-11, "relative", "1 : 100, nearly no inertia about its axis, 10 s at 1 ms",
                   needle_energy)},
       {"stack_of_60", kGroup, "A stack of 60 boxes stands, in 2D.", stack_of<2, 60>},
       {"stack_of_10_solid", kGroup, "A stack of 10 boxes stands, in 3D.", stack_of<3, 10>},
@@ -293,7 +293,7 @@ std::vector<StressCase> bar_cases() {
       {"chain_of_pins", kGroup, "A chain of hinges holds an end of a thousand times its mass.",
        heavy_chain<JointKind::pin>},
       {"heaviest_chain", kGroup, "A chain of rods holds an end of a million times its mass.",
-       none_above(10e-3, "m", "widest gap of a rod; ten links, 1e6 : 1, 256 sub-steps",
+       none_above(1e-12, "m", "widest gap of a rod; ten links, 1e6 : 1, 256 sub-steps",
                   heaviest_chain)},
       {"one_hash_2d", kGroup, kOne, one_hash<2>},
       {"one_hash_3d", kGroup, kOne, one_hash<3>}};

@@ -263,7 +263,7 @@ std::vector<StressCase> step_cases() {
        none_wrong("steps", "taken, of {} that are negative or no number", bad_steps_taken<2>,
                   bad_steps_taken<3>)},
       {"step_tiny", kGroup, "What rests does so at steps of 1e-12 s.",
-       none_above(1e-3, "m", "what rests has moved; h = 1e-12 and 1e-9, every method, 2D and 3D",
+       none_above(1e-14, "m", "what rests has moved; h = 1e-12 and 1e-9, every method, 2D and 3D",
                   step_tiny)},
       {"step_huge", kGroup,
        "What rests does so at steps of 1000 s, or the world says who does not.",
@@ -312,7 +312,7 @@ std::vector<StressCase> stiff_cases() {
        none_above(1e-9, "relative", "most above the start; 20 nets of 12 masses, k to 6.7e9",
                   stiff_nets)},
       {"stiff_pendulum", kGroup, "A spring of k/m = 1e8 holds a pendulum's length like a rod.",
-       none_above(0.01, "m", "the rod's length, 10 s at 1/60 s", stiff_pendulum)}};
+       none_above(1e-5, "m", "the rod's length, 10 s at 1/60 s", stiff_pendulum)}};
 }
 
 }  // namespace lantern::measure

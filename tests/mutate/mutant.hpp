@@ -43,6 +43,22 @@ LANTERN_OPERATOR(times, *, /)
 LANTERN_OPERATOR(over, /, *)
 #undef LANTERN_OPERATOR
 
+// One of two terms or factors is left out.
+#define LANTERN_DROPPED(name, op)                             \
+  template <int N, class A, class B>                          \
+  auto first_of_##name(const A& a, const B& b) {              \
+    return on<N>() ? static_cast<decltype(a op b)>(a) : a op b; \
+  }                                                           \
+  template <int N, class A, class B>                          \
+  auto last_of_##name(const A& a, const B& b) {               \
+    return on<N>() ? static_cast<decltype(a op b)>(b) : a op b; \
+  }
+LANTERN_DROPPED(plus, +)
+LANTERN_DROPPED(minus, -)
+LANTERN_DROPPED(times, *)
+LANTERN_DROPPED(over, /)
+#undef LANTERN_DROPPED
+
 #define LANTERN_ASSIGNMENT(name, op, other) \
   template <int N, class A, class B>        \
   A& name(A& a, const B& b) {               \
@@ -65,6 +81,24 @@ bool turned(const A& a) {
 template <int N, class A>
 auto negative(const A& a) {
   return on<N>() ? +a : -a;
+}
+
+template <int N, class A>
+bool always(const A& a) {
+  return on<N>() || static_cast<bool>(a);
+}
+template <int N, class A>
+bool never(const A& a) {
+  return !on<N>() && static_cast<bool>(a);
+}
+
+template <int N, class A>
+A halved(A a) {
+  return on<N>() ? a / 2 : a;
+}
+template <int N, class A>
+A doubled(A a) {
+  return on<N>() ? a * 2 : a;
 }
 
 template <int N, int By, class A>

@@ -30,6 +30,12 @@ HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
 CALL = "::lantern::mutant::"
 
+# Where `wide`: names of what is halved (a step), and of what stands in pairs and is taken for the other.
+HALVED = {"h", "seconds", "step_seconds", "sub_step"}
+PAIRED = {"a": "b", "at_a": "at_b", "arm_a": "arm_b", "body_a": "body_b", "x": "y",
+          "position": "velocity", "linear": "angular", "lo": "hi", "kick": "drift"}
+PAIRED |= {other: one for one, other in PAIRED.items()}
+
 # The rooms whose tests are to notice: folders of src/ and of tests/.
 ROOMS = ("geometry", "atlas", "spatial", "physics")
 
@@ -81,8 +87,8 @@ def load_clang():
 class Finder:
     """All mutants of a room, from the syntax trees of its files."""
 
-    def __init__(self, cindex, room):
-        self.ci, self.room, self.kinds = cindex, room, cindex.CursorKind
+    def __init__(self, cindex, room, wide=False):
+        self.ci, self.room, self.kinds, self.wide = cindex, room, cindex.CursorKind, wide
         self.folder = ROOT / "src" / room
         if not self.folder.is_dir():
             stop(f"there is no room {self.folder.relative_to(ROOT)}")
@@ -156,6 +162,9 @@ class Finder:
         k, kind = self.kinds, cursor.kind
         if not cursor.location.file or cursor.location.file.name != self.file:
             return
+        if self.wide and kind == k.DECL_REF_EXPR and names and cursor.spelling in HALVED:
+            begin, end = self.span(cursor)
+            self.add(names, "halved", begin, end, self.around(begin, end, CALL + "halved<@>("))
         if kind in (k.STATIC_ASSERT, k.ENUM_DECL, k.TYPE_ALIAS_DECL, k.TYPEDEF_DECL, k.FRIEND_DECL,
                     k.TYPE_ALIAS_TEMPLATE_DECL, k.TEMPLATE_TYPE_PARAMETER, k.DECL_REF_EXPR,
                     k.TEMPLATE_NON_TYPE_PARAMETER, k.TEMPLATE_TEMPLATE_PARAMETER,
@@ -232,6 +241,8 @@ class Finder:
     def mutate(self, cursor, children, names, result, above):
         k, kind = self.kinds, cursor.kind
         begin, end = self.span(cursor)
+        if self.wide:
+            self.wider(cursor, children, names, begin, end)
         after = self.token_after(end)[2]
         if kind in (k.BINARY_OPERATOR, k.COMPOUND_ASSIGNMENT_OPERATOR, k.CALL_EXPR) and len(
                 children) >= 2:
@@ -282,6 +293,31 @@ class Finder:
             edits = self.around(begin, end, turned + turned, "))",
                                 [(low, high, f") {sign} {turned}")])
         self.add(names, f"{sign} to {SWAPPED[sign]}", begin, end, edits)
+        if self.wide and sign in "+-*/":
+            for kept in ("first", "last"):
+                self.add(names, f"{kept} of {sign}", begin, end, self.around(
+                    begin, end, f"{CALL}{kept}_of_{BINARY[sign]}<@>(", ")", [(low, high, ",")]))
+
+    # Faults of physics that no swapped operator is: another constant, the other of two, a choice that
+    # is always made or never.
+    def wider(self, cursor, children, names, begin, end):
+        k, kind = self.kinds, cursor.kind
+        if kind == k.FLOATING_LITERAL:
+            for by in ("halved", "doubled"):
+                self.add(names, by, begin, end, self.around(begin, end, f"{CALL}{by}<@>("))
+        if kind == k.MEMBER_REF_EXPR and cursor.spelling in PAIRED and children:
+            low, high = self.span(children[0])
+            base = [t for _, _, t in self.between(low, high)]
+            if len(base) == 1 and low == begin and high < end:
+                other = f"({CALL}on<@>() ? {base[0]}.{PAIRED[cursor.spelling]} : "
+                self.add(names, "the other", begin, end, self.around(begin, end, other))
+        if kind == k.IF_STMT and children and children[0].kind not in (
+                k.DECL_STMT, k.COMPOUND_STMT):
+            low, high = self.span(children[0])
+            if self.token_before(low) != "(":
+                return
+            for by in ("always", "never"):
+                self.add(names, by, low, high, self.around(low, high, f"{CALL}{by}<@>("))
 
     def extreme(self, names, begin, end):
         head = self.between(begin, end)[:4]
@@ -373,13 +409,13 @@ class Tree:
                 path.write_bytes(content)
 
     # The text of what went wrong, or nothing.
-    def compile(self, rooms, jobs):
+    def compile(self, targets, jobs):
         configure = ["cmake", "-S", self.source, "-B", self.build, "-G", "Ninja",
                      "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_BUILD_TYPE=Release",
                      "-DCMAKE_CXX_FLAGS_RELEASE=-O1",
                      "-DCMAKE_CXX_FLAGS=-w -Werror=vla -D_GLIBCXX_ASSERTIONS"]
         build = ["cmake", "--build", self.build, "-j", str(jobs), "--target",
-                 *(f"tests_{room}" for room in rooms), "--", "-k", "0"]
+                 *targets, "--", "-k", "0"]
         for command in (configure, build):
             done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                                   text=True, check=False)
@@ -449,6 +485,27 @@ def chosen(mutants, size, seed):
     rest = [m for i, m in enumerate(one_of_each) if i not in taken]
     draw.shuffle(rest)
     return [one_of_each[i] for i in sorted(taken)], rest
+
+
+def built(tree, mutants, reserve, targets, jobs, verbose=False):
+    """Builds the targets with these mutants. Those that do not compile go, others of their room's
+    reserve come under their numbers; gives how many went."""
+    dropped = 0
+    while True:
+        tree.write(mutants)
+        log = tree.compile(targets, jobs)
+        if log is None:
+            return dropped
+        wrong = not_compiled(log, mutants)
+        if not wrong:
+            stop(f"the mutated sources do not compile:\n{log[-6000:]}")
+        for number in sorted(wrong):
+            dropped += 1
+            mutant = mutants.pop(number)
+            if verbose:
+                print(f"not valid: {key_of(mutant)}")
+            if reserve[mutant.room]:
+                mutants[number] = reserve[mutant.room].pop()
 
 
 # --- running ---
@@ -573,23 +630,9 @@ def main():
         return 0
 
     mutants = dict(enumerate(picked))
-    dropped = 0
     tree = Tree(options.folder)
-    while True:
-        tree.write(mutants)
-        log = tree.compile(options.rooms, options.jobs)
-        if log is None:
-            break
-        wrong = not_compiled(log, mutants)
-        if not wrong:
-            stop(f"the mutated sources do not compile:\n{log[-6000:]}")
-        for number in sorted(wrong):
-            dropped += 1
-            mutant = mutants.pop(number)
-            if options.verbose:
-                print(f"not valid: {key_of(mutant)}")
-            if reserve[mutant.room]:
-                mutants[number] = reserve[mutant.room].pop()
+    dropped = built(tree, mutants, reserve, [f"tests_{room}" for room in options.rooms],
+                    options.jobs, options.verbose)
     print(f"compiled in {time.monotonic() - began:.0f} s; {dropped} were not valid, and others "
           "taken in their place", flush=True)
 

@@ -272,10 +272,11 @@ class SubStep {
     };
     if (std::ranges::none_of(island.bodies, may)) return;
     Scratch<int> touched(island.bodies.size());  // 1: by what stands still, 2: by what moves
-    each_pair([&](const ContactRows<D>& rows, const auto&, const auto&) {
-      touched[rows.a] |= island.bodies[rows.b].moves() ? 2 : 1;
-      touched[rows.b] |= island.bodies[rows.a].moves() ? 2 : 1;
-    });
+    for (const IslandPair<D>& pair : island.pairs) {
+      if (pair.rows.count == 0) continue;
+      touched[pair.rows.a] |= island.bodies[pair.rows.b].moves() ? 2 : 1;
+      touched[pair.rows.b] |= island.bodies[pair.rows.a].moves() ? 2 : 1;
+    }
     for (std::size_t i = 0; i < touched.size(); ++i) {
       if (touched[i] != 1 || !may(island.bodies[i])) continue;
       Increment<D>& increment = island.increments[i];
