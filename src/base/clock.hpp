@@ -90,7 +90,7 @@ inline Timing timing_of(const std::vector<double>& seconds) {
   std::ranges::sort(sorted);
   const std::size_t n = sorted.size();
   std::size_t outside = 0;  // repeats at either end: the median is there with 2.5 % at most
-  double chance = std::exp2(-static_cast<double>(n)), below = chance;
+  double chance = std::ldexp(1.0, -static_cast<int>(n)), below = chance;
   while (below <= 0.025) {
     ++outside;
     chance *= static_cast<double>(n - outside + 1) / static_cast<double>(outside);

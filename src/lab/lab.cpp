@@ -82,7 +82,7 @@ app::Run begin(std::string_view name, Options& rows) {
         stress_experiment(),
         {.command = "stress",
          .file = "stress",
-         .folder_help = "folder for stress.csv, stress.json, stability_map.png and .svg",
+         .folder_help = "folder for stress.csv, stress.json and the map",
          .draws = true},
         rows);
   LANTERN_CHECK(name, ==, std::string_view("a command of the lab"));

@@ -19,7 +19,8 @@ class Stress : public Experiment {
   Options options() override {
     return {{"CASE", &names_, "names of cases; the default is all that are not slow"},
             {"--list", &list_, "list the cases and exit"},
-            {"--full", &full_, "run the slow cases, too"}};
+            {"--full", &full_, "run the slow cases, too"},
+            {"--map", &map_, "draw where methods are stable: stability_map.png and .svg"}};
   }
 
   Texts listing() const override {
@@ -68,6 +69,7 @@ class Stress : public Experiment {
     return {to_table(report_), to_csv(report_), to_json(report_), ""};
   }
   std::vector<Picture> pages() const override {
+    if (!map_) return {};
     return {{"stability_map", draw_stability_map(make_stability_map())}};
   }
   bool is_good() const override {
@@ -80,7 +82,7 @@ class Stress : public Experiment {
 
  private:
   std::vector<std::string> names_;
-  bool list_ = false, full_ = false;
+  bool list_ = false, full_ = false, map_ = false;
   std::vector<StressCase> cases_;
   StressReport report_{"", {}, false};
 };

@@ -41,7 +41,7 @@ constexpr bool kRunsAll = true;
 bool is_left_out(const std::string& line) {
   const bool is_for_deep = line == "./run demo" || line == "build/lantern measure --quick" ||
                            line.starts_with("build/lantern measure scenarios/spring_rope.toml") ||
-                           line == "build/lantern stress -o output/stress";
+                           line == "build/lantern stress --map -o output/stress";
   if (is_for_deep && std::getenv("LANTERN_ALL") == nullptr) return true;
   const bool is_long = line == "./run demo" || line.find("lantern measure") != std::string::npos ||
                        line.find("lantern bench") != std::string::npos ||

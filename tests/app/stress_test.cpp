@@ -50,9 +50,17 @@ TEST(StressCommand, ListsItsCases) {
   EXPECT_FALSE(std::string(list[0]["what"]).empty());
 }
 
+TEST(StressCommand, DrawsNoMapThatNobodyAskedFor) {
+  const fs::path out = fresh_folder("stress_tables");
+  const Outcome o = shell("LD_DEBUG=files lantern stress" + kQuick + "-o " + out.string());
+  ASSERT_EQ(o.code, 0);
+  EXPECT_FALSE(fs::exists(out / "stability_map.svg"));
+  EXPECT_EQ(o.err.find("OSMesa"), std::string::npos) << "it draws nothing";
+}
+
 TEST(StressCommand, WritesTablesAndTheMapIntoAFolder) {
   const fs::path out = fresh_folder("stress") / "deeper";
-  const Outcome o = shell("lantern stress" + kQuick + "-o " + out.string());
+  const Outcome o = shell("lantern stress --map" + kQuick + "-o " + out.string());
   ASSERT_EQ(o.code, 0) << o.err;
   for (const char* file : {"stress.csv", "stress.json", "stability_map.svg", "stability_map.png"})
     EXPECT_TRUE(fs::exists(out / file)) << file;
@@ -66,7 +74,7 @@ TEST(StressCommand, WritesTablesAndTheMapIntoAFolder) {
   EXPECT_EQ(read_text(out / "stress.csv").substr(0, 5), "name,");
   const std::string before = read_text(out / "stability_map.png");
   EXPECT_EQ(before.substr(1, 3), "PNG");
-  ASSERT_EQ(shell("lantern stress" + kQuick + "-o " + out.string()).code, 0);
+  ASSERT_EQ(shell("lantern stress --map" + kQuick + "-o " + out.string()).code, 0);
   EXPECT_EQ(read_text(out / "stability_map.png"), before) << "the same run gives other bytes";
   EXPECT_EQ(json::parse(read_text(out / "stress.json")), report);
 }
@@ -74,7 +82,7 @@ TEST(StressCommand, WritesTablesAndTheMapIntoAFolder) {
 TEST(StressCommand, AFolderThatCannotBeWrittenIsFoundOutBeforeTheWork) {
   const fs::path folder = fresh_folder("stress_blocked");
   write_text(folder / "file", "");
-  const Outcome o = shell("lantern stress --full -o " + (folder / "file" / "sub").string());
+  const Outcome o = shell("lantern stress --full --map -o " + (folder / "file" / "sub").string());
   EXPECT_EQ(o.code, 1);
   EXPECT_EQ(o.out, "") << "it began to work";
   EXPECT_NE(o.err.find("file"), std::string::npos) << o.err;
@@ -85,7 +93,7 @@ TEST(StressCommand, CtrlCKeepsWhatIsFinished) {
   const std::string said = (fresh_folder("stress_said") / "said").string();
   // It is at its second case, or behind it.
   const Outcome o =
-      shell("begin stress --full -o " + out.string() + " 2>" + said +
+      shell("begin stress --full --map -o " + out.string() + " 2>" + said +
             "; until_so 'grep -qE \"^stress: ([2-9]|[0-9]{2,}) of\" " + said + "'; interrupt");
   EXPECT_EQ(o.code, 130) << read_text(said);
   const json report = json::parse(read_text(out / "stress.json"));

@@ -50,7 +50,8 @@ INSTANTIATE_TEST_SUITE_P(Stress, EveryCase, testing::ValuesIn(quick_cases()),
                          [](const auto& one) { return std::string(one.param.name); });
 
 TEST(Stress, CasesHaveNamesGroupsAndSentences) {
-  const std::set<std::string_view> groups{"extreme input", "stiff", "stability", "energy", "bars"};
+  const std::set<std::string_view> groups{"extreme input", "stiff", "stability",
+                                          "energy", "laws", "bars"};
   std::set<std::string_view> names, seen;
   for (const StressCase& one : stress_cases()) {
     EXPECT_TRUE(names.insert(one.name).second) << one.name << " is there twice";
