@@ -295,7 +295,8 @@ std::string who_is_quickest(const ProblemRows& problem) {
     return words.substr(0, words.find(" (double)"));
   };
   const bool whole = has_whole_errors(problem);
-  std::string text, before;
+  std::string before;
+  std::vector<std::string> clauses;
   for (int decade = whole ? -15 : -1; decade >= -15; --decade) {
     const double error = whole ? 0 : std::stod(fmt::format("1e{}", decade));
     const std::vector<const Row*> all = quickest(problem, error);
@@ -307,14 +308,18 @@ std::string who_is_quickest(const ProblemRows& problem) {
     std::ranges::sort(first);
     if (std::exchange(before, listed(first)) == listed(first)) continue;
     if (first.size() > 3) who = fmt::format("{} methods, {} among them,", first.size(), first[0]);
-    text += text.empty() ? whole ? "For a right outcome " : "At an error of " + figure(error) + " "
-                         : "; from " + figure(error) + " down ";
-    text += first.size() > 1
-                ? who + (first.size() == all.size() ? " tie" : " tie, ahead of the others")
-                : fmt::format("{} costs {:.2g} of what {} costs", who,
-                              all[0]->processor.median / all[1]->processor.median, name(all[1]));
+    clauses.push_back(!clauses.empty() ? "from " + figure(error) + " down "
+                      : whole          ? "For a right outcome "
+                                       : "At an error of " + figure(error) + " ");
+    clauses.back() +=
+        first.size() > 1
+            ? who + (first.size() == all.size() ? " tie" : " tie, ahead of the others")
+            : fmt::format("{} costs {:.2g} of what {} costs", who,
+                          all[0]->processor.median / all[1]->processor.median, name(all[1]));
   }
-  if (!text.empty()) return text + ".";
+  // One line: of many changes the last ones.
+  if (clauses.size() > 3) clauses.erase(clauses.begin() + 1, clauses.end() - 2);
+  if (!clauses.empty()) return fmt::format("{}.", fmt::join(clauses, "; "));
   return "Who is the quickest cannot be told here: no two methods were timed at one error.";
 }
 
@@ -345,7 +350,8 @@ std::vector<std::string> notes_on(const ProblemRows& problem) {
     notes.push_back("Floors, where smaller steps bring no smaller error: " + floors + ".");
   if (adaptive)
     notes.push_back(
-        "Dormand–Prince solves the bare equations of motion, without the world's step: its seconds "
+        "Dormand–Prince, adaptive, solves the bare equations of motion, without the world's step: "
+        "its seconds "
         "buy less than those of the others.");
   return notes;
 }
