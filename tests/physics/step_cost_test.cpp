@@ -6,6 +6,7 @@
 
 #include "counted_memory.hpp"
 #include "instructions.hpp"
+#include "physics/integrate/integrator.hpp"
 #include "physics/world_scene.hpp"
 
 namespace lantern::physics {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "counted_memory.hpp"
+#include "physics/integrate/integrator.hpp"
 #include "physics/world_scene.hpp"
 
 namespace lantern::physics {
