@@ -294,33 +294,55 @@ std::string who_is_quickest(const ProblemRows& problem) {
     const std::string words = row->is_peer() ? row->method : method_words(row->method);
     return words.substr(0, words.find(" (double)"));
   };
+  // Neighbouring decades at which the same lead.
+  struct Range {
+    std::string who, over;  // nobody is lead over where some tie
+    bool all = false;
+    int from = 0, to = 0;  // decades
+    double share = 1, last_share = 1;
+  };
   const bool whole = has_whole_errors(problem);
-  std::string before;
-  std::vector<std::string> clauses;
+  std::vector<Range> ranges;
   for (int decade = whole ? -15 : -1; decade >= -15; --decade) {
-    const double error = whole ? 0 : std::stod(fmt::format("1e{}", decade));
-    const std::vector<const Row*> all = quickest(problem, error);
+    const std::vector<const Row*> all =
+        quickest(problem, whole ? 0 : std::stod(fmt::format("1e{}", decade)));
     if (all.size() < 2) continue;
     std::vector<std::string> first;
     for (const Row* row : all)
       if (!all[0]->processor.is_quicker_than(row->processor)) first.push_back(name(row));
-    std::string who = listed(first);
     std::ranges::sort(first);
-    if (std::exchange(before, listed(first)) == listed(first)) continue;
-    if (first.size() > 3) who = fmt::format("{} methods, {} among them,", first.size(), first[0]);
-    clauses.push_back(!clauses.empty() ? "from " + figure(error) + " down "
-                      : whole          ? "For a right outcome "
-                                       : "At an error of " + figure(error) + " ");
-    clauses.back() +=
-        first.size() > 1
-            ? who + (first.size() == all.size() ? " tie" : " tie, ahead of the others")
-            : fmt::format("{} costs {:.2g} of what {} costs", who,
-                          all[0]->processor.median / all[1]->processor.median, name(all[1]));
+    Range range{listed(first), "", first.size() == all.size(), decade, decade};
+    if (first.size() > 3)
+      range.who = fmt::format("{} methods, {} among them,", first.size(), first[0]);
+    if (first.size() == 1) {
+      range.over = name(all[1]);
+      range.share = range.last_share = all[0]->processor.median / all[1]->processor.median;
+    }
+    if (ranges.empty() || ranges.back().who != range.who || ranges.back().over != range.over ||
+        ranges.back().to != decade + 1)
+      ranges.push_back(range);
+    ranges.back().to = decade, ranges.back().last_share = range.last_share;
   }
-  // One line: of many changes the last ones.
-  if (clauses.size() > 3) clauses.erase(clauses.begin() + 1, clauses.end() - 2);
-  if (!clauses.empty()) return fmt::format("{}.", fmt::join(clauses, "; "));
-  return "Who is the quickest cannot be told here: no two methods were timed at one error.";
+  if (ranges.empty())
+    return "Who is the quickest cannot be told here: no two methods were timed at one error.";
+  while (ranges.size() > 3)  // one line: the widest
+    ranges.erase(
+        std::ranges::min_element(ranges, {}, [](const Range& r) { return r.from - r.to; }));
+  std::vector<std::string> clauses;
+  for (const Range& r : ranges) {
+    const auto error = [](int decade) { return figure(std::stod(fmt::format("1e{}", decade))); };
+    std::string clause = whole ? "for a right outcome"
+                         : r.from == r.to
+                             ? "at an error of " + error(r.from)
+                             : fmt::format("at errors of {} to {}", error(r.from), error(r.to));
+    const std::string share = fmt::format("{:.2g}", r.share),
+                      last = fmt::format("{:.2g}", r.last_share);
+    clause += r.over.empty() ? fmt::format(" {} tie{}", r.who, r.all ? "" : ", ahead of the others")
+                             : fmt::format(" {} costs {} of what {} costs", r.who,
+                                           share == last ? share : share + " to " + last, r.over);
+    clauses.push_back(std::move(clause));
+  }
+  return fmt::format("Of the runs that were made, {}.", fmt::join(clauses, "; "));
 }
 
 std::vector<std::string> notes_on(const ProblemRows& problem) {

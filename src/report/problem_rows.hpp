@@ -78,9 +78,9 @@ WorkCount work_count(const ProblemRows& problem);
 // they round differently. Names, two or more a group, in order of their first rows.
 std::vector<std::vector<std::string>> equal_methods(const ProblemRows& problem);
 
-// The line for a student: to be off by at most so much, which method is the quickest, how the next
-// one compares, and from which error on another one wins. Errors are decades, or 0 where they are
-// whole numbers. Each method takes its quickest run that is so good; whom another measurement might
+// The line for a student: to be off by at most so much, which method is the quickest, and how the
+// next one compares; of many changes the three that hold for most. Errors are decades, or 0 where
+// they are whole numbers. Each method takes its quickest run that is so good; whom another measurement might
 // rank otherwise are told as equal. Who does not do the world's step is left out. Or why there is
 // no such line.
 std::string who_is_quickest(const ProblemRows& problem);

@@ -62,12 +62,22 @@ std::string quickest_of(std::vector<Row> rows) {
   return who_is_quickest({"p", "p", "plain", std::move(rows)});
 }
 
-TEST(WhoIsQuickest, IsToldFromTheCoarsestErrorThatTwoReachDown) {
+TEST(WhoIsQuickest, IsToldOfAllErrorsThatTwoReach) {
   EXPECT_EQ(
       quickest_of({timed_row("velocity_verlet", 0.9e-2, 1), timed_row("velocity_verlet", 0.9e-4, 9),
                    timed_row("runge_kutta_4", 0.9e-2, 3), timed_row("runge_kutta_4", 0.9e-4, 4.5)}),
-      "At an error of 0.1 velocity Verlet costs 0.33 of what Runge–Kutta 4 costs; from 0.001 down "
-      "Runge–Kutta 4 costs 0.5 of what velocity Verlet costs.");
+      "Of the runs that were made, at errors of 0.1 to 0.01 velocity Verlet costs 0.33 of what "
+      "Runge–Kutta 4 costs; at errors of 0.001 to 1e-4 Runge–Kutta 4 costs 0.5 of what velocity "
+      "Verlet costs.");
+}
+
+// The share grows with the accuracy: both ends of it are told.
+TEST(WhoIsQuickest, TellsASharesWholeRange) {
+  EXPECT_EQ(
+      quickest_of({timed_row("velocity_verlet", 0.9e-1, 2), timed_row("velocity_verlet", 0.9e-2, 8),
+                   timed_row("runge_kutta_4", 0.9e-2, 1)}),
+      "Of the runs that were made, at errors of 0.1 to 0.01 Runge–Kutta 4 costs 0.5 to 0.12 of "
+      "what velocity Verlet costs.");
 }
 
 TEST(WhoIsQuickest, IsATieWhereAnotherMeasurementMightRankOtherwise) {
