@@ -16,10 +16,10 @@
 namespace lantern::physics {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfCircle = std::numbers::pi;
 constexpr double kEccentricity = 0.3;
-constexpr std::pair<Integrator, int> kOrders[] = {{Integrator::kahan_li_8, 8},
-                                                  {Integrator::dormand_prince, 5}};
+constexpr std::pair<Integrator, int> kOrdersOfPlaces[] = {{Integrator::kahan_li_8, 8},
+                                                          {Integrator::dormand_prince, 5}};
 
 // A planet in its perihelion, at a mean distance of 1 of a sun of mass 1, whose orbit takes 2 pi
 // seconds. In space its plane is tilted.
@@ -48,7 +48,7 @@ double error_of(Integrator method, int steps, double orbits = 2,
                 std::uint64_t* evaluations = nullptr) {
   World<D> world = orbit<D>(method);
   const Body<D> start = world.bodies()[1];
-  for (int i = 0; i < steps; ++i) world.step(orbits * 2 * kPi / steps);
+  for (int i = 0; i < steps; ++i) world.step(orbits * 2 * kHalfCircle / steps);
   if (evaluations) *evaluations = world.work().force_evaluations;
   const Body<D>& end = world.bodies()[1];
   return std::max(glm::length(end.position - start.position),
@@ -67,7 +67,7 @@ TEST(PositionMethods, TwoOrbitsToTenDigitsTakeFewEvaluations) {
 }
 
 TEST(PositionMethods, TheErrorOfAnOrbitFallsByTheOrder) {
-  for (const auto& [method, order] : kOrders) {
+  for (const auto& [method, order] : kOrdersOfPlaces) {
     EXPECT_EQ(integration(method).order, order);
     const int steps = order == 8 ? 80 : 640;
     const double coarse = error_of<2>(method, steps), fine = error_of<2>(method, 2 * steps);
@@ -102,7 +102,7 @@ TEST(PositionMethods, TheTableMeetsItsConditions) {
 }
 
 TEST(PositionMethods, AnOscillatorIsThatOfItsFormula) {
-  for (const auto& [method, order] : kOrders) {
+  for (const auto& [method, order] : kOrdersOfPlaces) {
     SmoothScene<2> scene;
     const BodyId anchor = scene.add({0, 0}, {0, 0}, 0);
     const BodyId mass = scene.add({2.5, 0}, {0, 0}, 1);
@@ -116,7 +116,7 @@ TEST(PositionMethods, AnOscillatorIsThatOfItsFormula) {
 
 // Constant forces, and bodies that keep their way whatever pulls them: forces of time.
 TEST(PositionMethods, AThrowAndATowedBodyAreExact) {
-  for (const auto& [method, order] : kOrders) {
+  for (const auto& [method, order] : kOrdersOfPlaces) {
     World<2> thrown({.gravity = {0, -10}, .integrator = method, .contacts = ContactMethod::none});
     Body<2> ball;
     ball.shape = Sphere{0.1};
@@ -158,7 +158,7 @@ TEST(PositionMethods, EnergyStaysWithinItsBoundsOverAThousandOrbits) {
   double early = 0, late = 0;
   constexpr int kSteps = 25;  // an orbit
   for (int i = 0; i < 1000 * kSteps; ++i) {
-    world.step(2 * kPi / kSteps);
+    world.step(2 * kHalfCircle / kSteps);
     double& most = i < 10 * kSteps ? early : late;
     most = std::max(most, std::abs(energy<2>(world.bodies(), world.forces()).total() / before - 1));
   }
@@ -209,7 +209,7 @@ double difference(const SmoothScene<D>& a, const SmoothScene<D>& b) {
 
 template <int D>
 void expect_order_of_turning() {
-  for (const auto& [method, order] : kOrders) {
+  for (const auto& [method, order] : kOrdersOfPlaces) {
     const auto after = [&](int steps) {
       SmoothScene<D> scene = tied_tops<D>();
       scene.run(method, 2.0 / steps, steps);
@@ -242,7 +242,7 @@ void expect_refused(const std::string& why, Act&& act) {
 }
 
 TEST(PositionMethods, OtherForcesAreRefusedWithTheReason) {
-  for (const auto& [method, order] : kOrders) {
+  for (const auto& [method, order] : kOrdersOfPlaces) {
     const std::string who = "body 'b': " + std::string(to_string(method));
     const WorldConfig<2> config{.integrator = method, .contacts = ContactMethod::none};
     Body<2> body;
