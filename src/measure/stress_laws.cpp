@@ -13,9 +13,9 @@ using namespace stress;
 
 template <int D>
 double in_other_units(const Scene<D>& scene) {
-  if (scene.is(Kind::bridge) || scene.is(Kind::heap) ||
-      (scene.is(Kind::stack) && scene.is_of({ContactMethod::soft, ContactMethod::direct})) ||
-      (scene.is(Kind::slope) && scene.is_of({ContactMethod::soft, ContactMethod::lecture})))
+  if (scene.is(SceneKind::bridge) || scene.is(SceneKind::heap) ||
+      (scene.is(SceneKind::stack) && scene.is_of({ContactMethod::soft, ContactMethod::direct})) ||
+      (scene.is(SceneKind::slope) && scene.is_of({ContactMethod::soft, ContactMethod::lecture})))
     return 0;
   return parted(scene, in_units(scene, 4, 2, 8), [](std::size_t i, const auto& a, const auto& all) {
     Body<D> b = all[i];
@@ -26,7 +26,8 @@ double in_other_units(const Scene<D>& scene) {
 
 template <int D>
 double beside_others(Scene<D> scene) {
-  if (scene.is(Kind::free) || scene.is(Kind::room)) return 0;  // it attracts; it has no outside
+  if (scene.is(SceneKind::free) || scene.is(SceneKind::room))
+    return 0;  // it attracts; it has no outside
   scene.steps = 12;
   return parted(scene, beside_itself(scene),
                 [](std::size_t i, const auto& a, const auto& all) { return apart(a, all[i]); });
@@ -34,7 +35,8 @@ double beside_others(Scene<D> scene) {
 
 double plane_in_space(const Scene<3>&) { return 0; }
 double plane_in_space(Scene<2> scene) {
-  if (!scene.is(Kind::free) && !scene.is(Kind::chain) && !scene.is(Kind::room)) return 0;
+  if (!scene.is(SceneKind::free) && !scene.is(SceneKind::chain) && !scene.is(SceneKind::room))
+    return 0;
   for (auto& [body, spin] : scene.bodies)
     if (!std::holds_alternative<OrientedBox<2>>(body.shape)) body.may_turn = false, spin = 0;
   return parted(scene, in_space(scene),
@@ -44,7 +46,7 @@ double plane_in_space(Scene<2> scene) {
 // Of all scenes of a kind: hashes of their states. Whatever the compiler, its settings, and the
 // machine, they are these; another engine has others, which a changed one prints in its detail.
 StressResult same_bits() {
-  constexpr std::array<std::uint64_t, 2 * std::size(kKinds)> kRecorded = {
+  constexpr std::array<std::uint64_t, 2 * std::size(kSceneKinds)> kRecorded = {
       0xd1aaf19c6793384d, 0xdb5e81bfbb879695, 0x8b974ec2e0747aa6, 0x7868f1b67d9e01b7,
       0xd49f3dfce5b92ac5, 0xf1a75783cbe5af4a, 0xc639f0c4a68f07c2, 0x2a12f6c65b31e6da,
       0x57640657db12bca0, 0xc6773e0f4b0000,   0x3121901378fd7556, 0xc3ab5b24766ebef5,
@@ -52,7 +54,7 @@ StressResult same_bits() {
   std::array<std::uint64_t, kRecorded.size()> found{};
   const auto add = [&]<int D>(Scene<D> scene) {
     // Of what flies, the splittings, too.
-    if (scene.is(Kind::free))
+    if (scene.is(SceneKind::free))
       scene.config.rotation = integration(scene.config.integrator).order == 1
                                   ? RotationMethod::splitting_2
                                   : RotationMethod::splitting_4;
@@ -97,8 +99,8 @@ double unlike(const World<D>& a, const World<D>& b) {
 
 // How far the order of convergence towards RK4 by the finest steps is from the method's own.
 template <int D>
-double off_order(Kind kind, Integrator integrator) {
-  const bool chain = kind == Kind::chain, of_places = integration(integrator).of_places;
+double off_order(SceneKind kind, Integrator integrator) {
+  const bool chain = kind == SceneKind::chain, of_places = integration(integrator).of_places;
   const auto by = [&](Integrator one) {
     Scene<D> scene = SceneOf<D>(kind, ContactMethod::none, one, 5).scene();
     scene.steps = 24;
@@ -126,13 +128,13 @@ double off_order(Kind kind, Integrator integrator) {
   return std::abs(std::log2(coarse / fine) - (better ? 2 : integration(integrator).order));
 }
 
-template <Kind Of>
+template <SceneKind Of>
 StressResult orders() {
   double worst = 0;
   std::string where;
   for (std::size_t i = 0; i < integrator_names().size(); ++i) {
     const auto integrator = static_cast<Integrator>(i);
-    if (Of == Kind::chain && integration(integrator).of_places) continue;
+    if (Of == SceneKind::chain && integration(integrator).of_places) continue;
     const double off = largest(off_order<2>(Of, integrator), off_order<3>(Of, integrator));
     if (!(off <= worst)) where = to_string(integrator);
     worst = largest(worst, off);
@@ -142,14 +144,14 @@ StressResult orders() {
 
 // What is kept: energy, momentum, angular momentum, and joints that hold; relative to what there
 // is.
-template <int D, Kind Of>
+template <int D, SceneKind Of>
 double lost() {
   Scene<D> scene = SceneOf<D>(Of, ContactMethod::none, Integrator::runge_kutta_4, 5).scene();
   for (Spring<D>& spring : scene.springs) spring.damping = 0;
   World<D> world = scene.made();
   const auto kept = [&] {
     std::vector<double> all{total_energy(world)};
-    if (Of == Kind::chain) return all;
+    if (Of == SceneKind::chain) return all;
     const Vec<D> p = momentum<D>(world.bodies());
     const Spin<D> l = angular_momentum<D>(world.bodies());
     for (int i = 0; i < D; ++i) all.push_back(p[i]);
@@ -300,7 +302,7 @@ double turned_freely() {
 // at most.
 template <int D>
 double untold_impulses(const Scene<D>& scene) {
-  if (!scene.is(Kind::slope) && !scene.is(Kind::stack)) return 0;
+  if (!scene.is(SceneKind::slope) && !scene.is(SceneKind::stack)) return 0;
   World<D> world = scene.made();
   double worst = 0;
   for (int step = 0; step < scene.steps; ++step) {
@@ -326,7 +328,7 @@ double untold_impulses(const Scene<D>& scene) {
     }
   }
   // Where a normal turns within the step, its impulses are not all along its last one.
-  return worst / (scene.is(Kind::slope) ? 1e-13 : 0.02);
+  return worst / (scene.is(SceneKind::slope) ? 1e-13 : 0.02);
 }
 
 // --- masses ---
@@ -459,14 +461,14 @@ std::vector<StressCase> law_cases() {
   constexpr const char* kGroup = "laws";
   constexpr const char* kOrders = "Errors shrink by the order of each method, in 2D and 3D.";
   return {
-      {"orders_of_springs", kGroup, kOrders, orders<Kind::free>},
-      {"orders_of_chains", kGroup, kOrders, orders<Kind::chain>},
+      {"orders_of_springs", kGroup, kOrders, orders<SceneKind::free>},
+      {"orders_of_chains", kGroup, kOrders, orders<SceneKind::chain>},
       {"kept_by_springs", kGroup, "Springs and attraction keep energy, momentum and its moment.",
-       none_above(5e-8, "SI units", "RK4, 200 steps of 1/480 s, 2D and 3D", lost<2, Kind::free>,
-                  lost<3, Kind::free>)},
+       none_above(5e-8, "SI units", "RK4, 200 steps of 1/480 s, 2D and 3D",
+                  lost<2, SceneKind::free>, lost<3, SceneKind::free>)},
       {"kept_by_chains", kGroup, "Joints hold, and keep energy.",
-       none_above(5e-8, "SI units", "RK4, 200 steps of 1/480 s, 2D and 3D", lost<2, Kind::chain>,
-                  lost<3, Kind::chain>)},
+       none_above(5e-8, "SI units", "RK4, 200 steps of 1/480 s, 2D and 3D",
+                  lost<2, SceneKind::chain>, lost<3, SceneKind::chain>)},
       {"masses", kGroup, "Masses and inertias are those of the shapes' slices.",
        none_above(1e-5, "relative", "balls, capsules and boxes, 2D and 3D", masses_off<2>,
                   masses_off<3>)},

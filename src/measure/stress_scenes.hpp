@@ -10,12 +10,13 @@
 
 namespace lantern::measure::stress {
 
-enum class Kind { free, chain, slope, stack, room, bridge, heap };
-inline constexpr std::pair<Kind, const char*> kKinds[] = {
-    {Kind::free, "free"}, {Kind::chain, "chain"},   {Kind::slope, "slope"}, {Kind::stack, "stack"},
-    {Kind::room, "room"}, {Kind::bridge, "bridge"}, {Kind::heap, "heap"}};
-inline constexpr ContactMethod kContacts[] = {ContactMethod::soft, ContactMethod::impulse,
-                                              ContactMethod::direct, ContactMethod::lecture};
+enum class SceneKind { free, chain, slope, stack, room, bridge, heap };
+inline constexpr std::pair<SceneKind, const char*> kSceneKinds[] = {
+    {SceneKind::free, "free"},   {SceneKind::chain, "chain"}, {SceneKind::slope, "slope"},
+    {SceneKind::stack, "stack"}, {SceneKind::room, "room"},   {SceneKind::bridge, "bridge"},
+    {SceneKind::heap, "heap"}};
+inline constexpr ContactMethod kSceneContacts[] = {ContactMethod::soft, ContactMethod::impulse,
+                                                   ContactMethod::direct, ContactMethod::lecture};
 
 template <int D>
 struct Moving {
@@ -32,10 +33,10 @@ struct Scene {
   std::vector<Joint<D>> joints = {};
   double h = kStep;
   int steps = 30;
-  Kind kind = Kind::free;
+  SceneKind kind = SceneKind::free;
   std::string name = {};
 
-  bool is(Kind one) const { return kind == one; }
+  bool is(SceneKind one) const { return kind == one; }
   bool is_of(std::initializer_list<ContactMethod> methods) const {
     return std::ranges::find(methods, config.contacts) != methods.end();
   }
@@ -52,33 +53,33 @@ struct Scene {
 template <int D>
 class SceneOf {
  public:
-  SceneOf(Kind kind, ContactMethod contacts, Integrator integrator, std::uint64_t seed)
+  SceneOf(SceneKind kind, ContactMethod contacts, Integrator integrator, std::uint64_t seed)
       : random_(seed) {
     scene_.config.contacts = contacts;
     scene_.config.integrator = integrator;
     scene_.config.sub_steps = 4;
     scene_.config.may_sleep = false;
-    if (kind != Kind::free && kind != Kind::room) scene_.config.gravity.y = -10;
+    if (kind != SceneKind::free && kind != SceneKind::room) scene_.config.gravity.y = -10;
     switch (kind) {
-      case Kind::free:
+      case SceneKind::free:
         build_free();
         break;
-      case Kind::chain:
+      case SceneKind::chain:
         build_chain(false);
         break;
-      case Kind::slope:
+      case SceneKind::slope:
         build_slope();
         break;
-      case Kind::stack:
+      case SceneKind::stack:
         build_stack();
         break;
-      case Kind::room:
+      case SceneKind::room:
         build_room();
         break;
-      case Kind::bridge:
+      case SceneKind::bridge:
         build_chain(true);
         break;
-      case Kind::heap:
+      case SceneKind::heap:
         build_heap();
         break;
     }
@@ -230,15 +231,16 @@ class SceneOf {
 // `f(scene)` of all kinds, by all methods that suit them.
 template <int D, class F>
 void each_scene(F&& f) {
-  for (const auto& [kind, name] : kKinds)
-    for (const ContactMethod contacts : kContacts)
+  for (const auto& [kind, name] : kSceneKinds)
+    for (const ContactMethod contacts : kSceneContacts)
       for (const Integrator integrator : kIntegrators) {
-        if (contacts == ContactMethod::lecture && (kind == Kind::chain || kind == Kind::bridge))
+        if (contacts == ContactMethod::lecture &&
+            (kind == SceneKind::chain || kind == SceneKind::bridge))
           continue;
-        if (kind == Kind::free && contacts != ContactMethod::soft) continue;
-        Scene<D> scene =
-            SceneOf<D>(kind, kind == Kind::free ? ContactMethod::none : contacts, integrator, 5)
-                .scene();
+        if (kind == SceneKind::free && contacts != ContactMethod::soft) continue;
+        Scene<D> scene = SceneOf<D>(kind, kind == SceneKind::free ? ContactMethod::none : contacts,
+                                    integrator, 5)
+                             .scene();
         scene.kind = kind;
         scene.name =
             fmt::format("{} {}D {} {}", name, D, to_string(contacts), to_string(integrator));
