@@ -5,7 +5,6 @@
 namespace lantern::measure {
 namespace {
 
-constexpr std::string_view kAdaptive = "dormand_prince:adaptive";
 constexpr int kOwnHalvings = 6;          // of a scenario's own step
 constexpr double kFinerReference = 16;   // times finer than the finest measured step
 constexpr double kTooLongToRepeat = 10;  // seconds

@@ -145,6 +145,9 @@ struct DriftSample {
   std::optional<double> energy;  // its drift so far; nothing where the scenario does not keep it
 };
 
+// The reference of smooth problems, which chooses its own steps: it does no step of a world.
+inline constexpr std::string_view kAdaptive = "dormand_prince:adaptive";
+
 struct Row {
   std::string problem;  // the scenario's name: "oscillator_stiff"
   std::string family;   // "oscillator": these share a plot's colours

@@ -31,7 +31,7 @@ std::vector<Method> methods_for(const Scenario& scenario);
 // speed at the problem's largest step, and 32 times better for each halving, down to 1e-14.
 class DormandPrinceSolver : public Solver {
  public:
-  std::string name() const override { return "dormand_prince:adaptive"; }
+  std::string name() const override { return std::string(kAdaptive); }
   std::optional<std::string> cannot(const Scenario& scenario) const override;
   std::unique_ptr<Simulation> start(const Scenario& scenario, double h) const override;
 };

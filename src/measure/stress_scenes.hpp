@@ -53,8 +53,8 @@ struct Scene {
 template <int D>
 class SceneOf {
  public:
-  SceneOf(SceneKind kind, ContactMethod contacts, Integrator integrator, std::uint64_t seed)
-      : random_(seed) {
+  SceneOf(SceneKind kind, ContactMethod contacts, Integrator integrator) {
+    scene_.kind = kind;
     scene_.config.contacts = contacts;
     scene_.config.integrator = integrator;
     scene_.config.sub_steps = 4;
@@ -101,12 +101,9 @@ class SceneOf {
     Moving<D>& one = scene_.bodies.back();
     one.body.velocity = random_direction<D>(random_) * speed;
     if constexpr (D == 2)
-      one.spin = random_.between(-spin, spin);
+      one.spin = random_.between(-spin, spin), one.body.orientation.angle = random_.between(-3, 3);
     else
-      one.spin = random_direction<3>(random_) * spin;
-    if constexpr (D == 2)
-      one.body.orientation.angle = random_.between(-3, 3);
-    else
+      one.spin = random_direction<3>(random_) * spin,
       one.body.orientation = turned(Rotation<3>{}, random_direction<3>(random_) * 2.0);
   }
   BodyId last() const { return static_cast<BodyId>(scene_.bodies.size() - 1); }
@@ -224,7 +221,7 @@ class SceneOf {
     scene_.bodies.back().body.velocity = at<D>(4);
   }
 
-  Random random_;
+  Random random_{5};
   Scene<D> scene_;
 };
 
@@ -238,10 +235,9 @@ void each_scene(F&& f) {
             (kind == SceneKind::chain || kind == SceneKind::bridge))
           continue;
         if (kind == SceneKind::free && contacts != ContactMethod::soft) continue;
-        Scene<D> scene = SceneOf<D>(kind, kind == SceneKind::free ? ContactMethod::none : contacts,
-                                    integrator, 5)
-                             .scene();
-        scene.kind = kind;
+        Scene<D> scene =
+            SceneOf<D>(kind, kind == SceneKind::free ? ContactMethod::none : contacts, integrator)
+                .scene();
         scene.name =
             fmt::format("{} {}D {} {}", name, D, to_string(contacts), to_string(integrator));
         f(scene);

@@ -7,7 +7,7 @@ namespace lantern::report {
 namespace {
 
 // It chooses its steps itself, and moves the bodies without the world's step.
-bool is_adaptive(std::string_view method) { return method == "dormand_prince:adaptive"; }
+bool is_adaptive(std::string_view method) { return method == kAdaptive; }
 
 struct KnownMethod {
   std::string_view name, words;
@@ -22,7 +22,7 @@ constexpr std::array<KnownMethod, 19> kKnown{{
     {"implicit_midpoint", "implicit midpoint", 3},
     {"semi_implicit_euler", "semi-implicit Euler", 4},
     {"implicit_euler", "implicit Euler", 5},
-    {"dormand_prince:adaptive", "Dormand–Prince, adaptive", 6},
+    {kAdaptive, "Dormand–Prince, adaptive", 6},
     {"kahan_li_8", "Kahan–Li 8", 8},
     {"dormand_prince", "Dormand–Prince", 9},
     {"splitting_2", "splitting, order 2", 14},
