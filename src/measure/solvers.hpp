@@ -3,7 +3,7 @@
 
 #include "base/child.hpp"
 #include "language/method.hpp"
-#include "measure/simulation.hpp"
+#include "measure/row.hpp"
 
 namespace lantern::measure {
 
