@@ -1,10 +1,10 @@
-// Points and directions of a seeded random generator.
+// Points, directions and turns of a seeded random generator.
 #pragma once
 
 #include <cmath>
 
 #include "base/random.hpp"
-#include "geometry/vec.hpp"
+#include "geometry/rotation.hpp"
 
 namespace lantern::geometry {
 
@@ -29,6 +29,15 @@ Vec<D> random_direction(Random& random) {
     }
     if (square >= 0.01 && square <= 1) return v / std::sqrt(square);
   }
+}
+
+// About any axis, by up to 3 rad.
+template <int D>
+Rotation<D> random_rotation(Random& random) {
+  if constexpr (D == 2)
+    return {random.between(-3, 3)};
+  else
+    return turned(Rotation<3>{}, random_direction<3>(random) * random.between(0, 3));
 }
 
 }  // namespace lantern::geometry

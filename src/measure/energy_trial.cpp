@@ -54,23 +54,31 @@ constexpr std::array kMethods = {Integrator::semi_implicit_euler, Integrator::ve
                                  Integrator::runge_kutta_4, Integrator::implicit_midpoint,
                                  Integrator::implicit_euler};
 
-// Which extremes a scene has.
-struct Extremes {
-  bool slender, spinning, heavy, still, overlapping, jointed, pushed;
-};
-
 template <int D>
 class SceneMaker {
  public:
   SceneMaker(std::uint64_t seed, ContactMethod method)
       : random_(seed),
-        extremes_{coin(), coin(), coin(), one_in(4), one_in(4), one_in(3), one_in(6)},
+        slender_(has("slender", coin())),
+        spinning_(coin()),
+        heavy_(has("mass ratios", coin())),
+        still_(has("still", one_in(4))),
+        overlapping_(has("overlapping", one_in(4))),
+        jointed_(one_in(3)),
+        pushed_(has("pushed", one_in(6))),
         world_(config(method)),
         step_(power(1.0 / 240, 1.0 / 10)) {
-    put_surroundings();
+    has("spinning", spinning_ && !still_);
+    Vec<D> up(0.0), right(0.0);
+    up.y = 1;
+    right.x = 1;
+    const bool floor = has("floor", !one_in(4)), walls = has("walls", one_in(4));
+    if (floor) put_side(up);
+    if (walls) put_side(right);
+    if (walls) put_side(-right);
     const std::int64_t count = random_.whole(2, one_in(3) ? 3 : 12);
     for (std::int64_t i = 0; i < count; ++i) put_body();
-    if (extremes_.pushed && !placed_.empty()) push();
+    if (pushed_ && !placed_.empty()) push();
   }
 
   EnergyTrial run(const WatchEnergy& watch) {
@@ -80,26 +88,18 @@ class SceneMaker {
 
   std::string text(std::uint64_t seed) const {
     const WorldConfig<D>& config = world_.config();
-    std::string text =
-        fmt::format("seed {}: {}D, {}, h {:.3g}, {} sub-steps, {} sweeps, {} bodies, {} joints",
-                    seed, D, to_string(config.integrator), step_, config.sub_steps,
-                    config.iterations, placed_.size(), world_.joints().size());
-    const std::pair<bool, const char*> all[] = {
-        {config.gravity.y < 0, "gravity"},
-        {has_floor_, "floor"},
-        {has_walls_, "walls"},
-        {extremes_.slender, "slender"},
-        {extremes_.still, "still"},
-        {extremes_.spinning && !extremes_.still, "spinning"},
-        {extremes_.heavy, "mass ratios"},
-        {extremes_.overlapping, "overlapping"},
-        {extremes_.pushed, "pushed"}};
-    for (const auto& [has, what] : all)
-      if (has) text += fmt::format(", {}", what);
-    return text;
+    return fmt::format(
+        "seed {}: {}D, {}, h {:.3g}, {} sub-steps, {} sweeps, {} bodies, {} joints{}", seed, D,
+        to_string(config.integrator), step_, config.sub_steps, config.iterations, placed_.size(),
+        world_.joints().size(), words_);
   }
 
  private:
+  // Says so, too.
+  bool has(const char* what, bool it) {
+    if (it) words_ += fmt::format(", {}", what);
+    return it;
+  }
   bool one_in(int n) { return random_.whole(1, n) == 1; }
   bool coin() { return one_in(2); }
   double power(double lo, double hi) {  // as likely in any decade
@@ -110,33 +110,23 @@ class SceneMaker {
   WorldConfig<D> config(ContactMethod method) {
     WorldConfig<D> config;
     config.contacts = method;
-    if (coin()) config.gravity.y = -10;
+    if (has("gravity", coin())) config.gravity.y = -10;
     config.integrator = kMethods[static_cast<std::size_t>(random_.whole(0, kMethods.size() - 1))];
     config.sub_steps = static_cast<int>(random_.whole(1, 16));
     config.iterations = static_cast<int>(random_.whole(1, 50));
     return config;
   }
 
-  void put_surroundings() {
-    const auto put = [&](const Vec<D>& normal, const Vec<D>& at) {
-      Body<D> body{.name = "side", .shape = HalfSpace<D>{normal}, .kind = BodyKind::static_body};
-      body.position = at;
-      body.material = {part(), random_.unit()};
-      world_.add(body);
-    };
-    Vec<D> up(0.0), right(0.0);
-    up.y = 1;
-    right.x = 1;
-    has_floor_ = !one_in(4);
-    has_walls_ = one_in(4);
-    if (has_floor_) put(up, -up * kRoom);
-    if (has_walls_) put(right, -right * kRoom);
-    if (has_walls_) put(-right, right * kRoom);
+  void put_side(const Vec<D>& normal) {
+    Body<D> body{.name = "side", .shape = HalfSpace<D>{normal}, .kind = BodyKind::static_body};
+    body.position = -normal * kRoom;
+    body.material = {part(), random_.unit()};
+    world_.add(body);
   }
 
   Shape<D> shape() {
     const double size = random_.between(0.2, 1);
-    const double thin = extremes_.slender ? size / power(1, 1000) : size * random_.between(0.3, 1);
+    const double thin = slender_ ? size / power(1, 1000) : size * random_.between(0.3, 1);
     const std::int64_t kind = random_.whole(0, 3);
     if (kind == 0) return Sphere{size};
     if (kind == 1) return Capsule{thin, size};
@@ -146,15 +136,8 @@ class SceneMaker {
     return OrientedBox<D>{half};
   }
 
-  Rotation<D> orientation() {
-    if constexpr (D == 2)
-      return {random_.between(-3, 3)};
-    else
-      return turned(Rotation<3>{}, random_direction<3>(random_) * random_.between(0, 3));
-  }
-
   Spin<D> spin() {
-    const double rate = extremes_.spinning ? power(1, 1e4) : random_.unit();
+    const double rate = spinning_ ? power(1, 1e4) : random_.unit();
     if constexpr (D == 2)
       return coin() ? rate : -rate;
     else
@@ -170,57 +153,45 @@ class SceneMaker {
 
   void put_body() {
     Body<D> body{.name = fmt::format("b{}", placed_.size()), .shape = shape()};
-    body.orientation = orientation();
-    if (!extremes_.still) body.velocity = random_direction<D>(random_) * random_.between(0, 10);
-    body.mass = extremes_.heavy ? power(1, 1e6) : 1;
+    body.orientation = random_rotation<D>(random_);
+    if (!still_) body.velocity = random_direction<D>(random_) * random_.between(0, 10);
+    body.mass = heavy_ ? power(1, 1e6) : 1;
     body.material = {part(), part()};
     std::optional<Joint<D>> joint = new_joint(body);
     bool free = false;
     for (int i = 0; i < kTries && !free; ++i) {
-      if (!joint || joint->kind == JointKind::distance || i > 0)
-        body.position = random_point<D>(random_, -1, 1) * (extremes_.overlapping ? kTight : kRoom);
-      else
-        body.position = pinned(body, *joint);
-      if (i > 0 && joint && joint->kind == JointKind::pin) joint.reset();
-      free = extremes_.overlapping || depth_of(body, joint ? joint->a : kNobody) <= 0;
+      const bool pinned = joint && joint->kind == JointKind::pin;
+      if (pinned && i > 0) joint.reset();  // there is no room where it would hold the body
+      body.position = pinned && i == 0
+                          ? end_at_a(*joint) - matrix(body.orientation) * joint->at_b
+                          : random_point<D>(random_, -1, 1) * (overlapping_ ? kTight : kRoom);
+      free = overlapping_ || std::ranges::none_of(world_.bodies(), [&](const Body<D>& other) {
+               return !(joint && joint->a == other.id) && overlap_between(other, body) > 0;
+             });
     }
     if (!free) return;
-    const BodyId id = world_.add(body);
-    if (!extremes_.still) world_.set_angular_velocity(id, spin());
-    placed_.push_back(id);
-    if (joint) tie(*joint, id);
+    placed_.push_back(world_.add(body));
+    if (!still_) world_.set_angular_velocity(placed_.back(), spin());
+    if (!joint) return;
+    joint->b = placed_.back();
+    if (joint->kind == JointKind::distance)
+      joint->length = glm::length(end_at_a(*joint) - body.position -
+                                  matrix(body.orientation) * joint->at_b);
+    world_.add_joint(*joint);
   }
 
   // To the body before; it waits for the place of the other one.
   std::optional<Joint<D>> new_joint(const Body<D>& body) {
-    if (!extremes_.jointed || placed_.empty() || one_in(3)) return std::nullopt;
+    if (!jointed_ || placed_.empty() || one_in(3)) return std::nullopt;
     Joint<D> joint{.kind = coin() ? JointKind::pin : JointKind::distance, .a = placed_.back()};
     joint.at_a = hold(world_.find(joint.a)->shape);
     joint.at_b = hold(body.shape);
     return joint;
   }
 
-  Vec<D> end_of(const Body<D>& body, const Vec<D>& at) {
-    return body.position + matrix(body.orientation) * at;
-  }
-
-  Vec<D> pinned(const Body<D>& body, const Joint<D>& joint) {
-    return end_of(*world_.find(joint.a), joint.at_a) - matrix(body.orientation) * joint.at_b;
-  }
-
-  void tie(Joint<D> joint, BodyId id) {
-    joint.b = id;
-    if (joint.kind == JointKind::distance)
-      joint.length = glm::length(end_of(*world_.find(joint.a), joint.at_a) -
-                                 end_of(*world_.find(id), joint.at_b));
-    world_.add_joint(joint);
-  }
-
-  double depth_of(const Body<D>& body, BodyId joined) const {
-    double depth = 0;
-    for (const Body<D>& other : world_.bodies())
-      if (other.id != joined) depth += overlap_between(other, body);
-    return depth;
+  Vec<D> end_at_a(const Joint<D>& joint) const {
+    const Body<D>& a = *world_.find(joint.a);
+    return a.position + matrix(a.orientation) * joint.at_a;
   }
 
   void push() {
@@ -229,13 +200,11 @@ class SceneMaker {
     world_.push(body.id, random_direction<D>(random_) * force, body.position);
   }
 
-  static constexpr BodyId kNobody = std::numeric_limits<BodyId>::max();
-
   Random random_;
-  Extremes extremes_;
+  std::string words_;  // ", slender, floor"
+  bool slender_, spinning_, heavy_, still_, overlapping_, jointed_, pushed_;
   World<D> world_;
   double step_;
-  bool has_floor_ = false, has_walls_ = false;
   std::vector<BodyId> placed_;
 };
 

@@ -128,14 +128,7 @@ double needle_error() {
     Vec<D> half_a(1.0), half_b(1.0);
     half_a[static_cast<int>(random.whole(0, D - 1))] = 1e4;
     half_b[static_cast<int>(random.whole(0, D - 1))] = 1e4;
-    Rotation<D> turn_a, turn_b;
-    if constexpr (D == 2) {
-      turn_a.angle = random.between(-3, 3);
-      turn_b.angle = random.between(-3, 3);
-    } else {
-      turn_a = turned(turn_a, random_direction<3>(random) * random.between(0, 3));
-      turn_b = turned(turn_b, random_direction<3>(random) * random.between(0, 3));
-    }
+    const Rotation<D> turn_a = random_rotation<D>(random), turn_b = random_rotation<D>(random);
     const Shape<D> a = OrientedBox<D>{half_a}, b = OrientedBox<D>{half_b};
     const Vec<D> place = random_direction<D>(random) * random.between(0, 1e4);
     const auto found = collide<D>({a, Vec<D>(0.0), turn_a}, {b, place, turn_b}, 1e9);
