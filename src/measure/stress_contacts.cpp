@@ -194,16 +194,7 @@ double chain_stretch(JointKind kind, double ratio, int sub_steps = 16) {
                      .at_b = at<D>(kind == JointKind::pin ? -1 : 0),
                      .length = 1});
   }
-  return worst_after_steps(world, 600, kStep, [&] {
-    double widest = 0;
-    for (const auto& [id, joint] : world.joints()) {
-      const Body<D>&a = *world.find(joint.a), &b = *world.find(joint.b);
-      const double gap = glm::length(b.position + matrix(b.orientation) * joint.at_b - a.position -
-                                     matrix(a.orientation) * joint.at_a);
-      widest = largest(widest, std::abs(gap - (joint.kind == JointKind::pin ? 0 : joint.length)));
-    }
-    return widest;
-  });
+  return worst_after_steps(world, 600, kStep, [&] { return widest_gap(world); });
 }
 
 template <JointKind Kind>
