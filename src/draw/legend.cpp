@@ -69,201 +69,134 @@ const Vec<3> kHalfWay{22, 0, 0};  // a half of what is asked for
 
 // What a mark means, and its sample: drawn by itself, or the smallest world that carries it.
 struct MarkRow {
+  using Draw = void(const Sample&);
+  using Make = void(Frame& world, const Vec<3>& middle);
+  constexpr MarkRow(MarkKind k, std::string_view w, Draw* d) : kind(k), words(w), draw(d) {}
+  constexpr MarkRow(MarkKind k, std::string_view w, Make* m) : kind(k), words(w), make(m) {}
+
   MarkKind kind;
   std::string_view words;
-  void (*draw)(const Sample&) = nullptr;
-  void (*make)(Frame& world, const Vec<3>& middle) = nullptr;
+  Draw* draw = nullptr;
+  Make* make = nullptr;
 };
 
 // By MarkKind.
 constexpr MarkRow kRows[] = {
-    {.kind = MarkKind::lit,
-     .words = "in question",
-     .make = [](Frame& f, const Vec<3>&) { add_marked(f, Mark::lit); }},
-    {.kind = MarkKind::passed,
-     .words = "passed",
-     .make = [](Frame& f, const Vec<3>&) { add_marked(f, Mark::passed); }},
-    {.kind = MarkKind::not_made,
-     .words = "not made",
-     .make =
-         [](Frame& f, const Vec<3>&) {
-           f.structure = StructureKind::quadtree;
-           // its lower right quarter fills the picture, and is not made
-           FrameNode& node = add_cell(f, kNone);
-           node.leaf = false;
-           node.box.lo.x -= f.bounds.size().x;
-           node.box.hi.y += f.bounds.size().y;
-         }},
-    {.kind = MarkKind::sleeping_cell,
-     .words = "asleep: not searched",
-     .make =
-         [](Frame& f, const Vec<3>&) {
-           FrameNode& node = add_cell(f, kNone);
-           node.awake = false;
-           node.bodies = {0};
-         }},
-    {.kind = MarkKind::static_body,
-     .words = "never moves",
-     .make =
-         [](Frame& f, const Vec<3>&) {
-           FrameBody& body = add_ball(f, 12);
-           body.look = Look::box;
-           body.shape = AxisBox<3>{{12, 12, 0}};
-           body.is_static = true;
-         }},
-    {.kind = MarkKind::sleeping_body,
-     .words = "asleep",
-     .make = [](Frame& f, const Vec<3>&) { add_ball(f, 13).asleep = true; }},
-    {.kind = MarkKind::ruled_out,
-     .words = "not found",
-     .make = [](Frame& f, const Vec<3>&) { add_ball(f, 13).dimmed = true; }},
-    {.kind = MarkKind::candidate, .words = "to test", .draw = draw_linked<PairState::candidate>},
-    {.kind = MarkKind::faint_pair,
-     .words = "to test, among many",
-     .draw = draw_linked<PairState::candidate, false>},
-    {.kind = MarkKind::boxes_apart,
-     .words = "apart by box",
-     .draw = draw_linked<PairState::boxes_apart>},
-    {.kind = MarkKind::shapes_apart,
-     .words = "apart by shape",
-     .draw = draw_linked<PairState::shapes_apart>},
-    {.kind = MarkKind::box_overlap,
-     .words = "box overlap",
-     .draw =
-         [](const Sample& s) {
-           draw_overlap(Box<2>::around(s.c, {14, 9}), s.list);
-         }},
-    {.kind = MarkKind::contact,
-     .words = "contact",
-     .draw =
-         [](const Sample& s) {
-           draw_contact(s.c, {0, -1}, 1, s.pen);
-         }},
-    {.kind = MarkKind::contact_begins,
-     .words = "contact begins",
-     .draw =
-         [](const Sample& s) {
-           draw_contact(s.c, {0, -1}, 1, s.pen);
-           draw_beginning(s.c, 1, s.pen);
-         }},
-    {.kind = MarkKind::impulse,
-     .words = "impulse",
-     .draw =
-         [](const Sample& s) {
-           draw_impulse(s.left + Vec<2>(8, 0), s.right - Vec<2>(8, 0), 1, s.pen);
-         }},
-    {.kind = MarkKind::velocity,
-     .words = "velocity",
-     .draw =
-         [](const Sample& s) {
-           s.pen.arrow(s.left, s.right, kVelocityStroke, kVelocityHead, 1.2);
-         }},
-    {.kind = MarkKind::force,
-     .words = "force",
-     .draw = [](const Sample& s) { s.pen.arrow(s.left, s.right, kForceStroke, kForceHead, 1.6); }},
-    {.kind = MarkKind::ruler,
-     .words = "length",
-     .draw =
-         [](const Sample& s) {
-           draw_ruler(s.left, s.right, {Role::ink, 2.2}, s.pen);
-         }},
-    {.kind = MarkKind::box,
-     .words = "box",
-     .make =
-         [](Frame& f, const Vec<3>&) {
-           add_ball(f, 11);
-           f.display.boxes = true;
-         }},
-    {.kind = MarkKind::ray,
-     .words = "ray",
-     .make =
-         [](Frame& f, const Vec<3>& c) {
-           f.add<FrameFinding>().rays.push_back({c - kHalfWay, c + kHalfWay, {}});
-         }},
-    {.kind = MarkKind::ray_hit,
-     .words = "hit",
-     .draw =
-         [](const Sample& s) {
-           s.pen.line(s.left, s.right, {Role::ray, 3.6});
-           s.pen.dot(s.c, 7, Role::panel, {Role::ray, 2.8});
-         }},
-    {.kind = MarkKind::met,
-     .words = "order of cells",
-     .draw =
-         [](const Sample& s) {
-           s.list.rect(Box<2>::around(s.c, {11, 11}), Role::panel, {Role::ray, 2}, 3);
-           s.pen.line(s.c + Vec<2>(0, -5), s.c + Vec<2>(0, 5), {Role::ray, 2});
-         }},
-    {.kind = MarkKind::view,
-     .words = "view",
-     .make =
-         [](Frame& f, const Vec<3>& c) {
-           f.add<FrameFinding>().views.push_back(
-               {c - kHalfWay, {c - kHalfWay, c + Vec<3>(22, -12, 0), c + Vec<3>(22, 12, 0)}});
-         }},
-    {.kind = MarkKind::region,
-     .words = "region",
-     .make =
-         [](Frame& f, const Vec<3>& c) {
-           f.add<FrameFinding>().queries.push_back(
-               {{c - Vec<3>(20, 10, 0), c + Vec<3>(20, 10, 0)}, 0});
-         }},
-    {.kind = MarkKind::found,
-     .words = "found",
-     .draw = [](const Sample& s) { draw_tick(s.c, s.list); }},
-    {.kind = MarkKind::skipped,
-     .words = "skipped, with all below",
-     .draw = [](const Sample& s) { draw_skipped(s.c, s.list); }},
-    {.kind = MarkKind::centre,
-     .words = "centre",
-     .draw = [](const Sample& s) { draw_centre(s.c, s.pen); }},
-    {.kind = MarkKind::spring,
-     .words = "spring",
-     .make = [](Frame& f, const Vec<3>&) { add_link(f, FrameLink::Kind::spring); }},
-    {.kind = MarkKind::rod,
-     .words = "rod",
-     .make = [](Frame& f, const Vec<3>&) { add_link(f, FrameLink::Kind::distance); }},
-    {.kind = MarkKind::pin, .words = "pin", .draw = [](const Sample& s) { draw_pin(s.c, s.pen); }},
-    {.kind = MarkKind::shadow,
-     .words = "reach along the axis",
-     .draw = [](const Sample& s) { draw_shadow(s.left, s.right, body_role(4), s.pen); }},
-    {.kind = MarkKind::shadow_gap,
-     .words = "gap",
-     .draw = [](const Sample& s) { draw_gap(s.a, s.b, s.pen); }},
-    {.kind = MarkKind::shadow_overlap,
-     .words = "way out along the axis",
-     .draw = [](const Sample& s) { draw_shared_shadow(s.a, s.b, s.pen); }},
-    {.kind = MarkKind::support,
-     .words = "farthest point",
-     .draw = [](const Sample& s) { draw_support(s.c, s.pen); }},
-    {.kind = MarkKind::simplex,
-     .words = "points kept",
-     .draw =
-         [](const Sample& s) {
-           draw_simplex({s.a, s.b}, s.pen);
-         }},
-    {.kind = MarkKind::origin,
-     .words = "origin",
-     .draw = [](const Sample& s) { draw_origin(s.c, s.pen); }},
-    {.kind = MarkKind::portal,
-     .words = "portal",
-     .draw = [](const Sample& s) { draw_portal(s.left, s.right, s.pen); }},
-    {.kind = MarkKind::sight,
-     .words = "line of sight",
-     .draw = [](const Sample& s) { draw_sight(s.left, s.right, s.pen); }},
-    {.kind = MarkKind::trail,
-     .words = "step before step",
-     .draw =
-         [](const Sample& s) {
-           draw_way({s.left + Vec<2>(6, 0), s.right}, s.pen);
-           s.pen.dot(s.left + Vec<2>(6, 0), 9, Role::none, kTrailStroke);
-         }},
-    {.kind = MarkKind::ahead,
-     .words = "next, if it meets nothing",
-     .draw = [](const Sample& s) { s.pen.path(ring_of(s.c, 10, 24), true, kAheadStroke); }},
-    {.kind = MarkKind::look,
-     .words = "a look within the step",
-     .draw = [](const Sample& s) { s.pen.dot(s.c, 10, Role::none, kLookStroke); }},
+    {MarkKind::lit, "in question", [](Frame& f, const Vec<3>&) { add_marked(f, Mark::lit); }},
+    {MarkKind::passed, "passed", [](Frame& f, const Vec<3>&) { add_marked(f, Mark::passed); }},
+    {MarkKind::not_made, "not made",
+     [](Frame& f, const Vec<3>&) {
+       f.structure = StructureKind::quadtree;
+       // its lower right quarter fills the picture, and is not made
+       FrameNode& node = add_cell(f, kNone);
+       node.leaf = false;
+       node.box.lo.x -= f.bounds.size().x;
+       node.box.hi.y += f.bounds.size().y;
+     }},
+    {MarkKind::sleeping_cell, "asleep: not searched",
+     [](Frame& f, const Vec<3>&) {
+       FrameNode& node = add_cell(f, kNone);
+       node.awake = false;
+       node.bodies = {0};
+     }},
+    {MarkKind::static_body, "never moves",
+     [](Frame& f, const Vec<3>&) {
+       FrameBody& body = add_ball(f, 12);
+       body.look = Look::box;
+       body.shape = AxisBox<3>{{12, 12, 0}};
+       body.is_static = true;
+     }},
+    {MarkKind::sleeping_body, "asleep",
+     [](Frame& f, const Vec<3>&) { add_ball(f, 13).asleep = true; }},
+    {MarkKind::ruled_out, "not found",
+     [](Frame& f, const Vec<3>&) { add_ball(f, 13).dimmed = true; }},
+    {MarkKind::candidate, "to test", draw_linked<PairState::candidate>},
+    {MarkKind::faint_pair, "to test, among many", draw_linked<PairState::candidate, false>},
+    {MarkKind::boxes_apart, "apart by box", draw_linked<PairState::boxes_apart>},
+    {MarkKind::shapes_apart, "apart by shape", draw_linked<PairState::shapes_apart>},
+    {MarkKind::box_overlap, "box overlap",
+     [](const Sample& s) {
+       draw_overlap(Box<2>::around(s.c, {14, 9}), s.list);
+     }},
+    {MarkKind::contact, "contact",
+     [](const Sample& s) {
+       draw_contact(s.c, {0, -1}, 1, s.pen);
+     }},
+    {MarkKind::contact_begins, "contact begins",
+     [](const Sample& s) {
+       draw_contact(s.c, {0, -1}, 1, s.pen);
+       draw_beginning(s.c, 1, s.pen);
+     }},
+    {MarkKind::impulse, "impulse",
+     [](const Sample& s) {
+       draw_impulse(s.left + Vec<2>(8, 0), s.right - Vec<2>(8, 0), 1, s.pen);
+     }},
+    {MarkKind::velocity, "velocity",
+     [](const Sample& s) { s.pen.arrow(s.left, s.right, kVelocityStroke, kVelocityHead, 1.2); }},
+    {MarkKind::force, "force",
+     [](const Sample& s) { s.pen.arrow(s.left, s.right, kForceStroke, kForceHead, 1.6); }},
+    {MarkKind::ruler, "length",
+     [](const Sample& s) {
+       draw_ruler(s.left, s.right, {Role::ink, 2.2}, s.pen);
+     }},
+    {MarkKind::box, "box",
+     [](Frame& f, const Vec<3>&) {
+       add_ball(f, 11);
+       f.display.boxes = true;
+     }},
+    {MarkKind::ray, "ray",
+     [](Frame& f, const Vec<3>& c) {
+       f.add<FrameFinding>().rays.push_back({c - kHalfWay, c + kHalfWay, {}});
+     }},
+    {MarkKind::ray_hit, "hit",
+     [](const Sample& s) {
+       s.pen.line(s.left, s.right, {Role::ray, 3.6});
+       s.pen.dot(s.c, 7, Role::panel, {Role::ray, 2.8});
+     }},
+    {MarkKind::met, "order of cells",
+     [](const Sample& s) {
+       s.list.rect(Box<2>::around(s.c, {11, 11}), Role::panel, {Role::ray, 2}, 3);
+       s.pen.line(s.c + Vec<2>(0, -5), s.c + Vec<2>(0, 5), {Role::ray, 2});
+     }},
+    {MarkKind::view, "view",
+     [](Frame& f, const Vec<3>& c) {
+       f.add<FrameFinding>().views.push_back(
+           {c - kHalfWay, {c - kHalfWay, c + Vec<3>(22, -12, 0), c + Vec<3>(22, 12, 0)}});
+     }},
+    {MarkKind::region, "region",
+     [](Frame& f, const Vec<3>& c) {
+       f.add<FrameFinding>().queries.push_back({{c - Vec<3>(20, 10, 0), c + Vec<3>(20, 10, 0)}, 0});
+     }},
+    {MarkKind::found, "found", [](const Sample& s) { draw_tick(s.c, s.list); }},
+    {MarkKind::skipped, "skipped, with all below",
+     [](const Sample& s) { draw_skipped(s.c, s.list); }},
+    {MarkKind::centre, "centre", [](const Sample& s) { draw_centre(s.c, s.pen); }},
+    {MarkKind::spring, "spring",
+     [](Frame& f, const Vec<3>&) { add_link(f, FrameLink::Kind::spring); }},
+    {MarkKind::rod, "rod", [](Frame& f, const Vec<3>&) { add_link(f, FrameLink::Kind::distance); }},
+    {MarkKind::pin, "pin", [](const Sample& s) { draw_pin(s.c, s.pen); }},
+    {MarkKind::shadow, "reach along the axis",
+     [](const Sample& s) { draw_shadow(s.left, s.right, body_role(4), s.pen); }},
+    {MarkKind::shadow_gap, "gap", [](const Sample& s) { draw_gap(s.a, s.b, s.pen); }},
+    {MarkKind::shadow_overlap, "way out along the axis",
+     [](const Sample& s) { draw_shared_shadow(s.a, s.b, s.pen); }},
+    {MarkKind::support, "farthest point", [](const Sample& s) { draw_support(s.c, s.pen); }},
+    {MarkKind::simplex, "points kept",
+     [](const Sample& s) {
+       draw_simplex({s.a, s.b}, s.pen);
+     }},
+    {MarkKind::origin, "origin", [](const Sample& s) { draw_origin(s.c, s.pen); }},
+    {MarkKind::portal, "portal", [](const Sample& s) { draw_portal(s.left, s.right, s.pen); }},
+    {MarkKind::sight, "line of sight", [](const Sample& s) { draw_sight(s.left, s.right, s.pen); }},
+    {MarkKind::trail, "step before step",
+     [](const Sample& s) {
+       draw_way({s.left + Vec<2>(6, 0), s.right}, s.pen);
+       s.pen.dot(s.left + Vec<2>(6, 0), 9, Role::none, kTrailStroke);
+     }},
+    {MarkKind::ahead, "next, if it meets nothing",
+     [](const Sample& s) { s.pen.path(ring_of(s.c, 10, 24), true, kAheadStroke); }},
+    {MarkKind::look, "a look within the step",
+     [](const Sample& s) { s.pen.dot(s.c, 10, Role::none, kLookStroke); }},
 };
 static_assert(std::size(kRows) == kMarkKinds);
 
