@@ -225,7 +225,7 @@ class ScriptReader {
 };
 
 std::vector<VerbDoc> made_verbs() {
-  std::vector<VerbDoc> all = {verb<Show>({.doc = "Nothing happens; the caption speaks."})};
+  std::vector<VerbDoc> all = {verb<Show>("Nothing happens; the caption speaks.")};
   for (auto part : {verbs_of_bodies(), verbs_of_time(), verbs_of_structures(), verbs_of_levels(),
                     verbs_of_atlases()})
     std::ranges::move(part, std::back_inserter(all));

@@ -134,12 +134,15 @@ struct VerbDoc {
 
 // `read` fills what the keys do not fill by themselves, and tells mistakes.
 template <class V>
-VerbDoc verb(TableDoc table,
-             void (*read)(V& verb, const TableReader& table, ScriptReading& script) = nullptr) {
-  return {std::move(table), V::kTraits, [read](const TableReader& keys, ScriptReading& script) {
+VerbDoc verb(std::string_view doc, std::vector<KeyDoc> keys = {},
+             void (*read)(V& verb, const TableReader& table, ScriptReading& script) = nullptr,
+             KeyGroups groups = {}) {
+  return {{.doc = doc, .keys = std::move(keys), .groups = std::move(groups)},
+          V::kTraits,
+          [read](const TableReader& table, ScriptReading& script) {
             V verb;
-            keys.fill(verb);
-            if (read) read(verb, keys, script);
+            table.fill(verb);
+            if (read) read(verb, table, script);
             return Verb(std::move(verb));
           }};
 }

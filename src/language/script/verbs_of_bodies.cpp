@@ -165,54 +165,49 @@ KeyDoc phase_events() {
 
 std::vector<VerbDoc> verbs_of_bodies() {
   return {
-      verb<Insert>({.doc = "Bodies enter the world and the structure, one after another.",
-                    .keys = {bodies_key(), pace_key(),
-                             events_key({"test", "miss", "make_child", "store", "split",
-                                         "hand_down", "depth_limit", "no_progress", "rotate"})}},
+      verb<Insert>("Bodies enter the world and the structure, one after another.",
+                   {bodies_key(), pace_key(),
+                    events_key({"test", "miss", "make_child", "store", "split", "hand_down",
+                                "depth_limit", "no_progress", "rotate"})},
                    read_insert),
-      verb<Emit>({.doc = "Bodies enter the world one after another while time passes: the first at "
-                         "once, the others when later steps let time pass.",
-                  .keys = {bodies_key(), key(KeyType::number, "every",
-                                             "From one to the next, a whole number of time steps.",
-                                             must(), above(0, kHundredYears), in("s"))}},
+      verb<Emit>("Bodies enter the world one after another while time passes: the first at "
+                 "once, the others when later steps let time pass.",
+                 {bodies_key(), key(KeyType::number, "every",
+                                    "From one to the next, a whole number of time steps.", must(),
+                                    above(0, kHundredYears), in("s"))},
                  read_emit),
-      verb<Remove>({.doc = "Bodies leave the world and the structure.", .keys = {bodies_key()}},
-                   read_remove),
+      verb<Remove>("Bodies leave the world and the structure.", {bodies_key()}, read_remove),
       verb<Move>(
-          {.doc = "A body is put elsewhere, turned, or goes another way from now on.",
-           .keys =
-               {
-                   body_key(),
-                   key(&Move::to, "to", "Its new position.", range(-kFar, kFar),
-                       or_else("where it is")),
-                   key(&Move::velocity, "velocity", "Its new velocity.", range(-kFar, kFar),
-                       in("units/s"), or_else("as it is")),
-                   key(&Move::turned, "turned", "How far it is turned from now on.",
-                       range(-kMostTurn, kMostTurn), in("°"), or_else("as it is")),
-                   key(&Move::spin, "spin", "How fast it turns from now on.",
-                       range(-kMostTurn, kMostTurn), in("°/s"), or_else("as it does")),
-                   key(&Move::rebuild, "rebuild", "The structure is rebuilt, or left as it was."),
-                   pace_key(),
-                   events_key({"leave", "test", "miss", "split", "store", "rotate"}),
-               },
-           .groups = {{{"to"}, {"velocity"}, {"turned"}, {"spin"}}, false}},
-          read_move),
-      verb<Sleep>({.doc = "Bodies fall asleep: nothing moves them until something wakes them.",
-                   .keys = {bodies_key()}},
-                  read_rest<true>),
-      verb<Wake>({.doc = "Bodies wake up.", .keys = {bodies_key()}}, read_rest<false>),
-      verb<ApplyForce>({.doc = "A force acts on a body from now on, until another takes its place; "
-                               "one of zero ends it.",
-                        .keys = {body_key(),
-                                 key(&ApplyForce::force, "force", "In the world's axes.", must(),
-                                     range(-kFar, kFar), in("N")),
-                                 at_key<ApplyForce>()}},
+          "A body is put elsewhere, turned, or goes another way from now on.",
+          {
+              body_key(),
+              key(&Move::to, "to", "Its new position.", range(-kFar, kFar), or_else("where it is")),
+              key(&Move::velocity, "velocity", "Its new velocity.", range(-kFar, kFar),
+                  in("units/s"), or_else("as it is")),
+              key(&Move::turned, "turned", "How far it is turned from now on.",
+                  range(-kMostTurn, kMostTurn), in("°"), or_else("as it is")),
+              key(&Move::spin, "spin", "How fast it turns from now on.",
+                  range(-kMostTurn, kMostTurn), in("°/s"), or_else("as it does")),
+              key(&Move::rebuild, "rebuild", "The structure is rebuilt, or left as it was."),
+              pace_key(),
+              events_key({"leave", "test", "miss", "split", "store", "rotate"}),
+          },
+          read_move, {{{"to"}, {"velocity"}, {"turned"}, {"spin"}}, false}),
+      verb<Sleep>("Bodies fall asleep: nothing moves them until something wakes them.",
+                  {bodies_key()}, read_rest<true>),
+      verb<Wake>("Bodies wake up.", {bodies_key()}, read_rest<false>),
+      verb<ApplyForce>("A force acts on a body from now on, until another takes its place; "
+                       "one of zero ends it.",
+                       {body_key(),
+                        key(&ApplyForce::force, "force", "In the world's axes.", must(),
+                            range(-kFar, kFar), in("N")),
+                        at_key<ApplyForce>()},
                        read_push<ApplyForce>),
-      verb<ApplyImpulse>({.doc = "A body is struck once.",
-                          .keys = {body_key(),
-                                   key(&ApplyImpulse::impulse, "impulse", "In the world's axes.",
-                                       must(), range(-kFar, kFar), in("N s")),
-                                   at_key<ApplyImpulse>()}},
+      verb<ApplyImpulse>("A body is struck once.",
+                         {body_key(),
+                          key(&ApplyImpulse::impulse, "impulse", "In the world's axes.", must(),
+                              range(-kFar, kFar), in("N s")),
+                          at_key<ApplyImpulse>()},
                          read_push<ApplyImpulse>)};
 }
 
@@ -250,48 +245,44 @@ std::vector<VerbDoc> verbs_of_time() {
   std::vector<std::string_view> methods = contact_method_names();
   std::erase(methods, to_string(ContactMethod::none));
   return {
-      verb<Run>({.doc = "Time passes.",
-                 .keys = {key(&Run::seconds, "seconds",
-                              "A whole number of time steps; the frames of all steps are at most "
-                              "100000, and the time steps 1000000.",
-                              must(), above(0, kHundredYears), in("s")),
-                          every_key<Run>()}},
+      verb<Run>("Time passes.",
+                {key(&Run::seconds, "seconds",
+                     "A whole number of time steps; the frames of all steps are at most "
+                     "100000, and the time steps 1000000.",
+                     must(), above(0, kHundredYears), in("s")),
+                 every_key<Run>()},
                 read_run),
-      verb<Wait>({.doc = "Time passes until something happens. If it has not happened in time, the "
-                         "scenario fails.",
-                  .keys =
-                      {
-                          key(&Wait::event, "event",
-                              "Two bodies `touch` or `part`; or one of the two is `crush`ed "
-                              "between the other and a third; or all of some bodies are `asleep`.",
-                              must()),
-                          key(KeyType::texts, "bodies",
-                              "Two names of bodies; of what falls asleep any number.", must()),
-                          key(&Wait::at_most, "at_most", "A whole number of time steps.", must(),
-                              above(0, kHundredYears), in("s")),
-                          every_key<Wait>(),
-                      }},
+      verb<Wait>("Time passes until something happens. If it has not happened in time, the "
+                 "scenario fails.",
+                 {
+                     key(&Wait::event, "event",
+                         "Two bodies `touch` or `part`; or one of the two is `crush`ed "
+                         "between the other and a third; or all of some bodies are `asleep`.",
+                         must()),
+                     key(KeyType::texts, "bodies",
+                         "Two names of bodies; of what falls asleep any number.", must()),
+                     key(&Wait::at_most, "at_most", "A whole number of time steps.", must(),
+                         above(0, kHundredYears), in("s")),
+                     every_key<Wait>(),
+                 },
                  read_wait),
-      verb<Phases>({.doc = "One world step, phase by phase.", .keys = {pace_key(), phase_events()}},
-                   read_phases),
-      verb<SolveBy>(
-          {.doc = "From now on, contacts are solved another way; the world must have some.",
-           .keys =
-               {
-                   key(&S::contacts, "contacts", "As [world] has it, but `none`.", must(),
-                       one_of(methods)),
-                   key(&S::sub_steps, "sub_steps",
-                       "How many parts soft contacts divide a world step into.", range(1, 64),
-                       or_else("as it was")),
-                   key(&S::wanted_error, "wanted_error",
-                       "How deep two bodies may lie in each other, as [world] has it.", range(0, 1),
-                       or_else("as it was")),
-                   key(&S::iterations, "iterations",
-                       "Sweeps over the velocities in a world step, and as many over the "
-                       "positions.",
-                       range(1, 1000), or_else("as it was")),
-               }},
-          read_solve_by)};
+      verb<Phases>("One world step, phase by phase.", {pace_key(), phase_events()}, read_phases),
+      verb<SolveBy>("From now on, contacts are solved another way; the world must have some.",
+                    {
+                        key(&S::contacts, "contacts", "As [world] has it, but `none`.", must(),
+                            one_of(methods)),
+                        key(&S::sub_steps, "sub_steps",
+                            "How many parts soft contacts divide a world step into.", range(1, 64),
+                            or_else("as it was")),
+                        key(&S::wanted_error, "wanted_error",
+                            "How deep two bodies may lie in each other, as [world] has it.",
+                            range(0, 1), or_else("as it was")),
+                        key(&S::iterations, "iterations",
+                            "Sweeps over the velocities in a world step, and as many over the "
+                            "positions.",
+                            range(1, 1000), or_else("as it was")),
+                    },
+                    read_solve_by)};
 }
 
 }  // namespace lantern::language

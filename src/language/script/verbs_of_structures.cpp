@@ -219,127 +219,113 @@ void read_draw(DrawScreen& draw, const TableReader& table, ScriptReading& script
 
 std::vector<VerbDoc> verbs_of_structures() {
   return {
-      verb<Rebuild>({.doc = "The structure is made anew with the settings given; the others stay.",
-                     .keys = structure_keys()},
-                    read_rebuild),
-      verb<Sweep>({.doc = "A `sort_and_sweep` finds its pairs: one frame for each body, in the "
-                          "order in which they begin on the axis, then one of all.",
-                   .keys = {}},
-                  read_sweep),
+      verb<Rebuild>("The structure is made anew with the settings given; the others stay.",
+                    structure_keys(), read_rebuild),
+      verb<Sweep>("A `sort_and_sweep` finds its pairs: one frame for each body, in the "
+                  "order in which they begin on the axis, then one of all.",
+                  {}, read_sweep),
       verb<Compare>(
-          {.doc = "Bodies stand alone in a world of their own, whether they are in this one or "
-                  "not, and go through one world step; each kind of structure is built for them, "
-                  "then made ready for where they are after the step, and finds their pairs. "
-                  "Counted are comparisons. What never moves has a structure of its own, built "
-                  "once. The panel `comparison` gets a row for it.",
-           .keys =
-               {
-                   bodies_key(),
-                   key(&Compare::row, "row", "What this world is called in the table.", must(),
-                       range(1, 24)),
-                   key(&Compare::kinds, "kinds",
-                       "Kinds of structures, with the settings of the [structure] that stands; a "
-                       "`bsp` with its planes.",
-                       or_else("all of Lantern's own that are possible here and whose work is "
-                               "counted")),
-                   key(&Compare::verdict, "verdict",
-                       "What the row says in words. It may quote counts, as a caption does.",
-                       range(0, 56)),
-               }},
+          "Bodies stand alone in a world of their own, whether they are in this one or "
+          "not, and go through one world step; each kind of structure is built for them, "
+          "then made ready for where they are after the step, and finds their pairs. "
+          "Counted are comparisons. What never moves has a structure of its own, built "
+          "once. The panel `comparison` gets a row for it.",
+          {
+              bodies_key(),
+              key(&Compare::row, "row", "What this world is called in the table.", must(),
+                  range(1, 24)),
+              key(&Compare::kinds, "kinds",
+                  "Kinds of structures, with the settings of the [structure] that stands; a "
+                  "`bsp` with its planes.",
+                  or_else("all of Lantern's own that are possible here and whose work is "
+                          "counted")),
+              key(&Compare::verdict, "verdict",
+                  "What the row says in words. It may quote counts, as a caption does.",
+                  range(0, 56)),
+          },
           read_compare),
       verb<CastRay>(
-          {.doc = "Which bodies does a ray hit? The structure leaves out what it cannot hit.",
-           .keys = {key(&CastRay::from, "from", "Where it begins.", must(), range(-kFar, kFar)),
-                    key(&CastRay::to, "to", "Where it ends, unless something stops it.", must(),
-                        range(-kFar, kFar)),
-                    key(&CastRay::all, "hits",
-                        "It stops at the `nearest` body, or goes through `all`.",
-                        one_of({"nearest", "all"})),
-                    pace_key(), walk_events()}},
+          "Which bodies does a ray hit? The structure leaves out what it cannot hit.",
+          {key(&CastRay::from, "from", "Where it begins.", must(), range(-kFar, kFar)),
+           key(&CastRay::to, "to", "Where it ends, unless something stops it.", must(),
+               range(-kFar, kFar)),
+           key(&CastRay::all, "hits", "It stops at the `nearest` body, or goes through `all`.",
+               one_of({"nearest", "all"})),
+           pace_key(), walk_events()},
           read_ray),
       verb<Cull>(
-          {.doc = "Which bodies can a camera see? Whole nodes outside its view are left out.",
-           .keys = {key(&Cull::eye, "eye", "Where the camera is.", must(), range(-kFar, kFar)),
-                    key(&Cull::target, "target", "Where it looks.", must(), range(-kFar, kFar)),
-                    key(&Cull::angle, "angle",
-                        "How wide its view opens; in a 3D world from bottom to top.", above(0, 170),
-                        in("°")),
-                    key(&Cull::near, "near", "It sees nothing nearer.", above(0, kFar)),
-                    key(&Cull::far, "far", "It sees nothing farther.", above(0, kFar)), pace_key(),
-                    walk_events()}},
+          "Which bodies can a camera see? Whole nodes outside its view are left out.",
+          {key(&Cull::eye, "eye", "Where the camera is.", must(), range(-kFar, kFar)),
+           key(&Cull::target, "target", "Where it looks.", must(), range(-kFar, kFar)),
+           key(&Cull::angle, "angle", "How wide its view opens; in a 3D world from bottom to top.",
+               above(0, 170), in("°")),
+           key(&Cull::near, "near", "It sees nothing nearer.", above(0, kFar)),
+           key(&Cull::far, "far", "It sees nothing farther.", above(0, kFar)), pace_key(),
+           walk_events()},
           read_cull),
       verb<Query>(
-          {.doc = "Which bodies overlap a box, or a disc or ball?",
-           .keys = {key(KeyType::point, "min", "Lowest corner of the box.", range(-kFar, kFar)),
-                    key(KeyType::point, "max", "Highest corner of the box.", range(-kFar, kFar)),
-                    key(KeyType::point, "center", "Of the disc or ball, instead.",
-                        range(-kFar, kFar)),
-                    key(KeyType::number, "radius", "Of the disc or ball.", above(0, kFar)),
-                    pace_key(), walk_events()},
-           .groups = {{{"min", "max"}, {"center", "radius"}}}},
-          read_query),
-      verb<TestShapes>({.doc = "The shapes of all candidate pairs are tested, without comparing "
-                               "boxes first, as the lecture's narrow phase does. Nothing moves.",
-                        .keys = {}},
-                       read_test_shapes),
-      verb<Separate>({.doc = "Which axis parts two bodies? The narrow phase's own test, axis by "
-                             "axis, until there is a gap; in a flat world.",
-                      .keys = {pair_key(), pace_key(), events_key({"axis"})}},
-                     read_pair<Separate>),
+          "Which bodies overlap a box, or a disc or ball?",
+          {key(KeyType::point, "min", "Lowest corner of the box.", range(-kFar, kFar)),
+           key(KeyType::point, "max", "Highest corner of the box.", range(-kFar, kFar)),
+           key(KeyType::point, "center", "Of the disc or ball, instead.", range(-kFar, kFar)),
+           key(KeyType::number, "radius", "Of the disc or ball.", above(0, kFar)), pace_key(),
+           walk_events()},
+          read_query, {{{"min", "max"}, {"center", "radius"}}}),
+      verb<TestShapes>("The shapes of all candidate pairs are tested, without comparing "
+                       "boxes first, as the lecture's narrow phase does. Nothing moves.",
+                       {}, read_test_shapes),
+      verb<Separate>("Which axis parts two bodies? The narrow phase's own test, axis by "
+                     "axis, until there is a gap; in a flat world.",
+                     {pair_key(), pace_key(), events_key({"axis"})}, read_pair<Separate>),
       verb<SearchDistance>(
-          {.doc = "How far are two bodies apart? GJK finds it by asking for points of their "
-                  "Minkowski difference, each farther towards the origin; in a flat world.",
-           .keys = {pair_key(), pace_key(), events_key({"support", "simplex"})}},
-          read_pair<SearchDistance>)};
+          "How far are two bodies apart? GJK finds it by asking for points of their "
+          "Minkowski difference, each farther towards the origin; in a flat world.",
+          {pair_key(), pace_key(), events_key({"support", "simplex"})}, read_pair<SearchDistance>)};
 }
 
 std::vector<VerbDoc> verbs_of_levels() {
-  return {
-      verb<CompileLevel>(
-          {.doc = "The level's walls become a BSP, whose leaves are the sectors. "
-                  "Bodies of a scenario without a [structure] lie in it from then "
-                  "on, each in every sector that its box reaches.",
-           .keys = {pace_key(), events_key({"consider", "choose", "cut", "sector"})}}),
-      verb<Locate>({.doc = "In which sector of the compiled level is a point?",
-                    .keys = {point_key(&Locate::point, "point", "The point asked for.")}},
-                   require_compiled<Locate>),
-      verb<OrderFrom>({.doc = "The sectors of the compiled level, front to back.",
-                       .keys = {point_key(&OrderFrom::eye, "eye", "Where they are seen from.")}},
-                      require_compiled<OrderFrom>),
-      verb<See>({.doc = "Which sectors of the compiled level see which through the openings "
-                        "between them: found once, and then only looked up.",
-                 .keys = {pace_key(), events_key({"portals", "row"}),
-                          key(&See::eye, "eye", "Whose sector's view is shown.", range(-kFar, kFar),
-                              written("[x, y]"), or_else("no sector's"))}},
-                read_see)};
+  return {verb<CompileLevel>("The level's walls become a BSP, whose leaves are the sectors. "
+                             "Bodies of a scenario without a [structure] lie in it from then "
+                             "on, each in every sector that its box reaches.",
+                             {pace_key(), events_key({"consider", "choose", "cut", "sector"})}),
+          verb<Locate>("In which sector of the compiled level is a point?",
+                       {point_key(&Locate::point, "point", "The point asked for.")},
+                       require_compiled<Locate>),
+          verb<OrderFrom>("The sectors of the compiled level, front to back.",
+                          {point_key(&OrderFrom::eye, "eye", "Where they are seen from.")},
+                          require_compiled<OrderFrom>),
+          verb<See>("Which sectors of the compiled level see which through the openings "
+                    "between them: found once, and then only looked up.",
+                    {pace_key(), events_key({"portals", "row"}),
+                     key(&See::eye, "eye", "Whose sector's view is shown.", range(-kFar, kFar),
+                         written("[x, y]"), or_else("no sector's"))},
+                    read_see)};
 }
 
 std::vector<VerbDoc> verbs_of_atlases() {
   return {
-      verb<Pack>(
-          {.doc = "Textures enter the atlas, one after another. One that fits nowhere is refused.",
-           .keys = {key(KeyType::texts, "textures",
-                        "Names of textures, or of their patterns for all of theirs.", must()),
-                    key(&Pack::each, "each", "One frame a texture, or one for all."),
-                    key(&Pack::free_name, "free_name",
-                        "Labels the largest free leaf that the last one leaves.", range(1, 24),
-                        or_else("none")),
-                    pace_key(), events_key({"too_small", "used", "cut", "store", "refuse"})}},
-          read_pack),
-      verb<AskRoom>({.doc = "The kD-tree's own question: has any free leaf room for this size?",
-                     .keys = {key(KeyType::size, "size", "The width and height asked for.", must(),
-                                  range(1, kMostPixels), in("px"))}},
+      verb<Pack>("Textures enter the atlas, one after another. One that fits nowhere is refused.",
+                 {key(KeyType::texts, "textures",
+                      "Names of textures, or of their patterns for all of theirs.", must()),
+                  key(&Pack::each, "each", "One frame a texture, or one for all."),
+                  key(&Pack::free_name, "free_name",
+                      "Labels the largest free leaf that the last one leaves.", range(1, 24),
+                      or_else("none")),
+                  pace_key(), events_key({"too_small", "used", "cut", "store", "refuse"})},
+                 read_pack),
+      verb<AskRoom>("The kD-tree's own question: has any free leaf room for this size?",
+                    {key(KeyType::size, "size", "The width and height asked for.", must(),
+                         range(1, kMostPixels), in("px"))},
                     read_ask_room),
       verb<DrawScreen>(
-          {.doc = "Draws all elements of the [atlas]'s `screen`, and counts how often another "
-                  "image must be bound. Each `draw` begins with an empty screen and nothing bound.",
-           .keys =
-               {key(&DrawScreen::from, "from",
-                    "Each element from its own texture, or all from the atlas that holds them."),
-                key(&DrawScreen::order, "order",
-                    "`as_listed`, or `by_texture`: sorted so that equal textures follow each "
-                    "other, but what lies over another element still comes after it."),
-                pace_key(), events_key({"bind", "draw"})}},
+          "Draws all elements of the [atlas]'s `screen`, and counts how often another "
+          "image must be bound. Each `draw` begins with an empty screen and nothing bound.",
+          {key(&DrawScreen::from, "from",
+               "Each element from its own texture, or all from the atlas that holds them."),
+           key(&DrawScreen::order, "order",
+               "`as_listed`, or `by_texture`: sorted so that equal textures follow each "
+               "other, but what lies over another element still comes after it."),
+           pace_key(), events_key({"bind", "draw"})},
           read_draw)};
 }
 
