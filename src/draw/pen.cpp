@@ -8,7 +8,6 @@
 
 #include "geometry/elementary.hpp"
 #include "geometry/not_finite.hpp"
-#include "geometry/plane.hpp"
 #include "geometry/ray.hpp"
 
 namespace lantern::draw {
@@ -182,12 +181,6 @@ std::vector<Vec<2>> ring_of(const Vec<2>& center, double radius, int corners, do
     points.push_back(center + unit_at(angle) * radius);
   }
   return points;
-}
-
-Box<2> box_of(const std::vector<Vec<2>>& points) {
-  Box<2> box{Vec<2>(1e300), Vec<2>(-1e300)};
-  for (const Vec<2>& p : points) box = {glm::min(box.lo, p), glm::max(box.hi, p)};
-  return box;
 }
 
 Vec<2> middle_of(const std::vector<Vec<2>>& points) {

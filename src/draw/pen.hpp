@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "draw/draw_list.hpp"
+#include "geometry/plane.hpp"
 
 namespace lantern::draw {
 
@@ -57,9 +58,6 @@ std::vector<Vec<2>> arrow_head(const Vec<2>& from, const Vec<2>& to, double head
 
 // The corners of a regular polygon, or of a circle with enough of them.
 std::vector<Vec<2>> ring_of(const Vec<2>& center, double radius, int corners, double turn = 0);
-
-// What holds the points.
-Box<2> box_of(const std::vector<Vec<2>>& points);
 
 // The mean of the points; the origin if there are none.
 Vec<2> middle_of(const std::vector<Vec<2>>& points);

@@ -96,6 +96,13 @@ inline Polygon polygon_of(const Box<2>& box) {
   return {box.lo, {box.hi.x, box.lo.y}, box.hi, {box.lo.x, box.hi.y}};
 }
 
+// What holds the points; inverted if there are none.
+inline Box<2> box_of(const std::vector<Vec<2>>& points) {
+  Box<2> box{Vec<2>(1e300), Vec<2>(-1e300)};
+  for (const Vec<2>& p : points) box = united(box, Box<2>{p, p});
+  return box;
+}
+
 // The part of a convex polygon on one side of a line (Sutherland and Hodgman 1974).
 inline Polygon clipped(const Polygon& polygon, const Plane<2>& line, bool keep_front) {
   const auto height_within = [&](const Vec<2>& p) {

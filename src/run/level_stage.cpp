@@ -240,11 +240,7 @@ LevelStage::NodeOfSector LevelStage::picture_nodes(const LevelBsp& level, bool h
     node.leaf = view.leaf;
     node.region = *view.region;
     node.box = frame.bounds;
-    if (!node.region.empty()) {
-      Box<2> box{node.region[0], node.region[0]};
-      for (const Vec<2>& corner : node.region) box = united(box, Box<2>{corner, corner});
-      node.box = solid(box);
-    }
+    if (!node.region.empty()) node.box = solid(box_of(node.region));
     if (view.plane) node.plane = solid(*view.plane);
     if (view.sector != kNone) {
       sectors[view.sector] = node.id;

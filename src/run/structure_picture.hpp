@@ -136,13 +136,6 @@ inline std::string settings_text(const StructureSpec& s, int sweep_axis) {
                      s.no_progress_stop ? ", stops without progress" : "", split);
 }
 
-inline Box<2> bounding_box_of(const Polygon& region, const Box<2>& fallback) {
-  if (region.empty()) return fallback;
-  Box<2> box{region[0], region[0]};
-  for (const Vec<2>& corner : region) box = united(box, Box<2>{corner, corner});
-  return box;
-}
-
 // Fills a frame with the nodes of one structure after another.
 template <int D>
 class NodePicture {
@@ -242,7 +235,7 @@ class NodePicture {
     if constexpr (D == 2) {
       node.region = parent ? clipped(parent->region, flat(*parent->plane), node.slot == 1)
                            : polygon_of(flat(frame_.bounds));
-      node.box = solid(bounding_box_of(node.region, flat(node.box)));
+      if (!node.region.empty()) node.box = solid(box_of(node.region));
     }
   }
 

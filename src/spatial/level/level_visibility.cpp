@@ -24,7 +24,7 @@ class PortalFinder {
     walls_.resize(level.sectors().size());
     for (const WallPiece& piece : level.pieces())
       if (!level.walls()[piece.wall].two_sided) walls_[piece.sector].push_back(piece.line);
-    for (const LevelSector& sector : level.sectors()) boxes_.push_back(box_of(sector.floor));
+    for (const LevelSector& sector : level.sectors()) boxes_.push_back(grown_box(sector.floor));
   }
 
   std::vector<Portal> find() {
@@ -38,10 +38,8 @@ class PortalFinder {
   }
 
  private:
-  Box<2> box_of(const Polygon& floor) const {
-    if (floor.empty()) return {Vec<2>(1.0), Vec<2>(-1.0)};  // meets nothing
-    Box<2> box{floor[0], floor[0]};
-    for (const Vec<2>& corner : floor) box = united(box, Box<2>{corner, corner});
+  Box<2> grown_box(const Polygon& floor) const {
+    const Box<2> box = box_of(floor);
     return {box.lo - near_, box.hi + near_};
   }
 
