@@ -28,23 +28,11 @@ double lifted_by(const World<D>& world, double depth) {
   return force * depth;
 }
 
-template <int D>
-bool pass_through(const World<D>& world, BodyId a, BodyId b) {
-  return std::ranges::any_of(world.joints(), [&](const auto& entry) {
-    const Joint<D>& joint = entry.second;
-    return !joint.collide && ((joint.a == a && joint.b == b) || (joint.a == b && joint.b == a));
-  });
-}
-
 // Of two bodies, at their deepest; 0 if they do not overlap.
 template <int D>
 double overlap_between(const Body<D>& a, const Body<D>& b) {
   const auto manifold = collide<D>(placed(a), placed(b), 0.0);
-  double depth = 0;
-  if (manifold)
-    for (const ManifoldPoint<D>& point : manifold->points())
-      depth = std::max(depth, -point.separation);
-  return depth;
+  return manifold ? manifold->depth() : 0;
 }
 
 constexpr double kRoom = 2.5;   // bodies start within so many units of the middle
@@ -175,8 +163,8 @@ class SceneMaker {
     if (!joint) return;
     joint->b = placed_.back();
     if (joint->kind == JointKind::distance)
-      joint->length = glm::length(end_at_a(*joint) - body.position -
-                                  matrix(body.orientation) * joint->at_b);
+      joint->length =
+          glm::length(end_at_a(*joint) - body.position - matrix(body.orientation) * joint->at_b);
     world_.add_joint(*joint);
   }
 

@@ -72,13 +72,6 @@ class Model {
       kept.swirl += glm::length(cross(body.position, mv)) + glm::length(body.angular_momentum);
   }
 
-  bool are_joined(BodyId a, BodyId b) const {
-    return std::ranges::any_of(players_.world().joints(), [&](const auto& entry) {
-      const Joint<D>& j = entry.second;
-      return !j.collide && ((j.a == a && j.b == b) || (j.a == b && j.b == a));
-    });
-  }
-
   // Of all pairs that meet, found by a sweep along the axis x.
   void add_overlaps(const std::vector<Body<D>>& bodies, const Skins& skins, Kept& kept) const {
     struct Boxed {
@@ -105,12 +98,11 @@ class Model {
   }
 
   void add_pair(const Body<D>& a, const Body<D>& b, double skin, double nearly, Kept& kept) const {
-    if ((!a.moves() && !b.moves()) || are_joined(a.id, b.id)) return;  // they may overlap
+    if (!a.moves() && !b.moves()) return;  // they may overlap
+    if (pass_through(players_.world(), a.id, b.id)) return;
     const auto manifold = collide<D>(placed(a), placed(b), skin + nearly);
     if (!manifold) return;
-    double depth = 0;
-    for (const ManifoldPoint<D>& point : manifold->points())
-      depth = std::max(depth, skin - point.separation);
+    const double depth = std::max(0.0, skin - manifold->least_separation());
     ++kept.touching;
     kept.overlapping += depth > 0;
     kept.penetrations += depth;

@@ -162,8 +162,7 @@ template <int D>
 double deepest(const World<D>& world) {
   double depth = 0;
   for (const Contact<D>& contact : world.contacts())
-    for (const ManifoldPoint<D>& point : contact.manifold.points())
-      depth = largest(depth, -point.separation);
+    depth = largest(depth, contact.manifold.depth());
   return depth;
 }
 

@@ -15,13 +15,6 @@ bool is_sane(const Manifold<D>& manifold) {
   return manifold.count > 0 && std::abs(glm::length(manifold.normal) - 1) <= 1e-14;
 }
 
-template <int D>
-double least_separation(const Manifold<D>& manifold) {
-  double least = kInfinity;
-  for (const ManifoldPoint<D>& point : manifold.points()) least = std::min(least, point.separation);
-  return least;
-}
-
 // --- parallel and nearly parallel edges ---
 
 // Two boxes meet edge to edge, the second turned a little: how far the normal jumps from one angle
@@ -113,7 +106,7 @@ double ratio_error() {
       }
       if (beyond < 1e-12) continue;
       worst = largest(worst,
-                      std::abs(least_separation(*mixed) - (std::sqrt(beyond) - radius)) / larger);
+                      std::abs(mixed->least_separation() - (std::sqrt(beyond) - radius)) / larger);
     }
   return worst;
 }
@@ -133,12 +126,12 @@ double needle_error() {
     const Vec<D> place = random_direction<D>(random) * random.between(0, 1e4);
     const auto found = collide<D>({a, Vec<D>(0.0), turn_a}, {b, place, turn_b}, 1e9);
     if (!found || !is_sane(*found)) return kInfinity;
-    const double separation = least_separation(*found);
+    const double separation = found->least_separation();
     if (separation > 0) continue;
     const auto parted =
         collide<D>({a, Vec<D>(0.0), turn_a}, {b, place - found->normal * separation, turn_b}, 1e9);
     if (!parted || !is_sane(*parted)) return kInfinity;
-    worst = largest(worst, std::abs(least_separation(*parted)) / 1e4);
+    worst = largest(worst, std::abs(parted->least_separation()) / 1e4);
   }
   return worst;
 }

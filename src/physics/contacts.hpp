@@ -88,9 +88,7 @@ template <int D, class BodyOf>
 Scratch<std::uint8_t> crushing(std::span<const Contact<D>> contacts, BodyOf&& body_of,
                                double thinnest = 0) {
   double deepest = 0;
-  for (const Contact<D>& contact : contacts)
-    for (const ManifoldPoint<D>& p : contact.manifold.points())
-      deepest = std::max(deepest, -p.separation);
+  for (const Contact<D>& contact : contacts) deepest = std::max(deepest, contact.manifold.depth());
   if (!(deepest > kCrushSettings.deep / 2 * thinnest)) return {};
   struct Press {
     BodyId body;
@@ -102,9 +100,8 @@ Scratch<std::uint8_t> crushing(std::span<const Contact<D>> contacts, BodyOf&& bo
   bool deep = false;
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Contact<D>& contact = contacts[i];
-    double depth = 0, impulse = 0;
-    for (const ManifoldPoint<D>& p : contact.manifold.points())
-      depth = std::max(depth, -p.separation);
+    const double depth = contact.manifold.depth();
+    double impulse = 0;
     for (const double pn : contact.normal_impulses) impulse += pn;
     if (!(depth > 0 && impulse > 0)) continue;
     for (const BodyId id : {contact.a, contact.b}) {

@@ -67,6 +67,15 @@ double joint_gap(const Joint<D>& joint, const Body<D>& a, const Body<D>& b) {
 template <int D>
 class World;
 
+// Whether a joint lets the two through each other.
+template <int D>
+bool pass_through(const World<D>& world, BodyId a, BodyId b) {
+  return std::ranges::any_of(world.joints(), [&](const auto& entry) {
+    const Joint<D>& joint = entry.second;
+    return !joint.collide && ((joint.a == a && joint.b == b) || (joint.a == b && joint.b == a));
+  });
+}
+
 // Of all joints of a world, as its bodies are now; 0 without joints.
 template <int D>
 double widest_gap(const World<D>& world) {

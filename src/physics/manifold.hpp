@@ -7,6 +7,7 @@
 //   ‾‾‾‾‾‾‾‾‾‾‾   a
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -35,6 +36,14 @@ struct Manifold {
     return {room.data(), static_cast<std::size_t>(count)};
   }
   void add(const ManifoldPoint<D>& point) { room[static_cast<std::size_t>(count++)] = point; }
+
+  double least_separation() const {
+    double least = room[0].separation;
+    for (const ManifoldPoint<D>& point : points()) least = std::min(least, point.separation);
+    return least;
+  }
+  // Of the deepest point; 0 if the shapes do not overlap.
+  double depth() const { return std::max(0.0, -least_separation()); }
 };
 
 // A shape where it stands.

@@ -41,8 +41,7 @@ Overlapping overlapping(const FrameBody& a, const FrameBody& b) {
   Overlapping found;
   found.width = 2 * std::min(thickness<D>(of_a), thickness<D>(of_b));
   if (const auto manifold = collide(placed(of_a, a), placed(of_b, b), 0.0))
-    for (const ManifoldPoint<D>& point : manifold->points())
-      found.depth = std::max(found.depth, -point.separation);
+    found.depth = manifold->depth();
   return found;
 }
 
@@ -166,16 +165,13 @@ class CrushWatch : public Watcher {
   Diagnostic crushed(const World<D>& world, const Pair& pair) const {
     const auto contact =
         std::ranges::lower_bound(world.fresh_contacts(), pair, {}, &Contact<D>::pair);
-    double depth = 0;
-    for (const ManifoldPoint<D>& p : contact->manifold.points())
-      depth = std::max(depth, -p.separation);
-    return warning(
-        scenario_, place_of_firmness(scenario_.world),
-        fmt::format("'{}' and '{}' are pressed {:.3g} into each other at {:.4g} s: one "
-                    "of them is crushed against a third",
-                    world.find(pair.a)->name, world.find(pair.b)->name, depth, world.time()),
-        "let what pushes it stop, or " + firmer(scenario_.world) +
-            if_meant(scenario_, Warning::crush));
+    return warning(scenario_, place_of_firmness(scenario_.world),
+                   fmt::format("'{}' and '{}' are pressed {:.3g} into each other at {:.4g} s: one "
+                               "of them is crushed against a third",
+                               world.find(pair.a)->name, world.find(pair.b)->name,
+                               contact->manifold.depth(), world.time()),
+                   "let what pushes it stop, or " + firmer(scenario_.world) +
+                       if_meant(scenario_, Warning::crush));
   }
 
   const Scenario& scenario_;
@@ -236,9 +232,7 @@ class ThroughWatch : public Watcher {
   void look(const Players<D>& players) {
     const World<D>& world = players.world();
     for (const Contact<D>& contact : world.fresh_contacts()) {
-      double depth = 0;
-      for (const ManifoldPoint<D>& point : contact.manifold.points())
-        depth = std::max(depth, -point.separation);
+      const double depth = contact.manifold.depth();
       if (depth > 0)
         for_dynamic_and_static(
             players, {contact.a, contact.b}, [&](const auto& moved, const auto& obstacle) {

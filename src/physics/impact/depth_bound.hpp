@@ -98,9 +98,7 @@ class DepthBound {
   };
 
   static double least_gap(const Seen& seen, double most) {
-    if (seen)
-      for (const ManifoldPoint<D>& p : seen->points()) most = std::min(most, p.separation);
-    return most;
+    return seen ? std::min(most, seen->least_separation()) : most;
   }
   Seen look(const IslandPair<D>& pair, double margin) {
     stop_if_asked();

@@ -428,9 +428,7 @@ class Approach {
     const auto manifold = collide(placed(a), placed(b), of_.reach);
     if (!manifold) return std::nullopt;
     Gap<D> seen;
-    seen.gap = manifold->room[0].separation;
-    for (const ManifoldPoint<D>& p : manifold->points())
-      seen.gap = std::min(seen.gap, p.separation);
+    seen.gap = manifold->least_separation();
     seen.bound = -glm::dot(b.velocity - a.velocity, manifold->normal) + turn_a_ + turn_b_;
     seen.closing = -seen.bound - 1;
     bool first = true;

@@ -289,13 +289,6 @@ double contact_on(const SeparatingAxis<D>& found, const PlacedCore<D>& a, const 
   return least_distance;
 }
 
-template <int D>
-double least_separation(const Manifold<D>& manifold) {
-  double least = manifold.room[0].separation;
-  for (const auto& point : manifold.points()) least = std::min(least, point.separation);
-  return least;
-}
-
 // The deepest point stands for the true separation, which is known to be nearly that.
 template <int D>
 void set_least_separation(Manifold<D>& manifold, double least, double exact) {
@@ -319,7 +312,7 @@ Contact<D> contact_of_closest(const PlacedCore<D>& a, const PlacedCore<D>& b,
   Manifold<D> many;
   contact_on(face, a, b, normal.unit, near, false, many);
   // Heights along the leaning normal are nearly distances, or the face is not what is closest.
-  const double least = least_separation(many);
+  const double least = many.least_separation();
   if (many.count < 2 || std::abs(least - exact) > 1e-3 * size) return single;
   set_least_separation(many, least, exact);
   return many;
@@ -338,7 +331,7 @@ bool is_exact(const SeparatingAxis<D>& axis, const PlacedCore<D>& a, const Place
   if (manifold.count == 0) return false;
   const double allowed = apart ? rounding : kAxisBias * smallest_half(a, b) + rounding;
   const double exact = axis.separation - a.radius - b.radius;
-  const double least = least_separation(manifold);
+  const double least = manifold.least_separation();
   if (std::abs(least - exact) > allowed) return false;
   if (apart && least_distance > bound + rounding) return false;
   set_least_separation(manifold, least, exact);
