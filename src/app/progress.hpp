@@ -80,8 +80,7 @@ class Progress {
   // Of so many equal parts.
   Progress(std::string name, std::uint64_t total, std::string unit);
   ~Progress();
-  Progress(const Progress&) = delete;
-  Progress& operator=(const Progress&) = delete;
+  Progress& operator=(Progress&&) = delete;  // nor any other copy or move
 
   // From any thread: how many frames or parts are done by now.
   void done(std::uint64_t count) { count_ = count; }

@@ -30,8 +30,7 @@ class ReportFolder {
   ReportFolder(const std::string& path, std::string_view report);
   // Takes away what folders it made and nothing was written into.
   ~ReportFolder();
-  ReportFolder(const ReportFolder&) = delete;
-  ReportFolder& operator=(const ReportFolder&) = delete;
+  ReportFolder& operator=(ReportFolder&&) = delete;  // nor any other copy or move
 
   bool wanted() const { return !path_.empty(); }
   const std::filesystem::path& path() const { return path_; }

@@ -53,8 +53,7 @@ class NoPipeSignal {
     while (::sigtimedwait(&pipe_, nullptr, &at_once) < 0 && errno == EINTR) continue;
     ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
   }
-  NoPipeSignal(const NoPipeSignal&) = delete;
-  NoPipeSignal& operator=(const NoPipeSignal&) = delete;
+  NoPipeSignal& operator=(NoPipeSignal&&) = delete;  // nor any other copy or move
 
  private:
   sigset_t pipe_{}, before_{};
@@ -80,8 +79,7 @@ struct Streams {
     throw IoError("cannot run '{}': {}", printable(program), std::strerror(code));
   }
   ~Streams() { close_all(); }
-  Streams(const Streams&) = delete;
-  Streams& operator=(const Streams&) = delete;
+  Streams& operator=(Streams&&) = delete;  // nor any other copy or move
   void close_all() {
     for (int* number : {&input[0], &input[1], &words[0], &words[1], &nowhere}) close_once(*number);
   }

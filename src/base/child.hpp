@@ -29,8 +29,7 @@ class Child {
                  std::optional<int> handed_on = std::nullopt);
   // Without finish(): end().
   ~Child();
-  Child(const Child&) = delete;
-  Child& operator=(const Child&) = delete;
+  Child& operator=(Child&&) = delete;  // nor any other copy or move
 
   // Gives it all of the bytes to read. False if it reads no more: it has ended, or closed its
   // input. Throws Stopped when that is asked for, also while it does not read.

@@ -104,8 +104,7 @@ class PartFile {
   // Throws IoError naming path and reason, as the calls below do; also for an input of this run.
   explicit PartFile(FilePlace place);
   ~PartFile();
-  PartFile(const PartFile&) = delete;
-  PartFile& operator=(const PartFile&) = delete;
+  PartFile& operator=(PartFile&&) = delete;  // nor any other copy or move
 
   void write(std::string_view bytes);
   void give_name();
@@ -138,8 +137,7 @@ class FolderLock {
   // that is wished meanwhile.
   explicit FolderLock(const Folder& folder);
   ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
+  FolderLock& operator=(FolderLock&&) = delete;  // nor any other copy or move
 
  private:
   int descriptor_;

@@ -206,8 +206,7 @@ struct DrawList {
       before_.first = list_.shapes.size();
       list_.runs.push_back(std::move(before_));
     }
-    Scope(const Scope&) = delete;
-    Scope& operator=(const Scope&) = delete;
+    Scope& operator=(Scope&&) = delete;  // nor any other copy or move
 
    private:
     DrawList& list_;

@@ -116,8 +116,7 @@ class JsonFields {
  public:
   explicit JsonFields(JsonWriter& json) : json_(json) {}
   ~JsonFields() { enter(""); }
-  JsonFields(const JsonFields&) = delete;
-  JsonFields& operator=(const JsonFields&) = delete;
+  JsonFields& operator=(JsonFields&&) = delete;  // nor any other copy or move
 
   template <class T>
   void operator()(const Field& field, const T& value) {

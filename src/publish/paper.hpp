@@ -20,8 +20,7 @@ class PdfDocument {
   // Throws BackendError, naming the packages to install, if cairo or FreeType are missing.
   explicit PdfDocument(const PdfWords& words);
   ~PdfDocument();
-  PdfDocument(const PdfDocument&) = delete;
-  PdfDocument& operator=(const PdfDocument&) = delete;
+  PdfDocument& operator=(PdfDocument&&) = delete;  // nor any other copy or move
 
   // A page of this size, in points of 1/72 inch, with the draw list in its middle. `label` is the
   // page's number as a viewer shows it; none if it is empty. Throws Refused as check_draw_list()

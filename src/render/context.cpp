@@ -92,8 +92,7 @@ class OsmesaContext : public Context {
     functions_.make_current(nullptr, nullptr, 0, 0, 0);
     functions_.destroy(handle_);
   }
-  OsmesaContext(const OsmesaContext&) = delete;
-  OsmesaContext& operator=(const OsmesaContext&) = delete;
+  OsmesaContext& operator=(OsmesaContext&&) = delete;  // nor any other copy or move
 
   bool make_current() {
     constexpr unsigned kUnsignedByte = GL_UNSIGNED_BYTE;
@@ -161,8 +160,7 @@ class EglContext : public Context {
     // The display is shared by all contexts of this process, so it is not terminated.
     egl_.ReleaseThread();
   }
-  EglContext(const EglContext&) = delete;
-  EglContext& operator=(const EglContext&) = delete;
+  EglContext& operator=(EglContext&&) = delete;  // nor any other copy or move
 
   // The step that failed; null if the context is current.
   const char* start() {

@@ -65,8 +65,7 @@ class CairoPeer {
     if (context_) cairo().destroy(context_);
     cairo().surface_destroy(surface_);
   }
-  CairoPeer(const CairoPeer&) = delete;
-  CairoPeer& operator=(const CairoPeer&) = delete;
+  CairoPeer& operator=(CairoPeer&&) = delete;  // nor any other copy or move
 
   static std::string version() { return cairo().version_string(); }
   void draw(const DrawList& list, const Theme& theme) {

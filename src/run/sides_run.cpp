@@ -34,8 +34,7 @@ class Side {
         watch_(watch),
         sink_([this](const Frame& frame) { return take(frame); }),
         run_(scenario, pace, work, sink_, watch) {}
-  Side(const Side&) = delete;
-  Side& operator=(const Side&) = delete;
+  Side& operator=(Side&&) = delete;  // nor any other copy or move
 
   // Its frames of the step; the first has number `frame`. Adds their bytes.
   void play(std::size_t step, std::uint32_t frame, std::uint64_t& bytes) {
