@@ -26,11 +26,58 @@ class Programs {
       : gl_(gl), context_(context), width_(width), height_(height) {}
 
   // What is drawn next is this batch. Throws BackendError if a shader is refused.
-  void use(const Batch& batch);
+  // The box shader can draw everything but paper that lets through what is below. Others draw their
+  // share of it in half the time, but to compile them takes as long as some ten frames.
+  void use(const Batch& batch) {
+    Program which = batch.program;
+    GLuint& special = programs_[static_cast<std::size_t>(which)];
+    std::int64_t& painted = substituted_[static_cast<std::size_t>(which)];
+    if (special == 0 && which != Program::box && !batch.erases && painted < kWorthCompiling) {
+      painted += batch.pixels;
+      which = Program::box;
+    }
+    constexpr std::array<const std::string_view*, kPrograms> sources{
+        &shader::solid_frag, &shader::mask_frag, &shader::box_frag};
+    GLuint& made = programs_[static_cast<std::size_t>(which)];
+    if (made == 0) made = link(*sources[static_cast<std::size_t>(which)]);
+    gl_.UseProgram(made);
+    if (which == Program::solid)
+      gl_.Disable(GL_BLEND);
+    else
+      gl_.Enable(GL_BLEND);
+  }
 
  private:
-  GLuint compile(GLenum kind, std::string_view source);
-  GLuint link(std::string_view fragment_source);
+  GLuint compile(GLenum kind, std::string_view source) {
+    const GLuint shader = gl_.CreateShader(kind);
+    const GLchar* code = source.data();
+    const auto length = static_cast<GLint>(source.size());
+    gl_.ShaderSource(shader, 1, &code, &length);
+    gl_.CompileShader(shader);
+    return shader;
+  }
+
+  GLuint link(std::string_view fragment_source) {
+    if (vertex_shader_ == 0) vertex_shader_ = compile(GL_VERTEX_SHADER, shader::shape_vert);
+    const GLuint fragment_shader = compile(GL_FRAGMENT_SHADER, fragment_source);
+    const GLuint linked = gl_.CreateProgram();
+    gl_.AttachShader(linked, vertex_shader_);
+    gl_.AttachShader(linked, fragment_shader);
+    gl_.LinkProgram(linked);
+    gl_.DeleteShader(fragment_shader);
+    GLint good = 0;
+    gl_.GetProgramiv(linked, GL_LINK_STATUS, &good);
+    if (!good) {
+      std::array<GLchar, 2000> log{};
+      gl_.GetProgramInfoLog(linked, static_cast<GLsizei>(log.size()), nullptr, log.data());
+      throw BackendError("the backend {} refuses a shader: {}", context_.backend(), log.data());
+    }
+    gl_.UseProgram(linked);
+    gl_.Uniform2f(gl_.GetUniformLocation(linked, "to_clip"), 2.0f / static_cast<float>(width_),
+                  2.0f / static_cast<float>(height_));
+    gl_.Uniform1i(gl_.GetUniformLocation(linked, "masks"), 0);
+    return linked;
+  }
 
   const Gl& gl_;
   const Context& context_;
@@ -42,58 +89,6 @@ class Programs {
   std::array<std::int64_t, kPrograms> substituted_{};
   static constexpr std::int64_t kWorthCompiling = 4'000'000;
 };
-
-GLuint Programs::compile(GLenum kind, std::string_view source) {
-  const GLuint shader = gl_.CreateShader(kind);
-  const GLchar* code = source.data();
-  const auto length = static_cast<GLint>(source.size());
-  gl_.ShaderSource(shader, 1, &code, &length);
-  gl_.CompileShader(shader);
-  return shader;
-}
-
-GLuint Programs::link(std::string_view fragment_source) {
-  if (vertex_shader_ == 0) vertex_shader_ = compile(GL_VERTEX_SHADER, shader::shape_vert);
-  const GLuint fragment_shader = compile(GL_FRAGMENT_SHADER, fragment_source);
-  const GLuint linked = gl_.CreateProgram();
-  gl_.AttachShader(linked, vertex_shader_);
-  gl_.AttachShader(linked, fragment_shader);
-  gl_.LinkProgram(linked);
-  gl_.DeleteShader(fragment_shader);
-  GLint good = 0;
-  gl_.GetProgramiv(linked, GL_LINK_STATUS, &good);
-  if (!good) {
-    std::array<GLchar, 2000> log{};
-    gl_.GetProgramInfoLog(linked, static_cast<GLsizei>(log.size()), nullptr, log.data());
-    throw BackendError("the backend {} refuses a shader: {}", context_.backend(), log.data());
-  }
-  gl_.UseProgram(linked);
-  gl_.Uniform2f(gl_.GetUniformLocation(linked, "to_clip"), 2.0f / static_cast<float>(width_),
-                2.0f / static_cast<float>(height_));
-  gl_.Uniform1i(gl_.GetUniformLocation(linked, "masks"), 0);
-  return linked;
-}
-
-// The box shader can draw everything but paper that lets through what is below. Others draw their
-// share of it in half the time, but to compile them takes as long as some ten frames.
-void Programs::use(const Batch& batch) {
-  Program which = batch.program;
-  GLuint& special = programs_[static_cast<std::size_t>(which)];
-  std::int64_t& painted = substituted_[static_cast<std::size_t>(which)];
-  if (special == 0 && which != Program::box && !batch.erases && painted < kWorthCompiling) {
-    painted += batch.pixels;
-    which = Program::box;
-  }
-  constexpr std::array<const std::string_view*, kPrograms> sources{
-      &shader::solid_frag, &shader::mask_frag, &shader::box_frag};
-  GLuint& made = programs_[static_cast<std::size_t>(which)];
-  if (made == 0) made = link(*sources[static_cast<std::size_t>(which)]);
-  gl_.UseProgram(made);
-  if (which == Program::solid)
-    gl_.Disable(GL_BLEND);
-  else
-    gl_.Enable(GL_BLEND);
-}
 
 namespace {
 
@@ -220,10 +215,61 @@ struct Renderer::State {
     }
   }
 
-  std::uint64_t ground(const Color& paper, bool transparent) const;
-  void draw_all(const Color& paper, bool transparent);
-  void draw_parts(const std::vector<PixelRect>& parts, const Color& paper, bool transparent);
-  void read(const PixelRect& part, bool transparent);
+  // What the pixels depend on beside the quads.
+  std::uint64_t ground(const Color& paper, bool transparent) const {
+    const Hash hash = Hash().add(std::uint64_t{paper.r} << 16 | paper.g << 8 | paper.b);
+    return Hash(hash).add(std::uint64_t{transparent}).add(builder.masks().generation()).value();
+  }
+
+  // All of the picture, upon cleared paper.
+  void draw_all(const Color& paper, bool transparent) {
+    if (transparent)
+      gl.ClearColor(0, 0, 0, 0);
+    else
+      gl.ClearColor(paper.r / 255.0f, paper.g / 255.0f, paper.b / 255.0f, 1);
+    gl.Clear(GL_COLOR_BUFFER_BIT);
+    batches.start(width, height);
+    for (const Quad& quad : builder.quads()) batches.add(quad.program, quad.instance, quad.bounds);
+    draw_batches(batches);
+  }
+
+  // Parts of it, upon paper that covers what was there.
+  void draw_parts(const std::vector<PixelRect>& parts, const Color& paper, bool transparent) {
+    constexpr float kEverywhere = 1e6f;
+    Quad sheet;
+    sheet.instance.box = {kEverywhere, kEverywhere, 0, 0};
+    if (!transparent) sheet.instance.fill = {paper.r, paper.g, paper.b, 255};
+    sheet.bounds = {0, 0, width, height};
+    const std::vector<Quad>& quads = builder.quads();
+    batches.start(width, height);
+    std::vector<std::size_t> firsts;  // of each part, to be painted
+    for (const PixelRect& part : parts) {
+      const std::optional<std::size_t> cover = covering(quads, part);
+      if (!cover) add_clipped(sheet, part, batches);
+      firsts.push_back(cover.value_or(0));
+    }
+    if (transparent && batches.size() > 0) batches.first_erases();
+    for (std::size_t p = 0; p < parts.size(); ++p)
+      for (std::size_t i = firsts[p]; i < quads.size(); ++i)
+        add_clipped(quads[i], parts[p], batches);
+    draw_batches(batches);
+  }
+
+  // Reads a part of what was drawn; rows in which it differs from `picture` are marked.
+  void read(const PixelRect& part, bool transparent) {
+    const std::size_t bytes = std::size_t{4} * (part.x1 - part.x0);
+    rows.resize(bytes * (part.y1 - part.y0));
+    gl.ReadPixels(part.x0, part.y0, part.x1 - part.x0, part.y1 - part.y0, GL_RGBA, GL_UNSIGNED_BYTE,
+                  rows.data());
+    if (transparent) unpremultiply(rows);
+    const std::uint8_t* from = rows.data();
+    for (int y = part.y0; y < part.y1; ++y, from += bytes) {
+      std::uint8_t* to = &picture.rgba[4 * (static_cast<std::size_t>(y) * width + part.x0)];
+      if (std::memcmp(to, from, bytes) == 0) continue;
+      std::memcpy(to, from, bytes);
+      changed[static_cast<std::size_t>(y)] = true;
+    }
+  }
 
   // The context goes last: everything in it dies with it.
   std::unique_ptr<Context> context;
@@ -259,62 +305,6 @@ Renderer::Renderer(std::unique_ptr<Context> context, int width, int height) {
 }
 
 Renderer::~Renderer() = default;
-
-// What the pixels depend on beside the quads.
-std::uint64_t Renderer::State::ground(const Color& paper, bool transparent) const {
-  const Hash hash = Hash().add(std::uint64_t{paper.r} << 16 | paper.g << 8 | paper.b);
-  return Hash(hash).add(std::uint64_t{transparent}).add(builder.masks().generation()).value();
-}
-
-// All of the picture, upon cleared paper.
-void Renderer::State::draw_all(const Color& paper, bool transparent) {
-  if (transparent)
-    gl.ClearColor(0, 0, 0, 0);
-  else
-    gl.ClearColor(paper.r / 255.0f, paper.g / 255.0f, paper.b / 255.0f, 1);
-  gl.Clear(GL_COLOR_BUFFER_BIT);
-  batches.start(width, height);
-  for (const Quad& quad : builder.quads()) batches.add(quad.program, quad.instance, quad.bounds);
-  draw_batches(batches);
-}
-
-// Parts of it, upon paper that covers what was there.
-void Renderer::State::draw_parts(const std::vector<PixelRect>& parts, const Color& paper,
-                                 bool transparent) {
-  constexpr float kEverywhere = 1e6f;
-  Quad sheet;
-  sheet.instance.box = {kEverywhere, kEverywhere, 0, 0};
-  if (!transparent) sheet.instance.fill = {paper.r, paper.g, paper.b, 255};
-  sheet.bounds = {0, 0, width, height};
-  const std::vector<Quad>& quads = builder.quads();
-  batches.start(width, height);
-  std::vector<std::size_t> firsts;  // of each part, to be painted
-  for (const PixelRect& part : parts) {
-    const std::optional<std::size_t> cover = covering(quads, part);
-    if (!cover) add_clipped(sheet, part, batches);
-    firsts.push_back(cover.value_or(0));
-  }
-  if (transparent && batches.size() > 0) batches.first_erases();
-  for (std::size_t p = 0; p < parts.size(); ++p)
-    for (std::size_t i = firsts[p]; i < quads.size(); ++i) add_clipped(quads[i], parts[p], batches);
-  draw_batches(batches);
-}
-
-// Reads a part of what was drawn; rows in which it differs from `picture` are marked.
-void Renderer::State::read(const PixelRect& part, bool transparent) {
-  const std::size_t bytes = std::size_t{4} * (part.x1 - part.x0);
-  rows.resize(bytes * (part.y1 - part.y0));
-  gl.ReadPixels(part.x0, part.y0, part.x1 - part.x0, part.y1 - part.y0, GL_RGBA, GL_UNSIGNED_BYTE,
-                rows.data());
-  if (transparent) unpremultiply(rows);
-  const std::uint8_t* from = rows.data();
-  for (int y = part.y0; y < part.y1; ++y, from += bytes) {
-    std::uint8_t* to = &picture.rgba[4 * (static_cast<std::size_t>(y) * width + part.x0)];
-    if (std::memcmp(to, from, bytes) == 0) continue;
-    std::memcpy(to, from, bytes);
-    changed[static_cast<std::size_t>(y)] = true;
-  }
-}
 
 Drawn Renderer::draw(const DrawList& list, const Theme& theme, bool transparent) {
   stop_if_asked();
