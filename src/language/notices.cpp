@@ -245,7 +245,8 @@ void notice_structures(const TableReader& file, Draft& draft) {
   for (std::size_t i = 0; i < steps.size(); ++i)
     if (std::holds_alternative<Rebuild>(s.steps[i].verb)) tables.push_back(steps[i]);
   IdleKeys keys;
-  for (const Setting setting : kSettings) {
+  for (std::size_t i = 0; i < std::size(kSettingNames); ++i) {
+    const auto setting = static_cast<Setting>(i);
     const auto has = [&](const StructureSpec* one) {
       return one->kind >= StructureKind::own || traits_of(one->kind).has(setting);
     };

@@ -96,13 +96,6 @@ const StructureTraits& traits_of(StructureKind kind) {
   return kind == StructureKind::none ? kNoKind : kAutomatic;
 }
 
-std::string_view to_string(Setting setting) {
-  constexpr std::string_view kNames[] = {"capacity",  "max_depth", "children", "no_progress_stop",
-                                         "cell",      "levels",    "open",     "margin",
-                                         "following", "axis",      "planes"};
-  return kNames[static_cast<std::size_t>(setting)];
-}
-
 std::vector<StructureKind> kinds_with(Setting setting) {
   std::vector<StructureKind> kinds;
   for (const StructureKind kind : kStructureKinds)

@@ -68,11 +68,12 @@ enum class Setting {
   axis,
   planes
 };
-inline constexpr std::array kSettings = {
-    Setting::capacity,  Setting::max_depth, Setting::children, Setting::no_progress_stop,
-    Setting::cell,      Setting::levels,    Setting::open,     Setting::margin,
-    Setting::following, Setting::axis,      Setting::planes};
-std::string_view to_string(Setting setting);
+inline constexpr std::string_view kSettingNames[] = {
+    "capacity",  "max_depth", "children", "no_progress_stop", "cell", "levels", "open", "margin",
+    "following", "axis",      "planes"};
+constexpr std::string_view to_string(Setting setting) {
+  return kSettingNames[static_cast<std::size_t>(setting)];
+}
 
 // What an algorithm does, told while it does it: see Event.
 enum class EventKind {
