@@ -207,8 +207,6 @@ ShardRecord read_record(std::string_view text) {
 }
 
 std::map<std::string, std::string> settings_told_by(const Manifest& m) {
-  std::string switches;
-  for (const std::string& name : m.switches) switches += (switches.empty() ? "" : " ") + name;
   return {{"pace", std::string(word_for(m.pace, kPaces))},
           {"size", m.size},
           {"theme", m.theme},
@@ -216,7 +214,7 @@ std::map<std::string, std::string> settings_told_by(const Manifest& m) {
           {"png", std::string(word_for(m.png, kPngEfforts))},
           {"tween", m.in_betweens},
           {"transparent", m.transparent ? "yes" : "no"},
-          {"switches", switches}};
+          {"switches", fmt::format("{}", fmt::join(m.switches, " "))}};
 }
 
 std::optional<std::string> contradiction(const Manifest& manifest, const ShardRecord& record) {

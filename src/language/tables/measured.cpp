@@ -1,10 +1,10 @@
 // [chart] and [problem]: what is plotted of a scenario, and the known answer that it is held
 // against.
 #include <algorithm>
-#include <charconv>
 
 #include <fmt/format.h>
 
+#include "base/number.hpp"
 #include "base/suggest.hpp"
 #include "language/counts.hpp"
 #include "language/keys/key.hpp"
@@ -78,15 +78,6 @@ std::vector<Method> made() {
 const std::vector<Method>& known() {
   static const std::vector<Method> methods = made();
   return methods;
-}
-
-// "16": nothing if it is no such number.
-template <class Number>
-std::optional<Number> number_of(std::string_view text) {
-  Number number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return number;
 }
 
 }  // namespace
@@ -169,12 +160,12 @@ std::optional<Method> method_named(std::string_view name) {
     method.name = name;
     if (colon == std::string_view::npos) return method;
     const std::string_view number = name.substr(colon + 1);
-    method.wanted_error = number_of<double>(number);
+    method.wanted_error = number_in<double>(number);
     if (method.contacts == ContactMethod::soft && method.wanted_error > 0.0 &&
         method.wanted_error < 1.0)
       return method;
     method.wanted_error.reset();
-    method.effort = number_of<int>(number);
+    method.effort = number_in<int>(number);
     const int most = method.contacts == ContactMethod::soft      ? 1000
                      : method.contacts == ContactMethod::impulse ? 100'000
                                                                  : 0;
