@@ -33,19 +33,12 @@ constexpr const char* kTexts[] = {
     "A rotation: a child of {1} and the sibling of {1} change places, and {1} shrinks.",
     "{2} has left its box: its leaf goes, the sibling takes the parent's place, and {0} is "
     "inserted again."};
-// Of a tree that has a leaf for each body, and fits its boxes to them; empty if it has no words of
+// Of a tree that has a leaf for each body, and fits its boxes to them; null if it has no words of
 // its own.
-constexpr const char* kFittingTexts[] = {
+constexpr const char* kFittingTexts[std::size(kTexts)] = {
     "{2} comes to {1}: would all boxes together grow least beside it?",
-    "{3} would grow more by {0}: it is left out.",
-    "",
-    "{3} is the leaf of {0}.",
-    "A new node takes the place of {1}: it holds what was there, and {0}.",
-    "",
-    "",
-    "",
-    "",
-    ""};
+    "{3} would grow more by {0}: it is left out.", nullptr, "{3} is the leaf of {0}.",
+    "A new node takes the place of {1}: it holds what was there, and {0}."};
 // Of an atlas, in the order of AtlasEvent::Kind: {0} is the node, {1} the texture.
 constexpr const char* kAtlasTexts[] = {
     "The free leaf {0} is too small for {1}.", "This leaf already holds {0}.",
@@ -74,7 +67,7 @@ std::string event_text(const Event& e, const StructureSpec& structure, const std
     return fmt::format("{} lists {}: {} in all.", capitalised(std::string(traits.words)), body,
                        e.count);
   const auto kind = static_cast<std::size_t>(e.kind);
-  const bool has_own = traits.holds_once && *kFittingTexts[kind] != '\0';
+  const bool has_own = traits.holds_once && kFittingTexts[kind] != nullptr;
   const char* text = has_own ? kFittingTexts[kind] : kTexts[kind];
   if (!has_own && e.kind == Event::Kind::store && (e.limit == 0 || e.count <= e.limit))
     text = e.limit == 0 ? "{3} stores {0} and holds {4}."
