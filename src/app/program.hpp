@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "draw/panel.hpp"
-#include "run/frame_maker.hpp"
 #include "spatial/own_structure.hpp"
 
 namespace lantern::app {

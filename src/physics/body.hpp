@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <string>
 #include <type_traits>
 
 #include "base/name.hpp"

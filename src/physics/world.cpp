@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 
 #include "base/hash.hpp"
-#include "base/scratch.hpp"
 #include "geometry/not_finite.hpp"
 #include "physics/contact/contact_solver.hpp"
 #include "physics/islands.hpp"

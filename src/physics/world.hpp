@@ -5,10 +5,8 @@
 // A world without forces and contacts does nothing of this: bodies fly straight on.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -2,7 +2,6 @@
 // and completions are made from. A command is a row of it and a function.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>

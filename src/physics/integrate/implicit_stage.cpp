@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "base/scratch.hpp"
 #include "physics/joint/constrained_motion.hpp"
 
 namespace lantern::physics {

@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "base/error.hpp"
-#include "base/scratch.hpp"
 #include "physics/integrate/dormand_prince.hpp"
 #include "physics/integrate/implicit_stage.hpp"
 #include "physics/integrate/smooth_system.hpp"

@@ -1,12 +1,9 @@
 #include "physics/joint/constrained_motion.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <optional>
 #include <utility>
 
-#include "base/scratch.hpp"
 #include "physics/forces.hpp"
 
 namespace lantern::physics {
