@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "geometry/shape.hpp"
+#include "geometry/flat.hpp"
 #include "language/keys/key.hpp"
 #include "language/tables/draft.hpp"
 #include "spatial/broad_phase.hpp"
@@ -101,20 +101,11 @@ void check_kind(const TableReader& table, const StructureSpec& s, const Draft& d
 }
 
 template <int D>
-Box<D> in_world(const Box<3>& box) {
-  Box<D> flat;
-  for (int i = 0; i < D; ++i) {
-    flat.lo[i] = box.lo[i];
-    flat.hi[i] = box.hi[i];
-  }
-  return flat;
-}
-
-template <int D>
 void choose(const ScenarioSpec& scenario, StructureSpec& structure) {
   std::vector<Item<D>> items;
   for (const BodySpec& body : scenario.bodies) {
-    const Box<D> box = in_world<D>(bounding_box(body.shape, body.position, orientation_of(body)));
+    const Box<D> box =
+        in_dimension<D>(bounding_box(body.shape, body.position, orientation_of(body)));
     if (is_valid(box)) items.push_back({static_cast<BodyId>(items.size()), box});
   }
   const StructureChoice<D> choice = choose_structure<D>(items, StructureConfig<D>());
