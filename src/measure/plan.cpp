@@ -9,7 +9,7 @@ constexpr int kOwnHalvings = 6;          // of a scenario's own step
 constexpr double kFinerReference = 16;   // times finer than the finest measured step
 constexpr double kTooLongToRepeat = 10;  // seconds
 
-constexpr TimingRule kQuick{Timing::kFewest, 0.002, 15};
+constexpr TimingRule kQuick{Timing::kFewest, 0.001, 9};
 constexpr TimingRule kGood{15, 0.05, 45};
 constexpr TimingRule kOnce{1, 0};
 const std::optional<std::string> kNoProblem = "it has no [problem]";
@@ -134,7 +134,7 @@ std::vector<PeerRecord> Plan::peers() const {
 
 double Plan::longest() const {
   if (options_.longest) return *options_.longest;
-  if (options_.effort == Effort::quick) return 0.1;
+  if (options_.effort == Effort::quick) return 0.03;
   if (options_.effort == Effort::normal) return 2;
   return std::numeric_limits<double>::infinity();
 }
