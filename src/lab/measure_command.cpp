@@ -141,7 +141,7 @@ class Measure : public Experiment {
             {"--method", &methods_, "only these: velocity_verlet, soft:16, impulse:100, ...",
              OptionTraits{.value = "NAME", .one_each = true}},
             {"--step", &steps_, "only these time steps, seconds", {.value = "H", .one_each = true}},
-            {"--quick", &quick_, "some minutes: plain problems, few repeats"},
+            {"--quick", &quick_, "two minutes: plain problems, few repeats, no long runs"},
             {"--full", &full_, "every run, however long it takes", {.without = "--quick"}},
             longest_option("leave out runs that would take more seconds than this", longest_),
             peers_option("without other engines", peers_),

@@ -48,7 +48,8 @@ class Worst {
 class ErrorMetric {
  public:
   virtual ~ErrorMetric() = default;
-  // What it holds runs against, and the error of that itself in the main norm.
+  // What it holds runs against, behind a semicolon its parameters, and the error of that itself in
+  // the main norm.
   virtual std::string reference() const { return "closed form"; }
   virtual double reference_error() const { return 0; }
   // Called for the start and then once for each of the problem's samples, in order of time.
@@ -107,12 +108,21 @@ class TrajectoryMetric : public ErrorMetric {
   // Computed in long double; rounded once.
   using ExactStates = std::function<void(double time, std::vector<Exact>& states)>;
 
-  TrajectoryMetric(long double length, long double speed, ExactStates exact);
+  // `parameters` are told behind the reference: "period 6.28 s".
+  TrajectoryMetric(long double length, long double speed, ExactStates exact,
+                   std::string parameters = "");
   void look(const Observation& now) override;
+  std::string reference() const override {
+    return ErrorMetric::reference() + (parameters_.empty() ? "" : "; " + parameters_);
+  }
+  double reference_error() const override { return kRoundedOnce; }
 
  private:
+  static constexpr double kRoundedOnce = 0x1p-53;  // relative
+
   double length_, speed_;
   ExactStates exact_at_;
+  std::string parameters_;
   Worst& worst_ = norm("traj", "1", trajectory_meaning(length_, speed_));
   std::vector<Exact> exact_;
 };
@@ -158,11 +168,10 @@ struct Row {
   std::string version;  // of a peer; empty for Lantern
   double step = 0;      // seconds; of an adaptive method, what its tolerance follows from
   Status status = Status::ok;
-  std::string reference;  // what the error is held against: "closed form", "own run at 1e-4 s"
-  double reference_error =
-      0;                    // of that itself, in the main norm, estimated; a closed form has none
-  std::string reason;       // of any other status
-  std::vector<Norm> norms;  // the main one first; empty if there is none
+  std::string reference;       // what the error is held against: "closed form", "own run at 1e-4 s"
+  double reference_error = 0;  // of that itself, in the main norm, estimated; 0 of what is counted
+  std::string reason;          // of any other status
+  std::vector<Norm> norms;     // the main one first; empty if there is none
   Drift drift;
   // About a dozen, further and further apart; none where the scenario keeps nothing.
   std::vector<DriftSample> samples;

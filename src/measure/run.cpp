@@ -279,6 +279,16 @@ void judge(Row& row, std::optional<std::string> collapse) {
 
 void ignore(const Observation&) {}
 
+std::uint64_t looks_of(const Schedule& schedule) {
+  std::uint64_t looks = 1;
+  for (const Leg& leg : schedule.legs) looks += leg.looks;
+  return looks;
+}
+
+std::string looks_words(const Schedule& schedule) {
+  return fmt::format("; looked at {} times in {:.4g} s", looks_of(schedule), schedule.seconds);
+}
+
 }  // namespace
 
 Schedule Schedule::of(const Scenario& scenario) {
@@ -325,14 +335,13 @@ Reference reference_for(const Scenario& scenario, const Schedule& schedule, doub
   if (scenario.problem) {
     const MetricMaker make = metrics_of(scenario);
     const auto first = make();  // tells at once if it is not that problem
-    return {first->reference(), make, first->reference_error()};
+    return {first->reference() + looks_words(schedule), make, first->reference_error()};
   }
   Method method;
   method.name = "as written";
   if (scenario.world.contacts == ContactMethod::none) method = *method_named("runge_kutta_4");
   const double h = schedule.fitted_step(step);
-  std::uint64_t looks = 1;
-  for (const Leg& leg : schedule.legs) looks += leg.looks;
+  const std::uint64_t looks = looks_of(schedule);
   require_memory(looks * scenario.bodies.size() * sizeof(BodyState),
                  fmt::format("the states of {} bodies at {} times", scenario.bodies.size(), looks),
                  "take fewer bodies, or fewer steps that wait or run");
@@ -348,7 +357,7 @@ Reference reference_for(const Scenario& scenario, const Schedule& schedule, doub
   const auto make = [record = fine.record()] { return std::make_unique<OwnRun>(record); };
   const auto coarser = make();
   run(schedule.fitted_step(2 * h), *coarser);
-  return {fmt::format("own run, {} at {:.3g} s", method.name, h), make,
+  return {fmt::format("own run, {} at {:.3g} s", method.name, h) + looks_words(schedule), make,
           coarser->norms().front().value};
 }
 

@@ -29,7 +29,8 @@ std::string error_words(const ProblemRows& problem) {
       problem.rows, [](const Row& row) { return !row.norms.empty() && row.norms[0].unit != "1"; });
   if (with_norm != problem.rows.end()) words += ", " + with_norm->norms[0].unit;
   for (const Row& row : problem.rows)
-    if (!row.reference.empty()) return words + ", against: " + row.reference;
+    if (!row.reference.empty())
+      return words + ", against: " + row.reference.substr(0, row.reference.find(';'));
   return words;
 }
 
@@ -77,7 +78,7 @@ void add_floor(const ProblemRows& problem, const Cost& cost, double least, doubl
                Plot& plot) {
   const auto per_step = cost_of_step(problem.rows, cost);
   if (!per_step || *per_step <= 0) return;
-  PlotGuide guide{"rounding floor (estimate)", {}};
+  PlotGuide guide{"rounding, as a random walk", {}};
   for (const double x : {least, most}) guide.points.push_back({x, rounding_floor(x / *per_step)});
   plot.guides.push_back(std::move(guide));
 }
@@ -234,7 +235,7 @@ Plot cost_plot(const ProblemRows& problem, const Cost& cost, const Looks& looks,
   }
   double reference = 0;
   for (const Row& row : problem.rows) reference = std::max(reference, row.reference_error);
-  if (reference > 0 && most > 0)
+  if (reference > kRounding && most > 0)
     plot.guides.push_back({"the reference's own error", {{least, reference}, {most, reference}}});
   const bool whole = has_whole_errors(problem);
   if (!whole) send_far_ones_off(plot);

@@ -101,11 +101,11 @@ std::vector<LegendEntry> legend_of(const Plot& plot) {
   return entries;
 }
 
-// What a reader must know beside the plots, in at most three lines, and in what circumstances they
+// What a reader must know beside the plots, in a few lines, and in what circumstances they
 // were made, at the page's lower edge. Gives the y of the rule above it.
 double draw_page_foot(const std::vector<std::string>& notes, const std::string& small,
                       DrawList& list, Labels& labels) {
-  constexpr std::size_t kMostLines = 5;
+  constexpr std::size_t kMostLines = 8;
   constexpr double kLineHeight = 26;
   const TextStyle quiet{kLeastDeskLabel + 0.1, Weight::regular, Role::quiet_ink, Role::none};
   const double width = list.page.x - 2 * kMargin, bottom = list.page.y - 26;
@@ -382,7 +382,21 @@ DrawList draw_slide(const ProblemRows& problem, const Measurement& measurement) 
   for (PlotSeries& series : plot.series)  // orders are on the other page
     series.name = series.name.substr(0, series.name.find(": "));
   plot.size = 27;
-  draw_plot(plot, {{kMargin, 96}, {list.page.x - kMargin, bottom}}, list, labels);
+  plot.names = PlotNames::none;
+  if (plot.series.size() > 1)  // like beside like: steps of a world
+    std::erase_if(plot.series,
+                  [](const PlotSeries& series) { return series.name == method_words(kAdaptive); });
+  // As the lines end, from the top: who has no point comes last.
+  std::ranges::stable_sort(plot.series, std::greater(), [](const PlotSeries& series) {
+    return series.points.empty() ? -1 : series.points.back().at.y;
+  });
+  const std::vector<LegendEntry> legend = legend_of(plot);
+  double wide = 0;
+  for (const LegendEntry& one : legend) wide = std::max(wide, text_width(one.name, words));
+  const double middle = list.page.x - kMargin - std::min(wide + 76, 0.4 * width);
+  draw_plot(plot, {{kMargin, 96}, {middle - 24, bottom}}, list, labels);
+  draw_plot_legend(legend, {{middle, 150}, {list.page.x - kMargin, bottom}}, plot.size, list,
+                   labels);
   return list;
 }
 

@@ -73,13 +73,15 @@ double fitted(std::span<const Sample> samples) {
   return xy / xx;
 }
 
+constexpr double kBegun = 0.5;  // an error larger than this says nothing of how errors shrink
+
 // The same run by two methods: did it end alike, with the same error?
 bool agree(const Row& a, const Row& b) {
-  constexpr double kRounding = 1e-9;
+  constexpr double kAlike = 1e-9;
   if (a.status != b.status) return false;
   const auto p = a.error(), q = b.error();
   if (!p || !q) return !p && !q;
-  return *p == *q || std::abs(*p - *q) <= kRounding * std::max(*p, *q);
+  return *p == *q || std::abs(*p - *q) <= kAlike * std::max(*p, *q);
 }
 
 bool are_equal(const MethodRows& a, const MethodRows& b) {
@@ -189,7 +191,6 @@ Looks looks_of(std::span<const Row> rows) {
 }
 
 std::optional<Order> observed_order(std::span<const Row> rows) {
-  constexpr double kBegun = 0.5;      // an error larger than this says nothing of the order
   constexpr double kOverFloor = 100;  // times the estimate
   constexpr double kEven = 0.35;      // how far a local slope may be from the middle one
   std::vector<Sample> samples;
@@ -219,25 +220,41 @@ std::optional<Order> observed_order(std::span<const Row> rows) {
   if (length < 2) return std::nullopt;
   const double order = fitted(std::span(samples).subspan(from, length + 1));
   if (!(order > 0)) return std::nullopt;
-  double spread = 0;
-  for (const double one : std::span(slopes).subspan(from, length))
-    spread = std::max(spread, std::abs(one - order));
-  return Order{order, spread};
+  Order seen{order};
+  const std::span even = std::span(slopes).subspan(from, length);
+  for (const double one : even) seen.spread = std::max(seen.spread, std::abs(one - order));
+  constexpr double kSteady = 0.05;  // slopes that are as good as the same
+  if (seen.spread > kSteady &&
+      (std::ranges::is_sorted(even) || std::ranges::is_sorted(even, std::greater())))
+    seen.trend = {even.front(), even.back()};
+  return seen;
 }
 
 std::span<const Row> observed_floor(std::span<const Row> rows) {
-  const auto falls = [&](std::size_t i) {
-    const auto a = rows[i - 1].error(), b = rows[i].error();
-    return !a || !b || !(*b > 0) || *b < 0.75 * *a;
+  while (!rows.empty() && !rows.back().error()) rows = rows.first(rows.size() - 1);
+  if (rows.empty() || is_adaptive(rows[0].method)) return {};
+  const auto order = observed_order(rows);
+  const double half = order ? order->exponent / 2 : 0.5;
+  const auto stays = [&](const Row& from, const Row& row) {
+    const double ratio = geometry::pow(row.step / from.step, half);
+    return row.error() && *row.error() > *from.error() * ratio;
   };
-  std::size_t first = rows.size();
-  while (first > 1 && !falls(first - 1)) --first;
-  const bool fell =
-      first > 1 && first < rows.size() && rows[first - 2].error() > rows[first - 1].error();
-  return fell && !is_adaptive(rows[0].method) ? rows.subspan(first - 1) : std::span<const Row>();
+  for (std::size_t i = 1; i + 1 < rows.size(); ++i) {
+    const auto tail = rows.subspan(i);
+    if (rows[i].error() <= kBegun && rows[i - 1].error() > rows[i].error() && rows[i].error() &&
+        std::ranges::all_of(tail.subspan(1), [&](const Row& row) { return stays(tail[0], row); }))
+      return tail;
+  }
+  return {};
 }
 
-double rounding_floor(double steps) { return 0x1p-52 * std::sqrt(std::max(1.0, steps)); }
+std::optional<double> largest_on_floor(std::span<const Row> rows) {
+  std::optional<double> most;
+  for (const Row& row : observed_floor(rows)) most = std::max(most, row.error());
+  return most;
+}
+
+double rounding_floor(double steps) { return kRounding * std::sqrt(std::max(1.0, steps)); }
 
 std::optional<double> WorkCount::of(const Row& row) const {
   const std::uint64_t n = row.counted.*count;
@@ -342,39 +359,65 @@ std::string who_is_quickest(const ProblemRows& problem) {
                                            share == last ? share : share + " to " + last, r.over);
     clauses.push_back(std::move(clause));
   }
-  return fmt::format("Of the runs that were made, {}.", fmt::join(clauses, "; "));
+  const auto [finest, coarsest] = std::ranges::minmax(problem.rows, {}, &Row::step);
+  const std::string steps =
+      finest.step == coarsest.step
+          ? "a step of " + figure(finest.step)
+          : fmt::format("steps of {} to {}", figure(finest.step), figure(coarsest.step));
+  return fmt::format("Of runs at {} s: {}.", steps, fmt::join(clauses, "; "));
 }
 
 std::vector<std::string> notes_on(const ProblemRows& problem) {
   std::vector<std::string> notes;
   double reference_error = 0;
   const Norm* norm = nullptr;
+  const Row* reference = nullptr;
+  std::size_t left_out = 0;
   bool adaptive = false;
   for (const Row& row : problem.rows) {
     reference_error = std::max(reference_error, row.reference_error);
     if (!norm && !row.norms.empty()) norm = &row.norms.front();
+    if (!reference && !row.reference.empty()) reference = &row;
     adaptive = adaptive || is_adaptive(row.method);
+    left_out += row.status == Status::left_out;
   }
   if (norm && !norm->meaning.empty())
     notes.push_back(fmt::format("“{}”{}: {}.", norm->name,
                                 norm->unit == "1" ? "" : " (" + norm->unit + ")", norm->meaning));
-  if (reference_error > 0)
+  if (reference && reference->reference.find(';') != std::string::npos)
+    notes.push_back("Reference: " + reference->reference + ".");
+  if (reference_error > kRounding)
     notes.push_back(
         fmt::format("The reference is itself off by about {}, its distance from the same run at "
                     "twice its step; no smaller error is claimed.",
                     figure(reference_error)));
-  std::string floors;
-  for (const MethodRows& method : by_method(problem))
-    if (const auto floor = observed_floor(method.rows); !floor.empty())
-      floors += fmt::format("{}{} at {}", floors.empty() ? "" : ", ", method.name(),
-                            figure(*floor.back().error()));
+  std::vector<std::string> floors;
+  std::map<double, std::string> prices;  // of an evaluation
+  for (const MethodRows& method : by_method(problem)) {
+    if (const auto floor = largest_on_floor(method.rows))
+      floors.push_back(fmt::format("{} {}", method.name(), figure(*floor)));
+    const Row& most = *std::ranges::max_element(
+        method.rows, {}, [](const Row& row) { return row.counted.force_evaluations; });
+    if (const auto seconds = seconds_of(most); seconds && most.counted.force_evaluations > 0)
+      prices[*seconds / static_cast<double>(most.counted.force_evaluations)] = method.name();
+  }
   if (!floors.empty())
-    notes.push_back("Floors, where smaller steps bring no smaller error: " + floors + ".");
+    notes.push_back("Floors, where smaller steps bring no smaller error: at most " +
+                    fmt::format("{}", fmt::join(floors, ", ")) + ".");
+  if (prices.size() > 1)
+    notes.push_back(fmt::format(
+        "For each evaluation of the forces a run takes {} ({}) to {} ({}): each bears its share of "
+        "the step.",
+        seconds_text(prices.begin()->first), prices.begin()->second,
+        seconds_text(prices.rbegin()->first), prices.rbegin()->second));
   if (adaptive)
     notes.push_back(
         "Dormand–Prince, adaptive, solves the bare equations of motion, without the world's step: "
-        "its seconds "
-        "buy less than those of the others.");
+        "its seconds buy less. Its “step” stands for a tolerance: 1e-3 at the largest, less by the "
+        "fifth power.");
+  if (left_out > 0)
+    notes.push_back(
+        fmt::format("{} of {} runs were left out as too long.", left_out, problem.rows.size()));
   return notes;
 }
 

@@ -14,6 +14,8 @@ struct ProblemRows {
 };
 std::vector<ProblemRows> by_problem(std::span<const Row> rows);
 
+inline constexpr double kRounding = 0x1p-52;  // an error that says no more than that
+
 // The same of one method, the largest step first.
 struct MethodRows {
   std::string method;
@@ -43,10 +45,15 @@ bool has_whole_errors(const ProblemRows& problem);
 using Looks = std::map<std::string, int>;
 Looks looks_of(std::span<const Row> rows);
 
-// An order, and how far the slopes between neighbouring rows lie from it, at most.
+// An order, and how far the slopes between neighbouring rows lie from it, at most; where they only
+// rise or only fall as steps shrink, the first and the last: then the order is still on its way.
 struct Order {
   double exponent = 0, spread = 0;
-  std::string words() const { return fmt::format("{:.2f}±{:.2f}", exponent, spread); }
+  std::optional<std::pair<double, double>> trend = {};
+  std::string words() const {
+    if (trend) return fmt::format("{:.2f}→{:.2f}", trend->first, trend->second);
+    return fmt::format("{:.2f}±{:.2f}", exponent, spread);
+  }
 };
 
 // p in error ~ step^p: least squares through the logarithms of the rows above the rounding floor,
@@ -55,13 +62,18 @@ struct Order {
 // tolerances.
 std::optional<Order> observed_order(std::span<const Row> rows);
 
-// The rows, the largest step first, from which on no error is a quarter smaller than that before
-// it, if there are two at least and it fell above them: a floor, of rounding or of the method. None
-// of an adaptive method.
+// The rows, the largest step first, from which on all errors shrink more slowly than by half the
+// observed order (of half a power where there is none), if there are two at least and it fell to
+// them: a floor, of rounding or of the method. None of an adaptive method, or of errors that have
+// not begun to shrink.
 std::span<const Row> observed_floor(std::span<const Row> rows);
 
-// An estimate of what rounding alone leaves after so many steps: 2^-52 times their square root, as
-// of a random walk (Henrici, "Discrete Variable Methods", 1962). Relative.
+// The largest error there: which of them a run ends with is chance. Nothing if there is none.
+std::optional<double> largest_on_floor(std::span<const Row> rows);
+
+// What rounding alone leaves after so many steps if each rounds once, as a random walk: 2^-52 times
+// their square root (Henrici, "Discrete Variable Methods", 1962). Relative. Steps of many stages
+// round more often, and errors in the phase grow faster: what is observed lies above it.
 double rounding_floor(double steps);
 
 // The count that says best how much work a problem's runs are: constraint rows if there are any,
@@ -80,9 +92,9 @@ std::vector<std::vector<std::string>> equal_methods(const ProblemRows& problem);
 
 // The line for a student: to be off by at most so much, which method is the quickest, and how the
 // next one compares; of many changes the three that hold for most. Errors are decades, or 0 where
-// they are whole numbers. Each method takes its quickest run that is so good; whom another measurement might
-// rank otherwise are told as equal. Who does not do the world's step is left out. Or why there is
-// no such line.
+// they are whole numbers. Each method takes its quickest run that is so good; whom another
+// measurement might rank otherwise are told as equal. Who does not do the world's step is left out.
+// Or why there is no such line.
 std::string who_is_quickest(const ProblemRows& problem);
 
 // What a reader must know beside the numbers: what the main norm is, how good its reference is, and

@@ -63,12 +63,31 @@ TEST(ProblemPage, SaysItsNotesItsFileAndItsCircumstances) {
     const DrawList list = draw_problem(problem, m);
     EXPECT_TRUE(says_part(list, problem.problem + ".toml"));
     EXPECT_TRUE(says(list, circumstances_text(m.circumstances)));
+    std::string all;
+    for (const LabelBox& label : list.labels) all += label.text + " ";
     for (const std::string& note : notes_on(problem))
-      EXPECT_TRUE(says_part(list, note.substr(0, 30))) << note;
+      EXPECT_NE(all.find(note), std::string::npos) << note << "\n" << all;
     EXPECT_TRUE(says_part(list, work_count(problem).name));
     for (const MethodRows& c : by_method(problem))
       EXPECT_TRUE(says_part(list, c.is_peer ? c.method : method_words(c.method))) << c.method;
   }
+}
+
+// It is read from the last row.
+TEST(Slide, IsLaidOutInLargeTypeAndNamesAllThatDoAWorldsStep) {
+  for (const auto& [name, m] : measurements())
+    for (const ProblemRows& problem : by_problem(m.rows)) {
+      const DrawList list = draw_slide(problem, m);
+      expect_laid_out(list, {{0, 0}, list.page}, kLeastLabel, name + " " + problem.problem);
+      EXPECT_TRUE(says_part(list, problem_words(problem) + ": error against run time"));
+    }
+  Measurement m = samples::measurement(1);
+  m.rows.push_back(m.rows[0]);
+  m.rows.back().method = kAdaptive;
+  const ProblemRows problem = by_problem(m.rows)[0];
+  const DrawList list = draw_slide(problem, m);
+  for (const MethodRows& c : by_method(problem))
+    EXPECT_EQ(says(list, c.name()), c.method != kAdaptive) << c.method;
 }
 
 TEST(ProblemPage, PrintsTheObservedOrders) {

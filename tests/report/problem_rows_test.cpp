@@ -52,6 +52,26 @@ TEST(Floor, BeginsWhereTheErrorNoLongerFalls) {
   EXPECT_TRUE(observed_floor(power(0, 1, 0, 9)).empty()) << "it never fell";
 }
 
+// Noise must not hide it, nor runs that were left out at its end.
+TEST(Floor, OfNoiseIsToldByItsLargestError) {
+  std::vector<Row> rows = power(8, 1e3, 0, 8);
+  const double noise[] = {1.7e-14, 1.4e-13, 8.1e-14, 5.1e-13, 4.7e-13, 2.4e-13};
+  for (std::size_t i = 0; i < 6; ++i) rows[i + 1].norms[0].value = noise[i];
+  rows[7].status = Status::left_out;
+  EXPECT_EQ(observed_floor(rows).size(), 6u);
+  EXPECT_EQ(largest_on_floor(rows), 5.1e-13);
+  EXPECT_EQ(notes_on({"p", "p", "plain", rows})[0],
+            "Floors, where smaller steps bring no smaller error: at most m 5.1e-13.");
+}
+
+TEST(Order, ThatIsOnItsWayIsToldByItsEnds) {
+  std::vector<Row> rows = power(4, 1, 0, 6);
+  for (Row& row : rows) row.norms[0].value *= 1 + 8 * row.step;
+  const auto found = observed_order(rows);
+  ASSERT_TRUE(found && found->trend);
+  EXPECT_EQ(found->words(), "4.36→4.03");
+}
+
 Row timed_row(const std::string& method, double error, double seconds, double half = 0.01) {
   Row row = samples::row(method, 0.1, error, seconds, 1);
   row.processor.low = (1 - half) * seconds;
@@ -66,7 +86,7 @@ TEST(WhoIsQuickest, IsToldOfAllErrorsThatTwoReach) {
   EXPECT_EQ(
       quickest_of({timed_row("velocity_verlet", 0.9e-2, 1), timed_row("velocity_verlet", 0.9e-4, 9),
                    timed_row("runge_kutta_4", 0.9e-2, 3), timed_row("runge_kutta_4", 0.9e-4, 4.5)}),
-      "Of the runs that were made, at errors of 0.1 to 0.01 velocity Verlet costs 0.33 of what "
+      "Of runs at a step of 0.1 s: at errors of 0.1 to 0.01 velocity Verlet costs 0.33 of what "
       "Runge–Kutta 4 costs; at errors of 0.001 to 1e-4 Runge–Kutta 4 costs 0.5 of what velocity "
       "Verlet costs.");
 }
@@ -76,7 +96,7 @@ TEST(WhoIsQuickest, TellsASharesWholeRange) {
   EXPECT_EQ(
       quickest_of({timed_row("velocity_verlet", 0.9e-1, 2), timed_row("velocity_verlet", 0.9e-2, 8),
                    timed_row("runge_kutta_4", 0.9e-2, 1)}),
-      "Of the runs that were made, at errors of 0.1 to 0.01 Runge–Kutta 4 costs 0.5 to 0.12 of "
+      "Of runs at a step of 0.1 s: at errors of 0.1 to 0.01 Runge–Kutta 4 costs 0.5 to 0.12 of "
       "what velocity Verlet costs.");
 }
 
@@ -198,6 +218,22 @@ TEST(Notes, TellHowGoodTheReferenceIs) {
   EXPECT_EQ(fine.error(), 3e-4);
   EXPECT_NE(notes_on(problem_of({fine})).back().find("is itself off by about 3e-4"),
             std::string::npos);
+}
+
+TEST(Notes, TellWhatAnEvaluationCostsWhatWasHeldAgainstAndWhatWasLeftOut) {
+  Row a = samples::row("velocity_verlet", 0.1, 1e-3, 2e-3, 1000);
+  a.reference = "closed form; period 3 s; looked at 21 times in 9 s";
+  Row b = samples::row("runge_kutta_4", 0.1, 1e-4, 1e-3, 4000), c = b;
+  c.status = Status::left_out;
+  c.processor = {};
+  c.counted = {};
+  const std::vector<std::string> notes = notes_on(problem_of({a, b, c}));
+  ASSERT_EQ(notes.size(), 3u);
+  EXPECT_EQ(notes[0], "Reference: closed form; period 3 s; looked at 21 times in 9 s.");
+  EXPECT_EQ(notes[1],
+            "For each evaluation of the forces a run takes 0.25 µs (Runge–Kutta 4) to 2 µs "
+            "(velocity Verlet): each bears its share of the step.");
+  EXPECT_EQ(notes[2], "1 of 3 runs were left out as too long.");
 }
 
 TEST(EqualMethods, AgreeInEveryRunThatTheyShare) {

@@ -218,10 +218,12 @@ std::string trajectory_meaning(double length, double speed) {
       std::abs(length - 1) + std::abs(speed - 1) < 1e-9 ? "; over 1, so that it is absolute" : "");
 }
 
-TrajectoryMetric::TrajectoryMetric(long double length, long double speed, ExactStates exact)
+TrajectoryMetric::TrajectoryMetric(long double length, long double speed, ExactStates exact,
+                                   std::string parameters)
     : length_(static_cast<double>(length)),
       speed_(static_cast<double>(speed)),
-      exact_at_(std::move(exact)) {}
+      exact_at_(std::move(exact)),
+      parameters_(std::move(parameters)) {}
 
 void TrajectoryMetric::look(const Observation& now) {
   exact_.clear();

@@ -18,9 +18,9 @@ MetricMaker made_of(const Scenario& scenario) {
 
 // Of bodies that are known at every time (TrajectoryMetric).
 inline MetricMaker trajectories(long double length, long double speed,
-                                TrajectoryMetric::ExactStates exact) {
-  return [length, speed, exact = std::move(exact)] {
-    return std::make_unique<TrajectoryMetric>(length, speed, exact);
+                                TrajectoryMetric::ExactStates exact, std::string parameters = "") {
+  return [length, speed, exact = std::move(exact), parameters = std::move(parameters)] {
+    return std::make_unique<TrajectoryMetric>(length, speed, exact, parameters);
   };
 }
 

@@ -123,15 +123,19 @@ MetricMaker oscillator_metric(const Scenario& scenario) {
       (between == LongVec(0.0L) || !(amplitude < glm::dot(rest - tie.anchor, direction))))
     refuse_problem(scenario, "it would pass through the spring's other end");
   if (!(amplitude > 0)) refuse_problem(scenario, "nothing moves");
-  return trajectories(amplitude, amplitude * omega, [=](double time, auto& states) {
-    LongVec x, v;
-    for (int axis = 0; axis < 3; ++axis) {
-      const Swing swing = exact_swing(stiffness, damping, mass, {away[axis], velocity[axis]}, time);
-      x[axis] = rest[axis] + swing.x;
-      v[axis] = swing.v;
-    }
-    states.push_back({body, Vec<3>(x), Vec<3>(v)});
-  });
+  return trajectories(
+      amplitude, amplitude * omega,
+      [=](double time, auto& states) {
+        LongVec x, v;
+        for (int axis = 0; axis < 3; ++axis) {
+          const Swing swing =
+              exact_swing(stiffness, damping, mass, {away[axis], velocity[axis]}, time);
+          x[axis] = rest[axis] + swing.x;
+          v[axis] = swing.v;
+        }
+        states.push_back({body, Vec<3>(x), Vec<3>(v)});
+      },
+      fmt::format("undamped period {:.4g} s", static_cast<double>(2 * kPi / omega)));
 }
 
 // Two bodies about their common centre of mass, which flies straight on. One that is static stays,
@@ -163,16 +167,23 @@ MetricMaker kepler_metric(const Scenario& scenario) {
   const LongVec drift = velocity_a + share_a * start.velocity;
   exact_orbit(mu, start, 0);  // refuses
   const long double axis = half_axis(mu, start);
-  return trajectories(axis, std::sqrt(mu / axis), [=](double time, auto& states) {
-    const Orbit now = exact_orbit(mu, start, time);
-    const LongVec middle = centre + static_cast<long double>(time) * drift;
-    const auto add = [&](std::size_t body, long double share) {
-      states.push_back(
-          {body, Vec<3>(middle + share * now.position), Vec<3>(drift + share * now.velocity)});
-    };
-    if (a_moves) add(ia, -share_a);
-    add(ib, share_b);
-  });
+  const LongVec turning = glm::cross(start.position, start.velocity);
+  const long double eccentricity =
+      std::sqrt(std::max(0.0L, 1 - glm::dot(turning, turning) / (mu * axis)));
+  return trajectories(
+      axis, std::sqrt(mu / axis),
+      [=](double time, auto& states) {
+        const Orbit now = exact_orbit(mu, start, time);
+        const LongVec middle = centre + static_cast<long double>(time) * drift;
+        const auto add = [&](std::size_t body, long double share) {
+          states.push_back(
+              {body, Vec<3>(middle + share * now.position), Vec<3>(drift + share * now.velocity)});
+        };
+        if (a_moves) add(ia, -share_a);
+        add(ib, share_b);
+      },
+      fmt::format("eccentricity {:.3g}, period {:.4g} s", static_cast<double>(eccentricity),
+                  static_cast<double>(2 * kPi * axis * std::sqrt(axis / mu))));
 }
 
 // The plane that it swings in: `side` is where the angle is positive.
