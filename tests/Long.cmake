@@ -23,6 +23,7 @@ set(long_physics
   Extremes.ThrownPilesGainNoEnergy
   Integrators.AnyDampingRatioIsFollowed
   Integrators.TheErrorFallsByTheOrderOfTheMethod
+  PositionMethods.*
   Iteration.IsChosenWhereVeryManyAttractEachOther
   JointEnergy.TheDefaultIntegratorLosesNoEnergyToPins
   JointExtremes.PinsHoldUnderLoad

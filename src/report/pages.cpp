@@ -382,6 +382,11 @@ DrawList draw_slide(const ProblemRows& problem, const Measurement& measurement) 
   for (PlotSeries& series : plot.series)  // orders are on the other page
     series.name = series.name.substr(0, series.name.find(": "));
   plot.size = 27;
+  const Box<2> panel{{kMargin, 96}, {list.page.x - kMargin, bottom}};
+  if (!plot.bands.empty()) {  // its lanes have names
+    draw_plot(plot, panel, list, labels);
+    return list;
+  }
   plot.names = PlotNames::none;
   if (plot.series.size() > 1)  // like beside like: steps of a world
     std::erase_if(plot.series,
@@ -394,9 +399,8 @@ DrawList draw_slide(const ProblemRows& problem, const Measurement& measurement) 
   double wide = 0;
   for (const LegendEntry& one : legend) wide = std::max(wide, text_width(one.name, words));
   const double middle = list.page.x - kMargin - std::min(wide + 76, 0.4 * width);
-  draw_plot(plot, {{kMargin, 96}, {middle - 24, bottom}}, list, labels);
-  draw_plot_legend(legend, {{middle, 150}, {list.page.x - kMargin, bottom}}, plot.size, list,
-                   labels);
+  draw_plot(plot, {panel.lo, {middle - 24, bottom}}, list, labels);
+  draw_plot_legend(legend, {{middle, 150}, panel.hi}, plot.size, list, labels);
   return list;
 }
 

@@ -359,11 +359,12 @@ std::string who_is_quickest(const ProblemRows& problem) {
                                            share == last ? share : share + " to " + last, r.over);
     clauses.push_back(std::move(clause));
   }
-  const auto [finest, coarsest] = std::ranges::minmax(problem.rows, {}, &Row::step);
-  const std::string steps =
-      finest.step == coarsest.step
-          ? "a step of " + figure(finest.step)
-          : fmt::format("steps of {} to {}", figure(finest.step), figure(coarsest.step));
+  std::set<double> taken;
+  for (const Row& row : problem.rows)
+    if (seconds_of(row)) taken.insert(row.step);
+  const std::string finest = figure(*taken.begin()), coarsest = figure(*taken.rbegin());
+  const std::string steps = finest == coarsest ? "a step of " + finest
+                                               : fmt::format("steps of {} to {}", finest, coarsest);
   return fmt::format("Of runs at {} s: {}.", steps, fmt::join(clauses, "; "));
 }
 
@@ -404,7 +405,7 @@ std::vector<std::string> notes_on(const ProblemRows& problem) {
   if (!floors.empty())
     notes.push_back("Floors, where smaller steps bring no smaller error: at most " +
                     fmt::format("{}", fmt::join(floors, ", ")) + ".");
-  if (prices.size() > 1)
+  if (prices.size() > 1 && work_count(problem).count == &Counted::force_evaluations)
     notes.push_back(fmt::format(
         "For each evaluation of the forces a run takes {} ({}) to {} ({}): each bears its share of "
         "the step.",
