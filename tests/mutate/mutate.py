@@ -589,19 +589,24 @@ def reason_of(mutant, known):
         line.endswith("...") and key.startswith(line[:-3]))), None)
 
 
+def add_options(parser, folder):
+    """Those that each trial of mutants has; it is made in this folder of build/."""
+    parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--size", type=int, default=60, help="mutants a room; 0: all there are")
+    parser.add_argument("--least", type=float, default=90, help="percent that must be noticed")
+    parser.add_argument("--folder", type=Path, default=ROOT / "build" / folder)
+    parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--only", default="", help="only mutants whose names have this in them")
+    parser.add_argument("--list", action="store_true", help="print the mutants, and run nothing")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("rooms", nargs="*", default=list(ROOMS))
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--size", type=int, default=60, help="mutants a room; 0: all there are")
-    parser.add_argument("--least", type=float, default=90, help="percent that must be killed")
-    parser.add_argument("--folder", type=Path, default=ROOT / "build" / "mutants")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--only", default="", help="only mutants whose names have this in them")
+    add_options(parser, "mutants")
     parser.add_argument("--trust", action="store_true",
                         help="do not run what equivalent.txt has")
     parser.add_argument("--verbose", action="store_true", help="tell what does not compile")
-    parser.add_argument("--list", action="store_true", help="print the mutants, and run nothing")
     parser.add_argument("--check", action="store_true",
                         help="only see whether each line of equivalent.txt names one that is possible")
     parser.add_argument("--results", type=Path, help="a file for every mutant's fate")

@@ -100,14 +100,8 @@ def page(options, fates, mutants, different, caught):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--size", type=int, default=60)
+    mutate.add_options(parser, "mutants_of_stress")
     parser.add_argument("--worlds", type=int, default=200)
-    parser.add_argument("--least", type=float, default=90, help="percent that must be caught")
-    parser.add_argument("--folder", type=Path, default=mutate.ROOT / "build" / "mutants_of_stress")
-    parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--only", default="", help="only mutants whose names have this in them")
-    parser.add_argument("--list", action="store_true", help="print the mutants, and run nothing")
     parser.add_argument("--first", action="store_true",
                         help="no more cases of a fault that is caught: quicker, and no page of it")
     parser.add_argument("--page", type=Path, help="write the page of it there")
