@@ -9,38 +9,67 @@ namespace {
 
 using namespace stress;
 
-// What sweeps solve in part hangs on rounding and on the order: such scenes are left out.
+using enum SceneKind;
+using enum ContactMethod;
 
+const std::vector<LeftOut> kLeftOut = {
+    // What sweeps solve in part hangs on rounding and on the order, and heaps fall otherwise then.
+    {"in_other_units", {bridge, heap}},
+    {"in_other_units", {stack}, {soft, direct}},
+    {"in_other_units", {slope}, {soft, lecture}},
+    {"in_mirrors", {bridge, heap}},
+    {"in_mirrors", {slope, stack}, {}, false},
+    // It attracts, or has no outside.
+    {"beside_others", {SceneKind::free, room}},
+    // Corners in space are more than in the plane, and share what presses.
+    {"plane_in_space", {slope, stack, bridge, heap, swarm}},
+    {"plane_in_space", {SceneKind::free, chain, room}, {}, false},
+    // What bounces or hangs on joints gets impulses that no contact tells.
+    {"settled", {SceneKind::free, chain, swarm}},
+    {"two_ways", {SceneKind::free, chain, room, heap, swarm}},
+    {"two_ways", {slope, stack, bridge}, {soft, impulse, lecture}},
+    // What stands on something is pushed from outside.
+    {"kept", {slope, stack, room, bridge, heap}},
+};
+
+// Axes change places, one is turned round, so that left is right, and all is seen in passing; not
+// so where balls touch what stands still, which is one thing, or moves.
 template <int D>
-double in_other_units(const Scene<D>& scene) {
-  if (scene.is(SceneKind::bridge) || scene.is(SceneKind::heap) ||
-      (scene.is(SceneKind::stack) && scene.is_of({ContactMethod::soft, ContactMethod::direct})) ||
-      (scene.is(SceneKind::slope) && scene.is_of({ContactMethod::soft, ContactMethod::lecture})))
-    return 0;
-  return parted(scene, in_units(scene, 4, 2, 8), [](std::size_t i, const auto& a, const auto& all) {
-    Body<D> b = all[i];
-    b.position /= 4, b.velocity /= 2;
-    return apart(a, b);
-  });
+double in_mirrors(const Scene<D>& scene) {
+  Telling<D> other{.mirrors = true};
+  if constexpr (D == 2)
+    other.axes = {Vec<2>(0, 1), Vec<2>(1, 0)};
+  else
+    other.axes = {Vec<3>(0, -1, 0), Vec<3>(0, 0, 1), Vec<3>(1, 0, 0)};
+  if (!scene.is(slope) && !scene.is(stack)) other.drift = at<D>(0.3, -0.2);
+  // What explicit Euler does to joints in space hangs on rounding.
+  const bool wild =
+      D == 3 && scene.is(swarm) && scene.config.integrator == Integrator::explicit_euler;
+  return other.parted(scene) * (wild ? 1e-7 : 1);
 }
 
 template <int D>
 double beside_others(Scene<D> scene) {
-  if (scene.is(SceneKind::free) || scene.is(SceneKind::room))
-    return 0;  // it attracts; it has no outside
   scene.steps = 12;
-  return parted(scene, beside_itself(scene),
-                [](std::size_t i, const auto& a, const auto& all) { return apart(a, all[i]); });
+  return Telling<D>().apart(after(scene), after(beside_itself(scene)));
+}
+
+// All rows at once, or swept over until nothing changes; they push out of each other otherwise what
+// slides, or hangs on joints.
+template <int D>
+double two_ways(Scene<D> scene) {
+  scene.steps = 8;
+  Scene<D> swept = scene;
+  swept.config.contacts = impulse, swept.config.iterations = 1000;
+  const double allowed = scene.is(bridge) ? 1 : scene.is(slope) ? 0.2 : 1e-10;
+  return Telling<D>().apart(after(scene), after(swept)) / allowed;
 }
 
 double plane_in_space(const Scene<3>&) { return 0; }
 double plane_in_space(Scene<2> scene) {
-  if (!scene.is(SceneKind::free) && !scene.is(SceneKind::chain) && !scene.is(SceneKind::room))
-    return 0;
   for (auto& [body, spin] : scene.bodies)
     if (!std::holds_alternative<OrientedBox<2>>(body.shape)) body.may_turn = false, spin = 0;
-  return parted(scene, in_space(scene),
-                [](std::size_t i, const auto& a, const auto& all) { return apart(a, all[i]); });
+  return Telling<2, 3>().parted(scene);
 }
 
 // Of all scenes of a kind: hashes of their states. Whatever the compiler, its settings, and the
@@ -50,16 +79,16 @@ StressResult same_bits() {
       0xd1aaf19c6793384d, 0xdb5e81bfbb879695, 0x8b974ec2e0747aa6, 0x7868f1b67d9e01b7,
       0xd49f3dfce5b92ac5, 0xf1a75783cbe5af4a, 0xc639f0c4a68f07c2, 0x2a12f6c65b31e6da,
       0x57640657db12bca0, 0xc6773e0f4b0000,   0x3121901378fd7556, 0xc3ab5b24766ebef5,
-      0x5db3644801f06359, 0x80ccb09c4c3bbd9b};
+      0x5db3644801f06359, 0x80ccb09c4c3bbd9b, 0x7afa46f2110aef10, 0xe958c88ce6ed2195};
   std::array<std::uint64_t, kRecorded.size()> found{};
   const auto add = [&]<int D>(Scene<D> scene) {
     // Of what flies, the splittings, too.
-    if (scene.is(SceneKind::free))
+    if (scene.is(SceneKind::free) || scene.is(swarm))
       scene.config.rotation = integration(scene.config.integrator).order == 1
                                   ? RotationMethod::splitting_2
                                   : RotationMethod::splitting_4;
     std::uint64_t& hash = found[static_cast<std::size_t>(scene.kind) * 2 + (D - 2)];
-    hash = hash * 0x100000001b3u + after(scene, 1).hash();
+    hash = hash * 0x100000001b3u + after(scene).hash();
   };
   each_scene<2>(add);
   each_scene<3>(add);
@@ -74,39 +103,21 @@ StressResult same_bits() {
 
 // The worst of `figure(method)` over those that part bodies.
 auto by_methods(double (*figure)(ContactMethod)) {
-  return [figure] {
-    return worst_over({ContactMethod::soft, ContactMethod::impulse, ContactMethod::direct}, figure);
-  };
+  return [figure] { return worst_over({soft, impulse, ContactMethod::direct}, figure); };
 }
 
 // --- smooth motion ---
 
-// Of all that moves: how far places, velocities and angular momenta are from those of another
-// world.
-template <int D>
-double unlike(const World<D>& a, const World<D>& b) {
-  double worst = 0;
-  for (std::size_t i = 0; i < a.bodies().size(); ++i) {
-    const Body<D>&one = a.bodies()[i], &two = b.bodies()[i];
-    worst = largest({worst, glm::length(one.position - two.position),
-                     glm::length(one.velocity - two.velocity),
-                     std::sqrt(geometry::dot(Spin<D>(one.angular_momentum - two.angular_momentum),
-                                             Spin<D>(one.angular_momentum - two.angular_momentum))),
-                     glm::length(matrix(one.orientation)[0] - matrix(two.orientation)[0])});
-  }
-  return worst;
-}
-
 // How far the order of convergence towards RK4 by the finest steps is from the method's own.
 template <int D>
 double off_order(SceneKind kind, Integrator integrator) {
-  const bool chain = kind == SceneKind::chain, of_places = integration(integrator).of_places;
+  const bool is_chain = kind == SceneKind::chain, of_places = integration(integrator).of_places;
   const auto by = [&](Integrator one) {
-    Scene<D> scene = SceneOf<D>(kind, ContactMethod::none, one).scene();
+    Scene<D> scene = SceneOf<D>(kind, none, one).scene();
     scene.steps = 24;
     if (of_places) {
       for (Spring<D>& spring : scene.springs) spring.damping = 0;
-    } else if (!chain) {
+    } else if (!is_chain) {
       scene.bodies[0].body.linear_drag = 0.5, scene.bodies[2].body.linear_drag = 0.3;
       if (D == 2) scene.bodies[0].body.angular_drag = 0.1;
     }
@@ -115,16 +126,16 @@ double off_order(SceneKind kind, Integrator integrator) {
   const auto in_steps = [&](Integrator one, int count) {
     Scene<D> scene = by(one);
     scene.h *= static_cast<double>(scene.steps) / count;
-    return after((scene.steps = count, scene), 1);
+    return after((scene.steps = count, scene));
   };
-  const int count = of_places                                           ? 6 * (D - 1)
-                    : chain && integrator == Integrator::explicit_euler ? 768
-                                                                        : 48;
+  const int count = of_places                                              ? 6 * (D - 1)
+                    : is_chain && integrator == Integrator::explicit_euler ? 768
+                                                                           : 48;
   const World<D> exact = in_steps(Integrator::runge_kutta_4, 1536);
-  const double coarse = unlike(in_steps(integrator, count), exact);
-  const double fine = unlike(in_steps(integrator, 2 * count), exact);
+  const double coarse = Telling<D>().apart(in_steps(integrator, count), exact);
+  const double fine = Telling<D>().apart(in_steps(integrator, 2 * count), exact);
   // Joints are moved by Verlet then.
-  const bool better = chain && integrator == Integrator::semi_implicit_euler;
+  const bool better = is_chain && integrator == Integrator::semi_implicit_euler;
   return std::abs(std::log2(coarse / fine) - (better ? 2 : integration(integrator).order));
 }
 
@@ -134,7 +145,7 @@ StressResult orders() {
   std::string where;
   for (std::size_t i = 0; i < integrator_names().size(); ++i) {
     const auto integrator = static_cast<Integrator>(i);
-    if (Of == SceneKind::chain && integration(integrator).of_places) continue;
+    if (Of == chain && integration(integrator).of_places) continue;
     const double off = largest(off_order<2>(Of, integrator), off_order<3>(Of, integrator));
     if (!(off <= worst)) where = to_string(integrator);
     worst = largest(worst, off);
@@ -142,113 +153,113 @@ StressResult orders() {
   return at_most(0.3, worst, "of an order", where);
 }
 
-// What is kept: energy, momentum, angular momentum, and joints that hold; relative to what there
-// is.
-template <int D, SceneKind Of>
-double lost() {
-  Scene<D> scene = SceneOf<D>(Of, ContactMethod::none, Integrator::runge_kutta_4).scene();
+// What scenes keep that nothing pushes from outside: momentum, with which their middle moves on;
+// and, as well as the method can, its moment. By RK4 also energy, but for blows; and joints hold.
+// How far that is from what is allowed.
+template <int D>
+double lost(Scene<D> scene) {
+  const bool fine = scene.config.integrator == Integrator::runge_kutta_4 && !scene.is(swarm);
+  if (fine) scene.h /= 8, scene.steps = 200;
   for (Spring<D>& spring : scene.springs) spring.damping = 0;
   World<D> world = scene.made();
-  const auto kept = [&] {
-    std::vector<double> all{total_energy(world)};
-    if (Of == SceneKind::chain) return all;
-    const Vec<D> p = momentum<D>(world.bodies());
-    const Spin<D> l = angular_momentum<D>(world.bodies());
-    for (int i = 0; i < D; ++i) all.push_back(p[i]);
-    for (int i = 0; i < (D == 2 ? 1 : 3); ++i) all.push_back(spin_component(l, i));
-    return all;
+  const auto middle = [&] {
+    Vec<D> sum(0.0);
+    for (const Body<D>& body : world.bodies()) sum += body.position * body.mass;
+    return sum;
   };
-  const auto before = kept();
-  return worst_after_steps(world, 200, kStep / 8, [&] {
-    double worst = widest_gap(world);
-    const auto now = kept();
-    for (std::size_t i = 0; i < now.size(); ++i)
-      worst = largest(worst, std::abs(now[i] - before[i]));
-    return worst;
+  const Vec<D> p = momentum<D>(world.bodies()), from = middle();
+  const Spin<D> l = angular_momentum<D>(world.bodies());
+  const double energy = total_energy(world), allowed[] = {1, 1e-12, 1e-12, 1e-4, 0.03, 1, 1, 1};
+  return worst_after_steps(world, scene.steps, scene.h, [&] {
+    const double held = largest(widest_gap(world) / 1e-8,
+                                fine ? std::abs(total_energy(world) - energy) / 5e-8 : 0.0);
+    if (scene.is(chain)) return held;
+    const Spin<D> made = angular_momentum<D>(world.bodies()) - l;
+    return largest({held, glm::length(momentum<D>(world.bodies()) - p) / 1e-12,
+                    glm::length(middle() - from - p * world.time()) / 1e-12,
+                    std::sqrt(geometry::dot(made, made)) /
+                        allowed[static_cast<int>(scene.config.integrator)]});
   });
 }
 
 // --- blows ---
 
-// Two bodies in free space meet at one point, without friction: by Newton's law, along the normal
-// at the moment of impact, j = -(1 + e) v_n / (1/m_a + 1/m_b + ...). The impulse that they got,
-// less that.
+// Two bodies meet at one point as they fall, without friction. Until then they fly on parabolas,
+// and apart, all the more so for as long as a look at them says they do; at the moment of impact
+// they touch; and by Newton's law j = -(1 + e) v_n / (1/m_a + 1/m_b + ...). What of it does not
+// hold.
 template <int D>
 double blows(ContactMethod method) {
   double worst = 0;
   Random random(11);
   for (int round = 0; round < 40; ++round) {
-    WorldConfig<D> config{.contacts = method, .may_sleep = false};
-    Scene<D> scene{config};
-    const double e = round % 3 == 0 ? 0 : round % 3 == 1 ? 1 : 0.5;
+    Scene<D> scene{{.gravity = at<D>(3, -9),
+                    .integrator = Integrator::velocity_verlet,
+                    .contacts = method,
+                    .may_sleep = false}};
+    const double e = round % 3 == 0 ? 0.2 : round % 3 == 1 ? 1 : 0.5;
     for (const double side : {-1.0, 1.0}) {
       Vec<D> half(0.3);
       half.x = 0.2, half[D - 1] = 0.5;
-      Body<D> body = make_body<D>(
-          round % 2 == 0 || side < 0 ? Shape<D>(OrientedBox<D>{half}) : Shape<D>(Sphere{0.4}),
-          at<D>(side * 1.2, side * 0.1));
-      body.mass = random.between(0.5, 3);
+      Body<D> body = make_body<D>(round % 2 == 0 || side < 0 ? Shape<D>(OrientedBox<D>{half})
+                                  : round % 4 == 1           ? Shape<D>(Sphere{0.4})
+                                                             : Shape<D>(Capsule{0.1, 0.4}),
+                                  at<D>(side * 1.2, side * 0.1));
+      body.mass = 0.05 * std::pow(400, random.unit());
       body.material = {e, 0};
-      body.velocity = at<D>(-side * random.between(1, 2));
-      Moving<D> one{body};
-      if constexpr (D == 2)
-        one.body.orientation.angle = random.between(-3, 3), one.spin = random.between(-2, 2);
-      else
-        one.body.orientation = turned(Rotation<3>{}, random_direction<3>(random) * 2.0),
-        one.spin = random_direction<3>(random) * 2.0;
-      scene.bodies.push_back(one);
+      scene.bodies.push_back({body});
+      toss(scene.bodies.back(), random, 0, 30);
+      scene.bodies.back().body.velocity = at<D>(-side * random.between(1, 20));
     }
     World<D> world = scene.made();
-    for (int i = 0; i < 240 && world.contacts().empty(); ++i) {
+    world.keep_impact_looks(true);
+    for (int i = 0; i < 60 && world.contacts().empty(); ++i) {
       const std::vector<Body<D>> before = world.bodies();
-      world.step(1.0 / 120);
-      if (world.work().impacts_located != 1) continue;
-      const Body<D>&a = world.bodies()[0], &b = world.bodies()[1];
-      const Vec<D> push = (b.velocity - before[1].velocity) * b.mass;
-      const double size = glm::length(push);
-      worst = largest(worst, glm::length((a.velocity - before[0].velocity) * a.mass + push));
-      if constexpr (D == 2) {  // in space the axes of the moment are not told
-        // Speed along the impulse, of the points that met.
-        const auto along = [&](const std::vector<Body<2>>& of) {
-          const double spun =
-              angular_velocity(of[1]) * (b.angular_momentum - before[1].angular_momentum) +
-              angular_velocity(of[0]) * (a.angular_momentum - before[0].angular_momentum);
-          return (glm::dot(of[1].velocity - of[0].velocity, push) + spun) / size;
-        };
-        worst = largest(worst, std::abs(along(world.bodies()) + e * along(before)));
+      world.step(1.0 / 30);
+      const auto& [moments, looks, kept] = world.impacts();
+      const auto flown = [&](std::size_t which, double t) {
+        Body<D> body = before[which];
+        body.position += (body.velocity + scene.config.gravity * (t / 2)) * t;
+        body.orientation = freely_turned(body, t);
+        return body;
+      };
+      const auto gap = [&](double t) {
+        const auto seen = collide<D>(placed(flown(0, t)), placed(flown(1, t)), 100);
+        double least = kInfinity;
+        for (const auto& point : seen->points()) least = std::min(least, point.separation);
+        return least;
+      };
+      for (const ImpactLook<D>& look : looks) {
+        if (!moments.empty() && look.time > moments[0].time) break;
+        worst = largest({worst, glm::length(look.a.position - flown(0, look.time).position),
+                         glm::length(look.b.position - flown(1, look.time).position)});
+        for (int k = 0; k < 8 && look.free_until > look.time; ++k)
+          worst = largest(worst, -gap(look.time + (look.free_until - look.time) * k / 7));
       }
+      if (moments.empty() && !(gap(1.0 / 30) > 0)) return kInfinity;
+      if (moments.size() != 1) continue;
+      worst = largest(worst, std::abs(gap(moments[0].time)) * 1e-4);
+      const Body<D>&a = world.bodies()[0], &b = world.bodies()[1];
+      const Vec<D> fallen = scene.config.gravity / 30.0,
+                   push = (b.velocity - before[1].velocity - fallen) * b.mass;
+      worst =
+          largest(worst, glm::length((a.velocity - before[0].velocity - fallen) * a.mass + push));
+      // Speed along the impulse, of the points that met.
+      const auto along = [&](const std::vector<Body<D>>& of) {
+        double sum = glm::dot(of[1].velocity - of[0].velocity, push);
+        for (std::size_t k = 0; k < 2; ++k) {
+          Body<D> then = flown(k, moments[0].time);
+          const Spin<D> twist = world.bodies()[k].angular_momentum - then.angular_momentum;
+          then.angular_momentum = of[k].angular_momentum;
+          sum += geometry::dot(angular_velocity(then), twist);
+        }
+        return sum / glm::length(push);
+      };
+      worst = largest(worst, std::abs(along(world.bodies()) + e * along(before)));
       break;
     }
   }
   return worst;
-}
-
-// --- what bears what ---
-
-// A stack at rest: the impulse between two boxes over a step is the weight above.
-template <int D>
-double bearing(ContactMethod method) {
-  WorldConfig<D> config = with_gravity<D>();
-  config.contacts = method, config.may_sleep = false, config.iterations = 40;
-  World<D> world = world_of<D>(config, {make_floor<D>()});
-  double above[4] = {};
-  for (int i = 0; i < 4; ++i) {
-    Body<D> box = make_box<D>(at<D>(0.05 * i, 0.5 + i));
-    box.mass = 1 + 0.5 * i;
-    for (int j = 0; j <= i; ++j) above[j] += box.mass;
-    world.add(box);
-  }
-  run(world, 1.0);
-  double worst = 0;
-  for (const Contact<D>& contact : world.contacts()) {
-    double sum = 0;
-    for (const double p : contact.normal_impulses) sum += p;
-    worst = largest(worst, std::abs(sum / (above[contact.b - 1] * kGravity * kStep) - 1));
-  }
-  for (int i = 0; i < 4; ++i)
-    worst = largest(worst, glm::length(world.bodies()[i + 1].position - at<D>(0.05 * i, 0.5 + i)));
-  const double allowed = method == ContactMethod::impulse ? 0.01 : 1e-10;
-  return world.contacts().size() == 4 ? worst / allowed : kInfinity;
 }
 
 // --- turning ---
@@ -268,7 +279,7 @@ double turned_freely() {
     Vec<3> way = random_direction<3>(random);
     if (round % 3 == 0) way = glm::normalize(Vec<3>(1e-3 * way.x, 1, 1e-3 * way.z));
     const double spin = wide(0.01, 60);
-    World<3> world = world_of<3>({.contacts = ContactMethod::none}, {body});
+    World<3> world = world_of<3>({.contacts = none}, {body});
     world.set_angular_velocity(0, matrix(body.orientation) * way * spin);
     const Body<3> start = world.bodies()[0];
     const double h = wide(0.01, 1);
@@ -295,166 +306,104 @@ double turned_freely() {
   return worst;
 }
 
+// By how much of an order the splittings' errors shrink otherwise than they should, as their step
+// is halved; against the exact turn, of boxes of three sides.
+double splittings() {
+  double worst = 0;
+  for (const auto& [method, order] :
+       {std::pair(RotationMethod::splitting_2, 2), std::pair(RotationMethod::splitting_4, 4)}) {
+    Random random(23);
+    double coarse = 0, fine = 0;
+    for (int round = 0; round < 60; ++round) {
+      const Vec<3> half(1, random.between(0.5, 0.8), random.between(0.2, 0.4));
+      Moving<3> one{make_body<3>(OrientedBox<3>{half}, Vec<3>(0.0))};
+      toss(one, random, 0, 1);
+      const Body<3> body = Scene<3>{.config = {}, .bodies = {one}}.made().bodies()[0];
+      const auto off = [&, by = method](double h) {
+        const auto turn = [&](RotationMethod it) {
+          return freely_turned(body, body.angular_momentum, h, it);
+        };
+        return glm::length(turn_between(turn(RotationMethod::exact), turn(by)));
+      };
+      coarse += off(0.1), fine += off(0.05);
+    }
+    worst = largest(worst, std::abs(std::log2(coarse / fine) - order - 1));
+  }
+  return worst;
+}
+
 // --- what contacts tell ---
 
-// Newton's and Coulomb's laws at each step of what lies, slides and falls: a body's momentum
+// Laws of contacts, at each step in which nothing bounces: they make no energy, nor do blows where
+// nothing falls. A body's momentum
 // changes by gravity and the impulses that its contacts tell, which push, and rub by mu times that
-// at most.
+// at most. Where a step is one part, each presses, or parts, or comes no nearer than to touch; and
+// its friction is the least that stops a slip, or full and against it (Signorini, Coulomb). How far
+// that is from what is allowed.
 template <int D>
-double untold_impulses(const Scene<D>& scene) {
-  if (!scene.is(SceneKind::slope) && !scene.is(SceneKind::stack)) return 0;
+double unsettled(Scene<D> scene) {
+  const bool told = scene.is(slope) || scene.is(stack);
+  const bool whole = told && !scene.is_of({lecture}) && (scene.is(slope) || !scene.is_of({soft}));
+  if (whole) scene.config.sub_steps = 1, scene.config.iterations = 1000;
+  const double off = scene.is(stack) ? 0.05 : scene.config.contacts == impulse ? 3e-4 : 1e-7;
   World<D> world = scene.made();
   double worst = 0;
   for (int step = 0; step < scene.steps; ++step) {
     const std::vector<Body<D>> before = world.bodies();
+    const WorldWork work = world.work();
     world.step(scene.h);
-    std::vector<Vec<D>> got(before.size(), Vec<D>(0.0));
-    for (const Contact<D>& contact : world.contacts())
-      for (int i = 0; i < contact.manifold.count; ++i) {
-        const auto at = static_cast<std::size_t>(i);
-        const Body<D>&a = *world.find(contact.a), &b = *world.find(contact.b);
-        const double press = contact.normal_impulses[at];
-        const double mu = std::sqrt(a.material.friction * b.material.friction);
-        worst = largest({worst, -press, glm::length(contact.friction_impulses[at]) - mu * press});
-        got[contact.b] += contact.manifold.normal * press + contact.friction_impulses[at];
-        got[contact.a] -= contact.manifold.normal * press + contact.friction_impulses[at];
+    if (work_between(work, world.work()).impacts_located > 0 && !scene.is(room)) continue;
+    const auto moved = [&](BodyId id) {  // as it was, but for its motion
+      Body<D> body = before[id];
+      body.velocity = world.bodies()[id].velocity;
+      body.angular_momentum = world.bodies()[id].angular_momentum;
+      return body;
+    };
+    std::vector<Vec<D>> got(before.size(), scene.config.gravity * scene.h);
+    for (const Contact<D>& contact : world.contacts()) {
+      const Body<D>&a = before[contact.a], &b = before[contact.b];
+      const Vec<D> n = contact.manifold.normal;
+      const bool rolls = !std::holds_alternative<OrientedBox<D>>(b.shape);
+      for (int i = 0; i < contact.manifold.count && told; ++i) {
+        const ManifoldPoint<D>& point = contact.manifold.room[static_cast<std::size_t>(i)];
+        const double press = contact.normal_impulses[static_cast<std::size_t>(i)],
+                     most = std::sqrt(a.material.friction * b.material.friction) * press;
+        const Vec<D> rub = contact.friction_impulses[static_cast<std::size_t>(i)];
+        worst = largest({worst, -press / 1e-13, (glm::length(rub) - most) / 1e-13});
+        got[contact.b] += (n * press + rub) * b.inverse_mass;
+        got[contact.a] -= (n * press + rub) * a.inverse_mass;
+        double rubs = kInfinity, parts = 0;
+        for (const double share : {-0.5, 0.0, 0.5}) {  // where between the surfaces
+          const Vec<D> where = point.position + n * (point.separation * share),
+                       u = velocity_at(moved(contact.b), where - b.position) -
+                           velocity_at(moved(contact.a), where - a.position);
+          parts = glm::dot(u, n);
+          const Vec<D> stop = rub - (u - n * parts);
+          rubs = std::min(rubs, glm::length(stop * std::min(1.0, most / glm::length(stop)) - rub));
+        }
+        const double gap = largest(point.separation, 0.0) / scene.h;
+        if (whole)
+          worst = largest(
+              {worst, std::abs(std::min(parts + gap, press)) / off, rolls ? 0 : rubs / off});
       }
+    }
+    double made = 0;
     for (std::size_t i = 0; i < before.size(); ++i) {
+      Body<D> was = before[i];
+      if (!was.is_dynamic()) continue;
       const Body<D>& now = world.bodies()[i];
-      if (!now.is_dynamic()) continue;
-      const Vec<D> gained = (now.velocity - before[i].velocity) * now.mass;
-      worst = largest(worst,
-                      glm::length(gained - got[i] - scene.config.gravity * (now.mass * scene.h)));
+      // Where a normal turns within the step, its impulses are not all along its last one.
+      if (told)
+        worst = largest(worst, glm::length(now.velocity - was.velocity - got[i]) /
+                                   (scene.is(slope) ? 1e-13 : 0.02));
+      was.velocity += scene.config.gravity * scene.h;
+      for (const auto& [body, sign] : {std::pair(now, 0.5), std::pair(was, -0.5)})
+        made += sign * (body.mass * glm::dot(body.velocity, body.velocity) +
+                        geometry::dot(body.angular_momentum, angular_velocity(body)));
     }
+    worst = largest(worst, made / 1e-9);
   }
-  // Where a normal turns within the step, its impulses are not all along its last one.
-  return worst / (scene.is(SceneKind::slope) ? 1e-13 : 0.02);
-}
-
-// --- masses ---
-
-// Mass and inertia of balls and capsules by their slices across the y axis, and of boxes by their
-// sides: the largest part by which the engine's are off.
-template <int D>
-double masses_off() {
-  double worst = 0;
-  const auto meet = [&](const Shape<D>& shape, double mass, double along, double across) {
-    const MassProperties<D> own = mass_of<D>(shape, 0.7);
-    const MassProperties<D> found = scaled_to<D>(own, 3 * 0.7 * mass);
-    worst = largest({worst, std::abs(own.mass / (0.7 * mass) - 1),
-                     std::abs(spin_component(found.inertia, 0) / (2.1 * across) - 1),
-                     std::abs(spin_component(found.inertia, 1) / (2.1 * along) - 1)});
-  };
-  const double r = 0.3, half = 0.8;
-  for (const double rod : {0.0, half}) {
-    constexpr int kSlices = 20000;
-    double mass = 0, along = 0, across = 0;
-    for (int i = 0; i < kSlices; ++i) {
-      const double dy = 2 * (rod + r) / kSlices, y = -rod - r + (i + 0.5) * dy;
-      const double out = largest(std::abs(y) - rod, 0.0), w2 = r * r - out * out, w = std::sqrt(w2);
-      const double slice = D == 2 ? 2 * w : std::numbers::pi * w2;
-      mass += slice * dy;
-      along += slice * w2 / 2 * dy;
-      across += slice * (y * y + w2 / (D == 2 ? 3 : 4)) * dy;
-    }
-    meet(rod > 0 ? Shape<D>(Capsule{r, rod}) : Shape<D>(Sphere{r}), mass, D == 2 ? across : along,
-         across);
-  }
-  Vec<D> sides(0.5);
-  sides.x = 0.4, sides[D - 1] = 0.9;
-  const double box = 0.8 * 1.8;
-  const double across = box * (D == 2 ? 0.16 + 0.81 : 0.25 + 0.81) / 3;
-  meet(OrientedBox<D>{sides}, box, D == 2 ? across : box * (0.16 + 0.81) / 3, across);
   return worst;
-}
-
-// --- what pushes, and what carries ---
-
-// A push at a lever, an impulse at a point, and a platform that rises under a box: the farthest
-// that anything is from the closed form.
-template <int D>
-double pushed() {
-  World<D> world({.integrator = Integrator::velocity_verlet,
-                  .contacts = ContactMethod::soft,
-                  .may_sleep = false});
-  Body<D> body = make_body<D>(OrientedBox<D>{Vec<D>(0.5)}, Vec<D>(0.0));
-  body.mass = 3;  // inertia 3 / 6
-  const BodyId one = world.add(body);
-  body.position.y = 10;
-  const BodyId two = world.add(body);
-  Body<D> floor = make_body<D>(OrientedBox<D>{Vec<D>(1.0)}, at<D>(20));
-  floor.kind = BodyKind::kinematic_body, floor.velocity = at<D>(0.3, 0.7),
-  floor.material.friction = 1;
-  world.add(floor);
-  body.position = at<D>(20, 1.5), body.velocity = at<D>(0.3, 0.7), body.material.friction = 1;
-  const BodyId load = world.add(body);
-  world.push(load, at<D>(0, -30), body.position);
-  world.push(one, at<D>(0, 6), at<D>(0.25), 0.5);
-  world.apply_impulse(two, at<D>(0, 6), at<D>(-0.25, 10));
-  run(world, 1);
-  const auto& at_end = world.bodies();
-  const auto turn = [](const Body<D>& b) {
-    return spin_component(angular_velocity(b), D == 2 ? 0 : 2);
-  };
-  return largest({std::abs(at_end[one].position.y - 0.75), std::abs(at_end[one].velocity.y - 1),
-                  std::abs(turn(at_end[one]) - 1.5), std::abs(at_end[two].position.y - 12),
-                  std::abs(turn(at_end[two]) + 3),
-                  glm::length(at_end[load].position - at<D>(20.3, 2.2)),
-                  std::abs(turn(at_end[load]))});
-}
-
-// Bodies that spin as fast as they fly against a thin wall: how many are behind it.
-template <int D>
-double got_through(ContactMethod method) {
-  Random random(3);
-  double through = 0;
-  for (int round = 0; round < 12; ++round) {
-    World<D> world({.contacts = method, .may_sleep = false});
-    Vec<D> half(4.0);
-    half.x = 0.005;
-    Body<D> wall = make_body<D>(OrientedBox<D>{half}, at<D>(2));
-    wall.kind = BodyKind::static_body;
-    world.add(wall);
-    Vec<D> thin(0.02);
-    thin.x = 0.5;
-    Body<D> bullet = make_body<D>(round % 3 == 0   ? Shape<D>(OrientedBox<D>{Vec<D>(0.2)})
-                                  : round % 3 == 1 ? Shape<D>(OrientedBox<D>{thin})
-                                                   : Shape<D>(Capsule{0.02, 0.4}),
-                                  Vec<D>(0.0));
-    bullet.velocity = at<D>(random.between(20, 400), random.between(-5, 5));
-    bullet.material.restitution = round % 2;
-    Spin<D> spin(0.0);
-    spin_component(spin, D == 2 ? 0 : 2) = random.between(50, 3000);
-    world.add(bullet, spin);
-    run(world, 0.25);
-    through += !(world.bodies()[1].position.x < 2);
-  }
-  return through;
-}
-
-// A stack falls asleep, stays where it is, and falls when what bears it is taken away.
-template <int D>
-double slept(ContactMethod method) {
-  WorldConfig<D> config = with_gravity<D>();
-  config.contacts = method;
-  World<D> world = world_of<D>(config, {make_floor<D>(), make_box<D>(at<D>(0, 0.5)),
-                                        make_box<D>(at<D>(0, 1.5)), make_box<D>(at<D>(9, 0.5))});
-  run(world, 0.4);
-  double wrong = world.work().asleep != 0;
-  run(world, 0.3);
-  wrong += world.work().asleep != 3;
-  world.remove(1);
-  run(world, 0.2);
-  wrong += world.work().asleep != 1;
-  wrong += std::abs(world.bodies()[1].position.y - 1.3) > 0.02;
-  run(world, 2);
-  wrong += world.work().asleep != 2;
-  Body<D> ball = make_ball<D>(at<D>(5, 0.5));
-  ball.velocity.x = 4;
-  world.add(ball);
-  run(world, 1.2);
-  wrong += !(world.bodies()[2].position.x > 9.01);
-  return wrong + (std::abs(world.bodies()[1].position.y - 0.5) > 1e-3);
 }
 
 }  // namespace
@@ -464,42 +413,35 @@ std::vector<StressCase> law_cases() {
   constexpr const char* kOrders = "Errors shrink by the order of each method, in 2D and 3D.";
   return {
       {"orders_of_springs", kGroup, kOrders, orders<SceneKind::free>},
-      {"orders_of_chains", kGroup, kOrders, orders<SceneKind::chain>},
-      {"kept_by_springs", kGroup, "Springs and attraction keep energy, momentum and its moment.",
-       none_above(5e-8, "SI units", "RK4, 200 steps of 1/480 s, 2D and 3D",
-                  lost<2, SceneKind::free>, lost<3, SceneKind::free>)},
-      {"kept_by_chains", kGroup, "Joints hold, and keep energy.",
-       none_above(5e-8, "SI units", "RK4, 200 steps of 1/480 s, 2D and 3D",
-                  lost<2, SceneKind::chain>, lost<3, SceneKind::chain>)},
-      {"masses", kGroup, "Masses and inertias are those of the shapes' slices.",
-       none_above(1e-5, "relative", "balls, capsules and boxes, 2D and 3D", masses_off<2>,
-                  masses_off<3>)},
+      {"orders_of_chains", kGroup, kOrders, orders<chain>},
       {"turned_freely", kGroup, "Free boxes turn as Euler's equations say.",
        none_above(1e-7, "of a unit vector", "120 boxes, to 60 rad/s, steps to 1 s", turned_freely)},
-      {"pushed", kGroup, "Pushes, impulses and a lift move and turn bodies as Newton says.",
-       none_above(1e-11, "SI units", "1 s, 2D and 3D", pushed<2>, pushed<3>)},
+      {"splittings", kGroup, "Splittings of the rotation are of order 2 and 4.",
+       none_above(0.3, "of an order", "60 boxes, steps of 0.1 and 0.05 radians", splittings)},
       {"blows", kGroup, "A blow between two bodies obeys Newton's law, by every method.",
-       none_above(5e-14, "SI units", "40 pairs each, restitution 0, 1/2, 1", by_methods(blows<2>),
-                  by_methods(blows<3>))},
-      {"bearing", kGroup, "Boxes in a stack press on each other by the weight above, and stay.",
-       none_above(1, "of what is allowed", "every method, 2D and 3D; sweeps 0.01, others 1e-10",
-                  by_methods(bearing<2>), by_methods(bearing<3>))},
-      {"spinning_bullets", kGroup, "Nothing that spins as fast as it flies gets through a wall.",
-       none_above(0, "bullets", "of 72, walls of 1 cm, to 400 m/s and 3000 rad/s",
-                  by_methods(got_through<2>), by_methods(got_through<3>))},
-      {"sleepers", kGroup, "A stack falls asleep in time, and wakes when it must.",
-       none_above(0, "wrong states", "every method, 2D and 3D", by_methods(slept<2>),
-                  by_methods(slept<3>))},
-      {"told_impulses", kGroup, "Bodies move by the impulses that their contacts tell.",
-       [] { return over_scenes(1, [](const auto& s) { return untold_impulses(s); }); }},
+       none_above(1e-12, "SI units", "40 pairs each, to 40 m/s, restitution 0.2, 0.5, 1",
+                  by_methods(blows<2>), by_methods(blows<3>))},
       {"same_bits", kGroup, "Scenes move bit for bit as they did when this was written.",
        same_bits},
-      {"in_other_units", kGroup, "Scenes move the same in other units of length, time and mass.",
-       [] { return over_scenes(1e-10, [](const auto& s) { return in_other_units(s); }); }},
-      {"beside_others", kGroup, "Scenes move bit for bit the same beside others, far away.",
-       [] { return over_scenes(0, [](const auto& s) { return beside_others(s); }); }},
-      {"plane_in_space", kGroup, "Plane scenes move the same in space.",
-       [] { return over_scenes(1e-11, [](const auto& s) { return plane_in_space(s); }); }}};
+      law(kLeftOut, "kept", "Momentum, its moment and energy are kept, and joints hold.", 1,
+          "of what is allowed", [](const auto& s) { return lost(s); }),
+      law(kLeftOut, "settled",
+          "Contacts press or part, friction stops or slips, and none makes energy.", 1,
+          "of what is allowed", [](const auto& s) { return unsettled(s); }),
+      law(kLeftOut, "two_ways", "All rows at once move bodies as sweeps do that go on for long.", 1,
+          "of what is allowed", [](const auto& s) { return two_ways(s); }),
+      law(kLeftOut, "in_other_units",
+          "Scenes move the same in other units of length, time and mass.", 1e-10, "m, m/s, kg m2/s",
+          []<int D>(const Scene<D>& s) {
+            return Telling<D>{.length = 4, .time = 2, .mass = 8}.parted(s);
+          }),
+      law(kLeftOut, "in_mirrors",
+          "Scenes move the same along other axes, in a mirror, and in passing.", 1e-10,
+          "m, m/s, kg m2/s", [](const auto& s) { return in_mirrors(s); }),
+      law(kLeftOut, "beside_others", "Scenes move bit for bit the same beside others, far away.", 0,
+          "m, m/s, kg m2/s", [](const auto& s) { return beside_others(s); }),
+      law(kLeftOut, "plane_in_space", "Plane scenes move the same in space.", 5e-10,
+          "m, m/s, kg m2/s", [](const auto& s) { return plane_in_space(s); })};
 }
 
 }  // namespace lantern::measure

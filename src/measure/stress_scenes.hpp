@@ -10,11 +10,11 @@
 
 namespace lantern::measure::stress {
 
-enum class SceneKind { free, chain, slope, stack, room, bridge, heap };
+enum class SceneKind { free, chain, slope, stack, room, bridge, heap, swarm };
 inline constexpr std::pair<SceneKind, const char*> kSceneKinds[] = {
     {SceneKind::free, "free"},   {SceneKind::chain, "chain"}, {SceneKind::slope, "slope"},
     {SceneKind::stack, "stack"}, {SceneKind::room, "room"},   {SceneKind::bridge, "bridge"},
-    {SceneKind::heap, "heap"}};
+    {SceneKind::heap, "heap"},   {SceneKind::swarm, "swarm"}};
 inline constexpr ContactMethod kSceneContacts[] = {ContactMethod::soft, ContactMethod::impulse,
                                                    ContactMethod::direct, ContactMethod::lecture};
 
@@ -37,7 +37,7 @@ struct Scene {
   std::string name = {};
 
   bool is(SceneKind one) const { return kind == one; }
-  bool is_of(std::initializer_list<ContactMethod> methods) const {
+  bool is_of(const std::vector<ContactMethod>& methods) const {
     return std::ranges::find(methods, config.contacts) != methods.end();
   }
 
@@ -50,6 +50,17 @@ struct Scene {
   }
 };
 
+// Flies and turns any way, and lies so.
+template <int D>
+void toss(Moving<D>& one, Random& random, double speed, double spin) {
+  one.body.velocity = random_direction<D>(random) * speed;
+  if constexpr (D == 2)
+    one.spin = random.between(-spin, spin), one.body.orientation.angle = random.between(-3, 3);
+  else
+    one.spin = random_direction<3>(random) * spin,
+    one.body.orientation = turned(Rotation<3>{}, random_direction<3>(random) * 2.0);
+}
+
 template <int D>
 class SceneOf {
  public:
@@ -59,30 +70,12 @@ class SceneOf {
     scene_.config.integrator = integrator;
     scene_.config.sub_steps = 4;
     scene_.config.may_sleep = false;
-    if (kind != SceneKind::free && kind != SceneKind::room) scene_.config.gravity.y = -10;
-    switch (kind) {
-      case SceneKind::free:
-        build_free();
-        break;
-      case SceneKind::chain:
-        build_chain(false);
-        break;
-      case SceneKind::slope:
-        build_slope();
-        break;
-      case SceneKind::stack:
-        build_stack();
-        break;
-      case SceneKind::room:
-        build_room();
-        break;
-      case SceneKind::bridge:
-        build_chain(true);
-        break;
-      case SceneKind::heap:
-        build_heap();
-        break;
-    }
+    if (kind != SceneKind::free && kind != SceneKind::room && kind != SceneKind::swarm)
+      scene_.config.gravity.y = -10;
+    constexpr void (SceneOf::*kBuilds[])() = {
+        &SceneOf::build_free, &SceneOf::build_chain,  &SceneOf::build_slope, &SceneOf::build_stack,
+        &SceneOf::build_room, &SceneOf::build_bridge, &SceneOf::build_heap,  &SceneOf::build_swarm};
+    (this->*kBuilds[static_cast<int>(kind)])();
   }
   Scene<D> scene() && { return std::move(scene_); }
 
@@ -97,15 +90,7 @@ class SceneOf {
     half.x = a;
     return half;
   }
-  void toss(double speed, double spin) {
-    Moving<D>& one = scene_.bodies.back();
-    one.body.velocity = random_direction<D>(random_) * speed;
-    if constexpr (D == 2)
-      one.spin = random_.between(-spin, spin), one.body.orientation.angle = random_.between(-3, 3);
-    else
-      one.spin = random_direction<3>(random_) * spin,
-      one.body.orientation = turned(Rotation<3>{}, random_direction<3>(random_) * 2.0);
-  }
+  void toss(double speed, double spin) { stress::toss(scene_.bodies.back(), random_, speed, spin); }
   BodyId last() const { return static_cast<BodyId>(scene_.bodies.size() - 1); }
 
   // A box, a rod and a ball that attract each other, between springs that hold them off their
@@ -134,7 +119,14 @@ class SceneOf {
   }
 
   // Links let go level, on a post; a bridge between two, with a load.
-  void build_chain(bool bridge) {
+  void build_chain() { build_links(false); }
+  void build_bridge() {
+    build_links(true);
+    add(Sphere{0.1}, at<D>(3.5), 0).kind = BodyKind::static_body;
+    scene_.joints.push_back({.a = last() - 1, .b = last(), .at_a = at<D>(0.5)});
+    add(OrientedBox<D>{halves(0.6, 0.2)}, at<D>(1.3, 0.3), 20);
+  }
+  void build_links(bool bridge) {
     add(Sphere{0.1}, at<D>(-0.5), 0).kind = BodyKind::static_body;
     for (int i = 0; i < 4; ++i) {
       add(OrientedBox<D>{halves(0.45, 0.1)}, at<D>(i), 1 + 0.3 * i);
@@ -148,10 +140,6 @@ class SceneOf {
                                .at_b = at<D>(rod ? -0.4 : -0.5),
                                .length = rod ? 0.2 : 0});
     }
-    if (!bridge) return;
-    add(Sphere{0.1}, at<D>(3.5), 0).kind = BodyKind::static_body;
-    scene_.joints.push_back({.a = last() - 1, .b = last(), .at_a = at<D>(0.5)});
-    add(OrientedBox<D>{halves(0.6, 0.2)}, at<D>(1.3, 0.3), 20);
   }
 
   void build_slope() {
@@ -221,6 +209,27 @@ class SceneOf {
     scene_.bodies.back().body.velocity = at<D>(4);
   }
 
+  // Links, a brick, a rod and a ball, thrown at each other where nothing else is.
+  void build_swarm() {
+    scene_.steps = 12;
+    for (int i = 0; i < 3; ++i) {
+      add(OrientedBox<D>{halves(0.4, 0.1)}, at<D>(i), 1 + 0.5 * i).material = {0.2 * i, 0.4};
+      if (i > 0)
+        scene_.joints.push_back(
+            {.a = last() - 1, .b = last(), .at_a = at<D>(0.5), .at_b = at<D>(-0.5)});
+    }
+    Vec<D> brick = halves(0.4, 0.25);
+    brick[D - 1] = 0.15;
+    const Shape<D> thrown[] = {Sphere{0.3}, OrientedBox<D>{brick}, Capsule{0.1, 0.3}};
+    const Vec<D> from[] = {at<D>(1.2, 1.2), at<D>(-1.6, 0.2), at<D>(3.2, -0.7)},
+                 way[] = {at<D>(0, -8), at<D>(6), at<D>(-5, 3)};
+    for (int i = 0; i < 3; ++i) {
+      add(thrown[i], from[i], 0.7 + i).material = {0.5 * i, 0.3};
+      toss(1, 5);
+      scene_.bodies.back().body.velocity = way[i];
+    }
+  }
+
   Random random_{5};
   Scene<D> scene_;
 };
@@ -232,7 +241,7 @@ void each_scene(F&& f) {
     for (const ContactMethod contacts : kSceneContacts)
       for (const Integrator integrator : kIntegrators) {
         if (contacts == ContactMethod::lecture &&
-            (kind == SceneKind::chain || kind == SceneKind::bridge))
+            (kind == SceneKind::chain || kind == SceneKind::bridge || kind == SceneKind::swarm))
           continue;
         if (kind == SceneKind::free && contacts != ContactMethod::soft) continue;
         Scene<D> scene =
@@ -244,37 +253,130 @@ void each_scene(F&& f) {
       }
 }
 
-// Lengths, times and masses in other units.
 template <int D>
-Scene<D> in_units(Scene<D> s, double length, double time, double mass) {
-  WorldConfig<D>& c = s.config;
-  c.gravity *= length / (time * time);
-  c.gravitation *= length * length * length / (mass * time * time);
-  for (auto& [body, spin] : s.bodies) {
-    body.position *= length;
-    body.velocity *= length / time;
-    spin /= time;
-    body.mass *= mass;
-    body.linear_drag *= mass / time;
-    body.angular_drag *= mass * length * length / time;
-    body.shape = std::visit(
-        [&](auto shape) -> Shape<D> {
-          if constexpr (requires { shape.radius; }) shape.radius *= length;
-          if constexpr (requires { shape.half_length; }) shape.half_length *= length;
-          if constexpr (requires { shape.half_size; }) shape.half_size *= length;
-          return shape;
-        },
-        body.shape);
-  }
-  for (Spring<D>& spring : s.springs) {
-    spring.at_a *= length, spring.at_b *= length, spring.rest_length *= length;
-    spring.stiffness *= mass / (time * time), spring.damping *= mass / time;
-  }
-  for (Joint<D>& joint : s.joints)
-    joint.at_a *= length, joint.at_b *= length, joint.length *= length;
-  s.h *= time;
-  return s;
+World<D> after(const Scene<D>& scene) {
+  World<D> world = scene.made();
+  for (int i = 0; i < scene.steps; ++i) world.step(scene.h);
+  return world;
 }
+
+// A scene told otherwise: in other units, along other axes, by who moves along, in space.
+template <int D, int E = D>
+struct Telling {
+  double length = 1, time = 1, mass = 1;
+  std::array<Vec<E>, D> axes = own_axes();  // signed ones of the world, for each that there is
+  bool mirrors = false;                     // left is right then
+  Vec<E> drift{0.0};                        // of all, and static bodies are moved by it
+
+  static std::array<Vec<E>, D> own_axes() {
+    std::array<Vec<E>, D> all{};
+    for (int i = 0; i < D; ++i) all[static_cast<std::size_t>(i)][i] = 1;
+    return all;
+  }
+  Vec<E> vec(const Vec<D>& v) const {
+    Vec<E> sum(0.0);
+    for (int i = 0; i < D; ++i) sum += axes[static_cast<std::size_t>(i)] * v[i];
+    return sum;
+  }
+  Spin<E> spin(const Spin<D>& s) const {
+    const double sense = mirrors ? -1 : 1;
+    if constexpr (E == 2)
+      return sense * s;
+    else if constexpr (D == 2)
+      return Vec<3>(0, 0, s);
+    else
+      return vec(s) * sense;
+  }
+  // In a body's own axes: those of a box are told as the world's are, all else keeps its y axis.
+  Vec<E> own(const Body<D>& body, Vec<D> v) const {
+    if (D != E || std::holds_alternative<OrientedBox<D>>(body.shape)) return vec(v);
+    if (mirrors) v.x = -v.x;
+    return Telling<D, E>().vec(v);
+  }
+  Rotation<E> lie(const Body<D>& body) const {
+    Mat<E> to(0.0);
+    if constexpr (D != E) to[2][2] = 1;
+    const Mat<D> from = matrix(body.orientation);
+    for (int i = 0; i < D; ++i)
+      to += glm::outerProduct(vec(from[i]), own(body, Telling<D>().axes[i]));
+    if constexpr (E == 2)
+      return {std::atan2(to[0].y, to[0].x)};
+    else
+      return {glm::normalize(glm::quat_cast(to))};
+  }
+  Shape<E> shape(const Shape<D>& of) const {
+    return std::visit(
+        geometry::EachShape{
+            [&](Sphere s) -> Shape<E> { return Sphere{s.radius * length}; },
+            [&](Capsule s) -> Shape<E> {
+              return Capsule{s.radius * length, s.half_length * length};
+            },
+            [&](const HalfSpace<D>& s) -> Shape<E> { return HalfSpace<E>{vec(s.normal)}; },
+            [&](const auto& s) -> Shape<E> {
+              Vec<E> half = glm::abs(vec(s.half_size)) * length;
+              if constexpr (D != E) half.z = 0.2;
+              return OrientedBox<E>{half};
+            }},
+        of);
+  }
+  Scene<E> told(const Scene<D>& s) const {
+    Scene<E> t{
+        {.gravity = vec(s.config.gravity) * (length / (time * time)),
+         .gravitation = s.config.gravitation * length * length * length / (mass * time * time),
+         .integrator = s.config.integrator,
+         .rotation = s.config.rotation,
+         .contacts = s.config.contacts,
+         .sub_steps = s.config.sub_steps,
+         .iterations = s.config.iterations,
+         .may_sleep = s.config.may_sleep}};
+    t.h = s.h * time, t.steps = s.steps, t.kind = s.kind, t.name = s.name;
+    for (const auto& [body, turning] : s.bodies) {
+      const bool carried = drift != Vec<E>(0.0) && body.kind == BodyKind::static_body;
+      t.bodies.push_back({{.name = body.name,
+                           .shape = shape(body.shape),
+                           .kind = carried ? BodyKind::kinematic_body : body.kind,
+                           .position = vec(body.position) * length,
+                           .orientation = lie(body),
+                           .velocity = vec(body.velocity) * (length / time) + drift,
+                           .mass = body.mass * mass,
+                           .material = body.material,
+                           .linear_drag = body.linear_drag * mass / time,
+                           .angular_drag = body.angular_drag * mass * length * length / time,
+                           .may_turn = body.may_turn,
+                           .rotation = body.rotation},
+                          spin(turning) / time});
+    }
+    const auto end = [&](BodyId id, const Vec<D>& v) { return own(s.bodies[id].body, v) * length; };
+    for (const Spring<D>& one : s.springs)
+      t.springs.push_back({one.a, one.b, end(one.a, one.at_a), end(one.b, one.at_b),
+                           one.rest_length * length, one.stiffness * mass / (time * time),
+                           one.damping * mass / time});
+    for (const Joint<D>& one : s.joints)
+      t.joints.push_back({one.kind, one.a, one.b, end(one.a, one.at_a), end(one.b, one.at_b),
+                          one.length * length});
+    return t;
+  }
+  double parted(const Scene<D>& scene) const { return apart(after(scene), after(told(scene))); }
+  // The farthest that places, velocities, angular momenta and axes are from their like, told.
+  double apart(const World<D>& one, const World<E>& two) const {
+    double worst = 0;
+    for (std::size_t i = 0; i < one.bodies().size(); ++i) {
+      const Body<D>& a = one.bodies()[i];
+      const Body<E>& b = two.bodies()[i];
+      const Spin<E> gained =
+          b.angular_momentum / (mass * length * length / time) - spin(a.angular_momentum);
+      worst = largest({worst,
+                       glm::length(b.position / length - vec(a.position) -
+                                   drift * (one.time() * time / length)),
+                       glm::length((b.velocity - drift) * (time / length) - vec(a.velocity)),
+                       std::sqrt(geometry::dot(gained, gained))});
+      for (const Vec<D>& axis : Telling<D>().axes)
+        worst = largest(worst, glm::length(matrix(b.orientation) * own(a, axis) -
+                                           vec(matrix(a.orientation) * axis)));
+    }
+    return worst;
+  }
+};
 
 // Another copy of all that moves, too far away to be met, on the same ground.
 template <int D>
@@ -299,84 +401,40 @@ Scene<D> beside_itself(Scene<D> s) {
   return s;
 }
 
-// A plane world in space: what is round must not turn there.
-inline Scene<3> in_space(const Scene<2>& s) {
-  const auto up = [](const Vec<2>& v) { return Vec<3>(v, 0); };
-  Scene<3> t;
-  t.config.contacts = s.config.contacts, t.config.integrator = s.config.integrator;
-  t.config.gravity = up(s.config.gravity), t.config.gravitation = s.config.gravitation;
-  t.config.sub_steps = s.config.sub_steps, t.config.iterations = s.config.iterations;
-  t.config.may_sleep = s.config.may_sleep;
-  t.h = s.h, t.steps = s.steps, t.name = s.name;
-  for (const auto& [flat, spin] : s.bodies) {
-    Body<3> body = make_body<3>(Sphere{1}, up(flat.position));
-    if (const auto* box = std::get_if<OrientedBox<2>>(&flat.shape))
-      body.shape = OrientedBox<3>{Vec<3>(box->half_size, 0.2)};
-    if (const auto* ball = std::get_if<Sphere>(&flat.shape)) body.shape = *ball;
-    if (const auto* rod = std::get_if<Capsule>(&flat.shape)) body.shape = *rod;
-    if (const auto* plane = std::get_if<HalfSpace<2>>(&flat.shape))
-      body.shape = HalfSpace<3>{up(plane->normal)};
-    body.kind = flat.kind, body.mass = flat.mass, body.material = flat.material;
-    body.velocity = up(flat.velocity), body.may_turn = flat.may_turn;
-    body.orientation = turned(Rotation<3>{}, Vec<3>(0, 0, flat.orientation.angle));
-    t.bodies.push_back({body, Vec<3>(0, 0, spin)});
-  }
-  for (const Spring<2>& one : s.springs)
-    t.springs.push_back({.a = one.a,
-                         .b = one.b,
-                         .at_a = up(one.at_a),
-                         .at_b = up(one.at_b),
-                         .rest_length = one.rest_length,
-                         .stiffness = one.stiffness,
-                         .damping = one.damping});
-  for (const Joint<2>& one : s.joints)
-    t.joints.push_back({.kind = one.kind,
-                        .a = one.a,
-                        .b = one.b,
-                        .at_a = up(one.at_a),
-                        .at_b = up(one.at_b),
-                        .length = one.length});
-  return t;
-}
+// What a law leaves out: kinds of scenes, by these methods, or by all; in the plane, or in space,
+// too.
+struct LeftOut {
+  std::string_view law;
+  std::vector<SceneKind> kinds;
+  std::vector<ContactMethod> methods = {};
+  bool plane = true;
+};
 
-template <int D>
-World<D> after(Scene<D> scene, int parts) {
-  World<D> world = scene.made();
-  for (int i = 0; i < scene.steps * parts; ++i) world.step(scene.h / parts);
-  return world;
-}
-
-// The farthest that a body of one scene is from its like in another, after all steps.
-template <int D, int E, class Like>
-double parted(const Scene<D>& scene, const Scene<E>& other, Like&& like) {
-  World<D> one = scene.made();
-  World<E> two = other.made();
-  for (int i = 0; i < scene.steps; ++i) one.step(scene.h), two.step(other.h);
-  double worst = 0;
-  for (std::size_t i = 0; i < one.bodies().size(); ++i)
-    worst = largest(worst, like(i, one.bodies()[i], two.bodies()));
-  return worst;
-}
-
-template <int D, int E>
-double apart(const Body<D>& a, const Body<E>& b) {
-  return largest(std::hypot(a.position.x - b.position.x, a.position.y - b.position.y),
-                 std::hypot(a.velocity.x - b.velocity.x, a.velocity.y - b.velocity.y));
-}
-
-// The worst of `part(scene)` over all scenes, and where it was.
+// A case: the worst of `part(scene)` over all scenes that the law holds for, and where it was.
 template <class Part>
-StressResult over_scenes(double bound, Part part) {
-  double worst = 0;
-  std::string where;
-  const auto go = [&](const auto& scene) {
-    const double far = part(scene);
-    if (!(far <= worst)) where = scene.name;
-    worst = largest(worst, far);
-  };
-  each_scene<2>(go);
-  each_scene<3>(go);
-  return at_most(bound, worst, "m or m/s", "every kind, method, integrator; worst: " + where);
+StressCase law(const std::vector<LeftOut>& left_out, std::string_view name, const char* what,
+               double bound, const char* unit, Part part) {
+  return {name, "laws", what, [=, &left_out] {
+            double worst = 0;
+            int tried = 0, all = 0;
+            std::string where;
+            const auto go = [&]<int D>(const Scene<D>& scene) {
+              ++all;
+              for (const LeftOut& one : left_out)
+                if (one.law == name && (D == 3 || one.plane) &&
+                    std::ranges::count(one.kinds, scene.kind) > 0 &&
+                    (one.methods.empty() || scene.is_of(one.methods)))
+                  return;
+              const double far = part(scene);
+              ++tried;
+              if (!(far <= worst)) where = scene.name;
+              worst = largest(worst, far);
+            };
+            each_scene<2>(go);
+            each_scene<3>(go);
+            return at_most(bound, worst, unit,
+                           fmt::format("{} of {} scenes; worst: {}", tried, all, where));
+          }};
 }
 
 }  // namespace lantern::measure::stress
