@@ -25,7 +25,7 @@ const std::vector<LeftOut> kLeftOut = {
     {"plane_in_space", {slope, stack, bridge, heap, swarm}},
     {"plane_in_space", {SceneKind::free, chain, room}, {}, false},
     // What bounces or hangs on joints gets impulses that no contact tells.
-    {"settled", {SceneKind::free, chain, swarm}},
+    {"settled", {SceneKind::free, chain, heap, swarm}},
     {"two_ways", {SceneKind::free, chain, room, heap, swarm}},
     {"two_ways", {slope, stack, bridge}, {soft, impulse, lecture}},
     // What stands on something is pushed from outside.
