@@ -142,9 +142,11 @@ class Writer {
         "left is better. Pale bars are 95 % intervals of the medians, which were repeated until "
         "these were within 5 %, or are called wide; methods whose intervals overlap, or whose "
         "medians are within 10 %, tie. Behind an order: how far slopes from step to step lie from "
-        "it; or the first and the last, where they only rise or fall. Runs that failed lie at the upper edge. The pale stairs join the runs that no other "
+        "it; or the first and the last, where they only rise or fall. Runs that failed lie at the "
+        "upper edge. The pale stairs join the runs that no other "
         "beats in both, among those that do the world's step. 95 % is nominal: repeats end once an "
-        "interval is narrow. Where errors stop falling, the table has the largest of the errors there, and the "
+        "interval is narrow. Where errors stop falling, the table has the largest of the errors "
+        "there, and the "
         "first step.";
     document_.legends = {"Lantern’s methods", "Other engines"};
     for (const ProblemRows& problem : by_problem(all))
