@@ -230,8 +230,8 @@ Plot cost_plot(const ProblemRows& problem, const Cost& cost, const Looks& looks,
     plot.series.push_back(std::move(series));
     if (const auto floor = observed_floor(c.rows); !floor.empty() && cost(floor.back()))
       plot.guides.push_back({plot.guides.empty() ? "stops falling" : "",
-                             {{*cost(floor.back()), *floor.back().error()},
-                              {4 * *cost(floor.back()), *floor.back().error()}}});
+                             {{*cost(floor.back()), *largest_on_floor(c.rows)},
+                              {4 * *cost(floor.back()), *largest_on_floor(c.rows)}}});
   }
   double reference = 0;
   for (const Row& row : problem.rows) reference = std::max(reference, row.reference_error);

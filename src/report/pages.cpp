@@ -369,7 +369,7 @@ DrawList draw_slide(const ProblemRows& problem, const Measurement& measurement) 
   labels.add(shortened(problem_words(problem) + ": error against run time", width, head),
              {{kMargin, 66}, 0}, head, {{kMargin, 20}, {list.page.x - kMargin, 84}});
   std::vector<std::string> lines = wrapped(who_is_quickest(problem), width, words);
-  if (lines.size() > 3) lines.resize(3), lines[2] = shortened(lines[2] + " …", width, words);
+  if (lines.size() > 5) lines.resize(5), lines[4] = shortened(lines[4] + " …", width, words);
   double y = list.page.y - 34 - 36 * static_cast<double>(lines.size() - 1);
   const double bottom = y - 46;
   for (const std::string& line : lines) {

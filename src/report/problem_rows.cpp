@@ -294,8 +294,12 @@ std::vector<std::vector<std::string>> equal_methods(const ProblemRows& problem) 
 // quickest first.
 std::vector<const Row*> quickest(const ProblemRows& problem, double error) {
   std::map<std::string, const Row*> best;
+  std::set<std::string> too_fine;  // what is better than so much is so by chance
+  for (const MethodRows& method : by_method(problem))
+    if (error < largest_on_floor(method.rows).value_or(0)) too_fine.insert(method.method);
   for (const Row& row : problem.rows) {
-    if (is_adaptive(row.method) || !(row.error() <= error) || !row.error() || !seconds_of(row))
+    if (is_adaptive(row.method) || !(row.error() <= error) || !row.error() || !seconds_of(row) ||
+        too_fine.contains(row.method))
       continue;
     const Row*& known = best[row.method];
     if (!known || row.processor.median < known->processor.median) known = &row;
@@ -314,8 +318,8 @@ std::string who_is_quickest(const ProblemRows& problem) {
   // Neighbouring decades at which the same lead.
   struct Range {
     std::string who, over;  // nobody is lead over where some tie
-    bool all = false;
-    int from = 0, to = 0;  // decades
+    bool ahead = false;     // each of them of all others
+    int from = 0, to = 0;   // decades
     double share = 1, last_share = 1;
   };
   const bool whole = has_whole_errors(problem);
@@ -324,11 +328,18 @@ std::string who_is_quickest(const ProblemRows& problem) {
     const std::vector<const Row*> all =
         quickest(problem, whole ? 0 : std::stod(fmt::format("1e{}", decade)));
     if (all.size() < 2) continue;
-    std::vector<std::string> first;
+    std::vector<const Row*> lead, others;
     for (const Row* row : all)
-      if (!all[0]->processor.is_quicker_than(row->processor)) first.push_back(name(row));
+      (all[0]->processor.is_quicker_than(row->processor) ? others : lead).push_back(row);
+    std::vector<std::string> first;
+    std::ranges::transform(lead, std::back_inserter(first), name);
     std::ranges::sort(first);
-    Range range{listed(first), "", first.size() == all.size(), decade, decade};
+    const bool ahead = !others.empty() && std::ranges::all_of(lead, [&](const Row* row) {
+      return std::ranges::all_of(others, [&](const Row* other) {
+        return row->processor.is_quicker_than(other->processor);
+      });
+    });
+    Range range{listed(first), "", ahead, decade, decade};
     if (first.size() > 3)
       range.who = fmt::format("{} methods, {} among them,", first.size(), first[0]);
     if (first.size() == 1) {
@@ -354,18 +365,28 @@ std::string who_is_quickest(const ProblemRows& problem) {
                              : fmt::format("at errors of {} to {}", error(r.from), error(r.to));
     const std::string share = fmt::format("{:.2g}", r.share),
                       last = fmt::format("{:.2g}", r.last_share);
-    clause += r.over.empty() ? fmt::format(" {} tie{}", r.who, r.all ? "" : ", ahead of the others")
-                             : fmt::format(" {} costs {} of what {} costs", r.who,
-                                           share == last ? share : share + " to " + last, r.over);
+    clause += r.over.empty()
+                  ? fmt::format(" {} tie{}", r.who, r.ahead ? ", ahead of the others" : "")
+                  : fmt::format(" {} costs {} of what {} costs", r.who,
+                                share == last ? share : share + " to " + last, r.over);
     clauses.push_back(std::move(clause));
   }
   std::set<double> taken;
   for (const Row& row : problem.rows)
-    if (seconds_of(row)) taken.insert(row.step);
+    if (seconds_of(row) && !is_adaptive(row.method)) taken.insert(row.step);
   const std::string finest = figure(*taken.begin()), coarsest = figure(*taken.rbegin());
   const std::string steps = finest == coarsest ? "a step of " + finest
                                                : fmt::format("steps of {} to {}", finest, coarsest);
-  return fmt::format("Of runs at {} s: {}.", steps, fmt::join(clauses, "; "));
+  // Whose largest step is good enough already might take larger ones.
+  const auto rows = by_method(problem);
+  const double coarsest_error = whole ? 0 : std::stod(fmt::format("1e{}", ranges.front().from));
+  const bool open = std::ranges::any_of(rows, [&](const MethodRows& method) {
+    const auto error = method.rows[0].error();
+    return !is_adaptive(method.method) && error && *error <= coarsest_error;
+  });
+  return fmt::format("By the cheapest run that is so good, of those at {} s{}: {}.", steps,
+                     open ? " (larger ones, which may be cheaper, were not tried)" : "",
+                     fmt::join(clauses, "; "));
 }
 
 std::vector<std::string> notes_on(const ProblemRows& problem) {
@@ -407,15 +428,15 @@ std::vector<std::string> notes_on(const ProblemRows& problem) {
                     fmt::format("{}", fmt::join(floors, ", ")) + ".");
   if (prices.size() > 1 && work_count(problem).count == &Counted::force_evaluations)
     notes.push_back(fmt::format(
-        "For each evaluation of the forces a run takes {} ({}) to {} ({}): each bears its share of "
-        "the step.",
+        "For each evaluation of the forces the longest run of a method takes {} ({}) to {} ({}): "
+        "each bears its share of the step.",
         seconds_text(prices.begin()->first), prices.begin()->second,
         seconds_text(prices.rbegin()->first), prices.rbegin()->second));
   if (adaptive)
     notes.push_back(
         "Dormand–Prince, adaptive, solves the bare equations of motion, without the world's step: "
         "its seconds buy less. Its “step” stands for a tolerance: 1e-3 at the largest, less by the "
-        "fifth power.");
+        "fifth power, 1e-14 at least.");
   if (left_out > 0)
     notes.push_back(
         fmt::format("{} of {} runs were left out as too long.", left_out, problem.rows.size()));
