@@ -275,8 +275,8 @@ class Measure : public Experiment {
     for (const ProblemRows& problem : by_problem(m.rows)) {
       pages.push_back({problem.problem + "_slide", draw_slide(problem, m)});
       pages.push_back({problem.problem, draw_problem(problem, m)});
-      if (std::ranges::any_of(problem.rows, [](const Row& row) { return !row.samples.empty(); }))
-        pages.push_back({problem.problem + "_drift", draw_drift(problem, m)});
+      if (auto drift = draw_drift(problem, m))
+        pages.push_back({problem.problem + "_drift", std::move(*drift)});
     }
     if (!m.peers.empty()) pages.push_back({"peers", draw_peers(m)});
     return pages;

@@ -6,6 +6,7 @@ namespace lantern::measure {
 namespace {
 
 constexpr int kOwnHalvings = 6;          // of a scenario's own step
+constexpr int kDoublings = 4;            // of a problem's step, as far as its looks allow them
 constexpr double kFinerReference = 16;   // times finer than the finest measured step
 constexpr double kTooLongToRepeat = 10;  // seconds
 
@@ -67,13 +68,19 @@ void Plan::prepare(std::size_t index) {
   // Is it the problem that it claims to be?
   if (scenario.problem) prepared.reference = reference_for(scenario, prepared.schedule, 0);
   const std::vector<double> steps = steps_for(scenario, prepared.schedule);
-  const double coarse = steps.front();
-  prepared.finest = coarse;
+  // Larger ones are there to see methods fail; the tolerance of the adaptive one has its largest
+  // here.
+  const double usual = scenario.problem ? prepared.schedule.fitted_step(scenario.problem->step)
+                                        : std::numeric_limits<double>::infinity();
+  const auto found = std::ranges::find_if(steps, [&](double step) { return step <= usual; });
+  const double sound = found == steps.end() ? steps.back() : *found;
+  prepared.finest = steps.front();
   for (const std::size_t solver : solvers_for(scenario)) {
     per_step({index, solver}) =
-        estimated_seconds(scenario, prepared.schedule, *solvers_[solver], coarse) /
-        static_cast<double>(prepared.schedule.steps(coarse));
+        estimated_seconds(scenario, prepared.schedule, *solvers_[solver], sound) /
+        static_cast<double>(prepared.schedule.steps(sound));
     for (const double step : steps) {
+      if (solver == adaptive_ && options_.steps.empty() && step > usual) continue;
       jobs_.push_back({index, solver, step});
       if (!is_too_long(jobs_.back())) prepared.finest = std::min(prepared.finest, step);
     }
@@ -111,9 +118,10 @@ std::vector<std::size_t> Plan::solvers_for(const Scenario& scenario) {
 std::vector<double> Plan::steps_for(const Scenario& scenario, const Schedule& schedule) const {
   std::vector<double> wished = options_.steps;
   if (wished.empty()) {
-    double step = scenario.problem ? scenario.problem->step : scenario.world.time_step;
+    const double step = scenario.problem ? scenario.problem->step : scenario.world.time_step;
     const int halvings = scenario.problem ? scenario.problem->halvings : kOwnHalvings;
-    for (int i = 0; i <= halvings; ++i, step /= 2) wished.push_back(step);
+    for (int i = scenario.problem ? -kDoublings : 0; i <= halvings; ++i)
+      wished.push_back(std::ldexp(step, -i));
   }
   std::ranges::sort(wished, std::greater());
   std::vector<double> steps;

@@ -58,8 +58,8 @@ std::vector<Cell> best_of(const MethodRows& method, const WorkCount& work) {
       ++failed[row.status];
     if (const auto error = row.error(); error && (!best || *error < *best->error())) best = &row;
   }
-  const auto floor = largest_on_floor(method.rows);
-  if (floor) best = &observed_floor(method.rows).front();
+  const auto& floor = method.floor;
+  if (floor) best = &method.rows[floor->first];
   std::string not_ok;
   for (const auto& [status, count] : failed)
     not_ok += fmt::format("{}{} {}", not_ok.empty() ? "" : ", ", count, to_string(status));
@@ -70,7 +70,7 @@ std::vector<Cell> best_of(const MethodRows& method, const WorkCount& work) {
   return {short_name(method),
           fmt::format("{}/{}", ok, method.rows.size()),
           order ? order->words() : kNothing,
-          floor  ? "≤ " + figure(*floor)
+          floor  ? "≤ " + figure(floor->largest)
           : best ? figure(*best->error())
                  : kNothing,
           best ? figure(best->step) : kNothing,
@@ -144,8 +144,12 @@ class Writer {
         "medians are within 10 %, tie. Behind an order: how far slopes from step to step lie from "
         "it; or the first and the last, where they only rise or fall. Runs that failed lie at the "
         "upper edge. The pale stairs join the runs that no other "
-        "beats in both, among those that do the world's step. 95 % is nominal: repeats end once an "
-        "interval is narrow. Where errors stop falling, the table has the largest of the errors "
+        "beats in both, among those that do the world's step; a run counts as off by as much as "
+        "any "
+        "of its method's at smaller steps. What a method "
+        "takes for an error is read between its neighbouring runs. 95 % is nominal: repeats end "
+        "once "
+        "an interval is narrow. Where errors stop falling, the table has the largest of the errors "
         "there, and the "
         "first step.";
     document_.legends = {"Lantern’s methods", "Other engines"};

@@ -78,7 +78,7 @@ void add_floor(const ProblemRows& problem, const Cost& cost, double least, doubl
                Plot& plot) {
   const auto per_step = cost_of_step(problem.rows, cost);
   if (!per_step || *per_step <= 0) return;
-  PlotGuide guide{"rounding, as a random walk", {}};
+  PlotGuide guide{"rounding, as a random walk: 2⁻⁵² √steps", {}};
   for (const double x : {least, most}) guide.points.push_back({x, rounding_floor(x / *per_step)});
   plot.guides.push_back(std::move(guide));
 }
@@ -129,11 +129,11 @@ Plot right_plot(const ProblemRows& problem, const Looks& looks) {
   return plot;
 }
 
-// Nothing if no run has samples.
+// Nothing if no run of a fixed step has samples.
 std::optional<double> shared_step(const ProblemRows& problem) {
   std::map<double, std::size_t> runs;  // of each step
   for (const Row& row : problem.rows)
-    if (!row.samples.empty()) ++runs[row.step];
+    if (!row.samples.empty() && !is_adaptive(row.method)) ++runs[row.step];
   const auto most = std::ranges::max_element(
       runs, {}, [](const auto& entry) { return std::pair(entry.second, -entry.first); });
   return most == runs.end() ? std::nullopt : std::optional(most->first);
@@ -150,7 +150,7 @@ Plot drift_plot(const ProblemRows& problem, const Looks& looks, double step, Sam
   for (const MethodRows& method : by_method(problem)) {
     PlotSeries& series = plot.series.emplace_back(series_of(method, looks));
     const auto row = std::ranges::find(method.rows, step, &Row::step);
-    if (row == method.rows.end()) continue;
+    if (row == method.rows.end() || is_adaptive(method.method)) continue;
     for (const DriftSample& sample : row->samples)
       if (const auto y = value(sample)) {
         PlotPoint point{{sample.time, *y}};
@@ -228,10 +228,10 @@ Plot cost_plot(const ProblemRows& problem, const Cost& cost, const Looks& looks,
         orders.insert(nearest);
     }
     plot.series.push_back(std::move(series));
-    if (const auto floor = observed_floor(c.rows); !floor.empty() && cost(floor.back()))
+    const auto end = c.floor ? cost(c.rows[c.floor->last]) : std::nullopt;
+    if (end)
       plot.guides.push_back({plot.guides.empty() ? "stops falling" : "",
-                             {{*cost(floor.back()), *largest_on_floor(c.rows)},
-                              {4 * *cost(floor.back()), *largest_on_floor(c.rows)}}});
+                             {{*end, c.floor->largest}, {4 * *end, c.floor->largest}}});
   }
   double reference = 0;
   for (const Row& row : problem.rows) reference = std::max(reference, row.reference_error);
@@ -241,8 +241,7 @@ Plot cost_plot(const ProblemRows& problem, const Cost& cost, const Looks& looks,
   if (!whole) send_far_ones_off(plot);
   add_slopes(orders, plot);
   if (most > 0) add_floor(problem, cost, least, most, plot);
-  for (const std::size_t i : pareto_front(problem.rows, cost))
-    plot.front.push_back({*cost(problem.rows[i]), *problem.rows[i].error()});
+  plot.front = pareto_front(problem, cost);
   if (whole) put_into_bands(plot);
   return plot;
 }

@@ -353,9 +353,9 @@ DrawList draw_problem(const ProblemRows& problem, const Measurement& measurement
                     std::move(left), std::move(right), std::move(notes), measurement.circumstances);
 }
 
-DrawList draw_drift(const ProblemRows& problem, const Measurement& measurement) {
+std::optional<DrawList> draw_drift(const ProblemRows& problem, const Measurement& measurement) {
   auto plots = drift_plots(problem, looks_of(measurement.rows));
-  LANTERN_CHECK(plots.has_value(), ==, true);
+  if (!plots) return std::nullopt;
   return draw_plots(problem, "drift with time", std::move(plots->error), std::move(plots->energy),
                     {}, measurement.circumstances);
 }
@@ -377,7 +377,11 @@ DrawList draw_slide(const ProblemRows& problem, const Measurement& measurement) 
                {{kMargin, bottom}, {list.page.x - kMargin, list.page.y - 10}});
     y += 36;
   }
-  Plot plot = plots_of(problem, looks_of(measurement.rows)).first;
+  ProblemRows shown = problem;
+  const auto is_other = [](const Row& row) { return is_adaptive(row.method); };
+  if (!std::ranges::all_of(shown.rows, is_other))  // like beside like: steps of a world
+    std::erase_if(shown.rows, is_other);
+  Plot plot = plots_of(shown, looks_of(measurement.rows)).first;
   plot.title.clear();
   for (PlotSeries& series : plot.series)  // orders are on the other page
     series.name = series.name.substr(0, series.name.find(": "));
@@ -388,9 +392,6 @@ DrawList draw_slide(const ProblemRows& problem, const Measurement& measurement) 
     return list;
   }
   plot.names = PlotNames::none;
-  if (plot.series.size() > 1)  // like beside like: steps of a world
-    std::erase_if(plot.series,
-                  [](const PlotSeries& series) { return series.name == method_words(kAdaptive); });
   // As the lines end, from the top: who has no point comes last.
   std::ranges::stable_sort(plot.series, std::greater(), [](const PlotSeries& series) {
     return series.points.empty() ? -1 : series.points.back().at.y;

@@ -16,10 +16,10 @@ std::string circumstances_text(const Circumstances& circumstances);
 
 // Pages of 1600 x 900 of a problem, two plots each with one legend, notes and circumstances below:
 // error against seconds at the left, against counted work at the right; and how error and energy
-// went with time, for which the problem must have samples. Looks and circumstances are those of the
+// went with time, nothing where drift_plots() has nothing. Looks and circumstances are those of the
 // measurement, of which the problem is a part.
 DrawList draw_problem(const ProblemRows& problem, const Measurement& measurement);
-DrawList draw_drift(const ProblemRows& problem, const Measurement& measurement);
+std::optional<DrawList> draw_drift(const ProblemRows& problem, const Measurement& measurement);
 
 // One plot to be projected: error against run time, names at the lines, who_is_quickest() below.
 DrawList draw_slide(const ProblemRows& problem, const Measurement& measurement);

@@ -6,9 +6,6 @@
 namespace lantern::report {
 namespace {
 
-// It chooses its steps itself, and moves the bodies without the world's step.
-bool is_adaptive(std::string_view method) { return method == kAdaptive; }
-
 struct KnownMethod {
   std::string_view name, words;
   int look;
@@ -108,9 +105,12 @@ std::vector<ProblemRows> by_problem(std::span<const Row> rows) {
 std::vector<MethodRows> by_method(const ProblemRows& problem) {
   std::vector<MethodRows> all;
   for (const Row& row : problem.rows)
-    with_name(all, &MethodRows::method, {row.method, row.is_peer(), row.version, {}})
+    with_name(all, &MethodRows::method, {row.method, row.is_peer(), row.version, {}, {}})
         .rows.push_back(row);
-  for (MethodRows& c : all) std::ranges::stable_sort(c.rows, std::greater(), &Row::step);
+  for (MethodRows& c : all) {
+    std::ranges::stable_sort(c.rows, std::greater(), &Row::step);
+    c.floor = observed_floor(c.rows);
+  }
   return all;
 }
 
@@ -230,28 +230,36 @@ std::optional<Order> observed_order(std::span<const Row> rows) {
   return seen;
 }
 
-std::span<const Row> observed_floor(std::span<const Row> rows) {
+std::optional<Floor> observed_floor(std::span<const Row> rows) {
   while (!rows.empty() && !rows.back().error()) rows = rows.first(rows.size() - 1);
-  if (rows.empty() || is_adaptive(rows[0].method)) return {};
+  if (rows.empty() || is_adaptive(rows[0].method)) return std::nullopt;
   const auto order = observed_order(rows);
   const double half = order ? order->exponent / 2 : 0.5;
-  const auto stays = [&](const Row& from, const Row& row) {
-    const double ratio = geometry::pow(row.step / from.step, half);
-    return row.error() && *row.error() > *from.error() * ratio;
-  };
+  const auto error = [](const Row& row) { return row.error().value_or(HUGE_VAL); };
   for (std::size_t i = 1; i + 1 < rows.size(); ++i) {
     const auto tail = rows.subspan(i);
-    if (rows[i].error() <= kBegun && rows[i - 1].error() > rows[i].error() && rows[i].error() &&
-        std::ranges::all_of(tail.subspan(1), [&](const Row& row) { return stays(tail[0], row); }))
-      return tail;
+    const auto most = std::ranges::max_element(tail, {}, error);
+    if (error(*most) > kBegun || error(*most) >= error(rows[i - 1])) continue;
+    const double power = tail.size() > 2 ? half : 0;  // one may be slow by chance
+    const auto stays = [&](const Row& row) {
+      return error(row) >= error(*most) * geometry::pow(row.step / most->step, power);
+    };
+    if (std::all_of(most, tail.end(), stays)) return Floor{i, rows.size() - 1, error(*most)};
   }
-  return {};
+  return std::nullopt;
 }
 
-std::optional<double> largest_on_floor(std::span<const Row> rows) {
-  std::optional<double> most;
-  for (const Row& row : observed_floor(rows)) most = std::max(most, row.error());
-  return most;
+std::vector<std::optional<double>> assured_errors(const MethodRows& method) {
+  std::vector<std::optional<double>> all(method.rows.size());
+  std::optional<double> worst = method.floor ? method.floor->largest : 0;
+  for (std::size_t i = all.size(); i-- > 0;) {
+    const Row& row = method.rows[i];
+    if (!row.was_run()) continue;
+    const auto error = row.error();
+    worst = error && worst ? std::optional(std::max(*worst, *error)) : std::nullopt;
+    all[i] = worst;
+  }
+  return all;
 }
 
 double rounding_floor(double steps) { return kRounding * std::sqrt(std::max(1.0, steps)); }
@@ -290,159 +298,6 @@ std::vector<std::vector<std::string>> equal_methods(const ProblemRows& problem) 
   return groups;
 }
 
-// Of each method that does the world's step, its quickest run that is off by at most so much; the
-// quickest first.
-std::vector<const Row*> quickest(const ProblemRows& problem, double error) {
-  std::map<std::string, const Row*> best;
-  std::set<std::string> too_fine;  // what is better than so much is so by chance
-  for (const MethodRows& method : by_method(problem))
-    if (error < largest_on_floor(method.rows).value_or(0)) too_fine.insert(method.method);
-  for (const Row& row : problem.rows) {
-    if (is_adaptive(row.method) || !(row.error() <= error) || !row.error() || !seconds_of(row) ||
-        too_fine.contains(row.method))
-      continue;
-    const Row*& known = best[row.method];
-    if (!known || row.processor.median < known->processor.median) known = &row;
-  }
-  std::vector<const Row*> all;
-  for (const auto& [method, row] : best) all.push_back(row);
-  std::ranges::sort(all, {}, [](const Row* row) { return row->processor.median; });
-  return all;
-}
-
-std::string who_is_quickest(const ProblemRows& problem) {
-  const auto name = [](const Row* row) {
-    const std::string words = row->is_peer() ? row->method : method_words(row->method);
-    return words.substr(0, words.find(" (double)"));
-  };
-  // Neighbouring decades at which the same lead.
-  struct Range {
-    std::string who, over;  // nobody is lead over where some tie
-    bool ahead = false;     // each of them of all others
-    int from = 0, to = 0;   // decades
-    double share = 1, last_share = 1;
-  };
-  const bool whole = has_whole_errors(problem);
-  std::vector<Range> ranges;
-  for (int decade = whole ? -15 : -1; decade >= -15; --decade) {
-    const std::vector<const Row*> all =
-        quickest(problem, whole ? 0 : std::stod(fmt::format("1e{}", decade)));
-    if (all.size() < 2) continue;
-    std::vector<const Row*> lead, others;
-    for (const Row* row : all)
-      (all[0]->processor.is_quicker_than(row->processor) ? others : lead).push_back(row);
-    std::vector<std::string> first;
-    std::ranges::transform(lead, std::back_inserter(first), name);
-    std::ranges::sort(first);
-    const bool ahead = !others.empty() && std::ranges::all_of(lead, [&](const Row* row) {
-      return std::ranges::all_of(others, [&](const Row* other) {
-        return row->processor.is_quicker_than(other->processor);
-      });
-    });
-    Range range{listed(first), "", ahead, decade, decade};
-    if (first.size() > 3)
-      range.who = fmt::format("{} methods, {} among them,", first.size(), first[0]);
-    if (first.size() == 1) {
-      range.over = name(all[1]);
-      range.share = range.last_share = all[0]->processor.median / all[1]->processor.median;
-    }
-    if (ranges.empty() || ranges.back().who != range.who || ranges.back().over != range.over ||
-        ranges.back().to != decade + 1)
-      ranges.push_back(range);
-    ranges.back().to = decade, ranges.back().last_share = range.last_share;
-  }
-  if (ranges.empty())
-    return "Who is the quickest cannot be told here: no two methods were timed at one error.";
-  while (ranges.size() > 3)  // one line: the widest
-    ranges.erase(
-        std::ranges::min_element(ranges, {}, [](const Range& r) { return r.from - r.to; }));
-  std::vector<std::string> clauses;
-  for (const Range& r : ranges) {
-    const auto error = [](int decade) { return figure(std::stod(fmt::format("1e{}", decade))); };
-    std::string clause = whole ? "for a right outcome"
-                         : r.from == r.to
-                             ? "at an error of " + error(r.from)
-                             : fmt::format("at errors of {} to {}", error(r.from), error(r.to));
-    const std::string share = fmt::format("{:.2g}", r.share),
-                      last = fmt::format("{:.2g}", r.last_share);
-    clause += r.over.empty()
-                  ? fmt::format(" {} tie{}", r.who, r.ahead ? ", ahead of the others" : "")
-                  : fmt::format(" {} costs {} of what {} costs", r.who,
-                                share == last ? share : share + " to " + last, r.over);
-    clauses.push_back(std::move(clause));
-  }
-  std::set<double> taken;
-  for (const Row& row : problem.rows)
-    if (seconds_of(row) && !is_adaptive(row.method)) taken.insert(row.step);
-  const std::string finest = figure(*taken.begin()), coarsest = figure(*taken.rbegin());
-  const std::string steps = finest == coarsest ? "a step of " + finest
-                                               : fmt::format("steps of {} to {}", finest, coarsest);
-  // Whose largest step is good enough already might take larger ones.
-  const auto rows = by_method(problem);
-  const double coarsest_error = whole ? 0 : std::stod(fmt::format("1e{}", ranges.front().from));
-  const bool open = std::ranges::any_of(rows, [&](const MethodRows& method) {
-    const auto error = method.rows[0].error();
-    return !is_adaptive(method.method) && error && *error <= coarsest_error;
-  });
-  return fmt::format("By the cheapest run that is so good, of those at {} s{}: {}.", steps,
-                     open ? " (larger ones, which may be cheaper, were not tried)" : "",
-                     fmt::join(clauses, "; "));
-}
-
-std::vector<std::string> notes_on(const ProblemRows& problem) {
-  std::vector<std::string> notes;
-  double reference_error = 0;
-  const Norm* norm = nullptr;
-  const Row* reference = nullptr;
-  std::size_t left_out = 0;
-  bool adaptive = false;
-  for (const Row& row : problem.rows) {
-    reference_error = std::max(reference_error, row.reference_error);
-    if (!norm && !row.norms.empty()) norm = &row.norms.front();
-    if (!reference && !row.reference.empty()) reference = &row;
-    adaptive = adaptive || is_adaptive(row.method);
-    left_out += row.status == Status::left_out;
-  }
-  if (norm && !norm->meaning.empty())
-    notes.push_back(fmt::format("“{}”{}: {}.", norm->name,
-                                norm->unit == "1" ? "" : " (" + norm->unit + ")", norm->meaning));
-  if (reference && reference->reference.find(';') != std::string::npos)
-    notes.push_back("Reference: " + reference->reference + ".");
-  if (reference_error > kRounding)
-    notes.push_back(
-        fmt::format("The reference is itself off by about {}, its distance from the same run at "
-                    "twice its step; no smaller error is claimed.",
-                    figure(reference_error)));
-  std::vector<std::string> floors;
-  std::map<double, std::string> prices;  // of an evaluation
-  for (const MethodRows& method : by_method(problem)) {
-    if (const auto floor = largest_on_floor(method.rows))
-      floors.push_back(fmt::format("{} {}", method.name(), figure(*floor)));
-    const Row& most = *std::ranges::max_element(
-        method.rows, {}, [](const Row& row) { return row.counted.force_evaluations; });
-    if (const auto seconds = seconds_of(most); seconds && most.counted.force_evaluations > 0)
-      prices[*seconds / static_cast<double>(most.counted.force_evaluations)] = method.name();
-  }
-  if (!floors.empty())
-    notes.push_back("Floors, where smaller steps bring no smaller error: at most " +
-                    fmt::format("{}", fmt::join(floors, ", ")) + ".");
-  if (prices.size() > 1 && work_count(problem).count == &Counted::force_evaluations)
-    notes.push_back(fmt::format(
-        "For each evaluation of the forces the longest run of a method takes {} ({}) to {} ({}): "
-        "each bears its share of the step.",
-        seconds_text(prices.begin()->first), prices.begin()->second,
-        seconds_text(prices.rbegin()->first), prices.rbegin()->second));
-  if (adaptive)
-    notes.push_back(
-        "Dormand–Prince, adaptive, solves the bare equations of motion, without the world's step: "
-        "its seconds buy less. Its “step” stands for a tolerance: 1e-3 at the largest, less by the "
-        "fifth power, 1e-14 at least.");
-  if (left_out > 0)
-    notes.push_back(
-        fmt::format("{} of {} runs were left out as too long.", left_out, problem.rows.size()));
-  return notes;
-}
-
 // A sweep in order of cost: a point is on the front if it has less error than all cheaper ones
 // (Kung, Luccio, Preparata, "On Finding the Maxima of a Set of Vectors", 1975, for two dimensions).
 std::vector<std::size_t> pareto_front(std::span<const Vec<2>> cost_and_error) {
@@ -460,13 +315,16 @@ std::vector<std::size_t> pareto_front(std::span<const Vec<2>> cost_and_error) {
   return front;
 }
 
-std::vector<std::size_t> pareto_front(std::span<const Row> rows, const Cost& cost) {
-  std::vector<Vec<2>> points;
-  for (const Row& row : rows) {
-    const auto error = is_adaptive(row.method) ? std::nullopt : row.error(), price = cost(row);
-    points.push_back(error && price ? Vec<2>{*price, *error} : Vec<2>(std::nan("")));
+std::vector<Vec<2>> pareto_front(const ProblemRows& problem, const Cost& cost) {
+  std::vector<Vec<2>> points, front;
+  for (const MethodRows& method : by_method(problem)) {
+    const auto errors = assured_errors(method);
+    for (std::size_t i = 0; i < errors.size() && !is_adaptive(method.method); ++i)
+      if (const auto price = cost(method.rows[i]); price && errors[i])
+        points.push_back({*price, *errors[i]});
   }
-  return pareto_front(points);
+  for (const std::size_t i : pareto_front(points)) front.push_back(points[i]);
+  return front;
 }
 
 std::optional<double> seconds_of(const Row& row) {

@@ -16,12 +16,22 @@ std::vector<ProblemRows> by_problem(std::span<const Row> rows);
 
 inline constexpr double kRounding = 0x1p-52;  // an error that says no more than that
 
+// It chooses its steps itself, and moves the bodies without the world's step.
+inline bool is_adaptive(std::string_view method) { return method == kAdaptive; }
+
+// Where smaller steps bring no smaller error: from the first to the last of some rows.
+struct Floor {
+  std::size_t first = 0, last = 0;
+  double largest = 0;  // error there: which of them a run ends with is chance
+};
+
 // The same of one method, the largest step first.
 struct MethodRows {
   std::string method;
   bool is_peer = false;
   std::string version;
   std::vector<Row> rows;
+  std::optional<Floor> floor;
   std::string name() const;  // "explicit Euler", "Bullet:10 3.24"
 };
 std::vector<MethodRows> by_method(const ProblemRows& problem);
@@ -62,14 +72,16 @@ struct Order {
 // tolerances.
 std::optional<Order> observed_order(std::span<const Row> rows);
 
-// The rows, the largest step first, from which on all errors shrink more slowly than by half the
-// observed order (of half a power where there is none), if there are two at least and it fell to
-// them: a floor, of rounding or of the method. None of an adaptive method, or of errors that have
-// not begun to shrink.
-std::span<const Row> observed_floor(std::span<const Row> rows);
+// The rows, the largest step first, to which errors fell, and from the largest of which on they
+// shrink more slowly than by half the observed order (of half a power where there is none); two
+// rows are none if the second is less. Of rounding or of the method. None of an adaptive method, or
+// of errors that have not begun to shrink.
+std::optional<Floor> observed_floor(std::span<const Row> rows);
 
-// The largest error there: which of them a run ends with is chance. Nothing if there is none.
-std::optional<double> largest_on_floor(std::span<const Row> rows);
+// What each run vouches for: the largest of its error, of those of all runs at smaller steps and of
+// the method's floor, since an error may be small by chance. Nothing for what was not run, for
+// runs that failed, and where one at a smaller step did.
+std::vector<std::optional<double>> assured_errors(const MethodRows& method);
 
 // What rounding alone leaves after so many steps if each rounds once, as a random walk: 2^-52 times
 // their square root (Henrici, "Discrete Variable Methods", 1962). Relative. Steps of many stages
@@ -90,11 +102,14 @@ WorkCount work_count(const ProblemRows& problem);
 // they round differently. Names, two or more a group, in order of their first rows.
 std::vector<std::vector<std::string>> equal_methods(const ProblemRows& problem);
 
-// The line for a student: to be off by at most so much, which method is the quickest, and how the
-// next one compares; of many changes the three that hold for most. Errors are decades, or 0 where
-// they are whole numbers. Each method takes its quickest run that is so good; whom another
-// measurement might rank otherwise are told as equal. Who does not do the world's step is left out.
-// Or why there is no such line.
+// The line for a student: to be off by at most so much, which method of fixed steps is the
+// quickest, and how the next one compares; of many changes the three that hold for most. Errors are
+// decades, or 0 where they are whole numbers. What a method takes for an error is read between the
+// two neighbouring runs that vouch for more and for less (assured_errors), by the straight line of
+// the plot. Decades are told at which none but the quickest is so good at its largest step already:
+// of others larger ones might cost less. Whom another measurement might rank otherwise tie. Who
+// does not do the world's step is left out. Where nothing is told so: who is off least at the
+// largest step and all smaller ones; or why there is no such line.
 std::string who_is_quickest(const ProblemRows& problem);
 
 // What a reader must know beside the numbers: what the main norm is, how good its reference is, and
@@ -110,9 +125,9 @@ using Cost = std::function<std::optional<double>(const Row&)>;
 // of them less; ascending in cost. Of equal points the first. Points that are not finite are out.
 std::vector<std::size_t> pareto_front(std::span<const Vec<2>> cost_and_error);
 
-// The same of rows, which should be of one problem: those that are ok, with an error and a cost,
-// and that do the world's step, so that like stands beside like.
-std::vector<std::size_t> pareto_front(std::span<const Row> rows, const Cost& cost);
+// The same of a problem's runs that have a cost, by what they vouch for, and that do the world's
+// step, so that like stands beside like: the points themselves.
+std::vector<Vec<2>> pareto_front(const ProblemRows& problem, const Cost& cost);
 
 // Processor seconds of a whole run; nothing for a row that was not timed.
 std::optional<double> seconds_of(const Row& row);
@@ -147,12 +162,12 @@ Plot step_plot(const ProblemRows& problem, const Cost& value, const Looks& looks
 
 // How runs of a problem go astray with time, of runs with one step: that which most methods share,
 // of several the finest. Series are in the order of by_method, without points for who has no such
-// run.
+// run; the adaptive method has none: its steps are tolerances.
 struct DriftPlots {
   Plot error;   // the main norm so far, against seconds since the start
   Plot energy;  // its drift so far; without points where the problem does not keep it
 };
-// Nothing if no run has samples.
+// Nothing if no run of a fixed step has samples.
 std::optional<DriftPlots> drift_plots(const ProblemRows& problem, const Looks& looks);
 
 }  // namespace lantern::report

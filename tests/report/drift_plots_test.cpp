@@ -65,7 +65,7 @@ TEST(DriftPlots, MakeAPageAndStandOnTheWebPage) {
     const auto plots = drift_plots(problem, looks_of(m.rows));
     EXPECT_EQ(plots.has_value(), !problem.rows[0].samples.empty());
     if (!plots) continue;
-    const DrawList list = draw_drift(problem, m);
+    const DrawList list = draw_drift(problem, m).value();
     expect_laid_out(list, {{0, 0}, list.page}, kLeastDeskLabel, problem.problem);
     EXPECT_NO_THROW(check_draw_list(list));
     ++drawn;

@@ -46,15 +46,29 @@ TEST(Pareto, IsTheDefinitionOnRandomPoints) {
 }
 
 TEST(Pareto, RowsThatFailedOrWereNotTimedAreNotOnIt) {
-  std::vector<Row> rows = {samples::row("a", 0.1, 1e-2, 1, 10), samples::row("b", 0.1, 1e-9, 2, 10),
-                           samples::row("c", 0.1, 1e-12, 0, 10),
-                           samples::row("d", 0.1, 1e-1, 3, 10)};
-  EXPECT_EQ(pareto_front(rows, seconds_of), (std::vector<std::size_t>{0, 1}))
-      << "row 2 was not timed, row 3 is beaten";
+  ProblemRows problem{"p",
+                      "p",
+                      "plain",
+                      {samples::row("a", 0.1, 1e-2, 1, 10), samples::row("b", 0.1, 1e-9, 2, 10),
+                       samples::row("c", 0.1, 1e-12, 0, 10), samples::row("d", 0.1, 1e-1, 3, 10),
+                       samples::row("dormand_prince:adaptive", 0.1, 1e-15, 0.1, 10)}};
+  EXPECT_EQ(pareto_front(problem, seconds_of), (std::vector<Vec<2>>{{1, 1e-2}, {2, 1e-9}}))
+      << "c was not timed, d is beaten, the last does no step of a world";
   for (const Status failed : {Status::diverged, Status::collapsed}) {
-    rows[1].status = failed;
-    EXPECT_EQ(pareto_front(rows, seconds_of), (std::vector<std::size_t>{0})) << to_string(failed);
+    problem.rows[1].status = failed;
+    EXPECT_EQ(pareto_front(problem, seconds_of), (std::vector<Vec<2>>{{1, 1e-2}}))
+        << to_string(failed);
   }
+}
+
+TEST(Pareto, OfARunThatIsGoodByChanceIsWhatSmallerStepsBearOut) {
+  const ProblemRows problem{
+      "p",
+      "p",
+      "plain",
+      {samples::row("a", 0.1, 1e-9, 1, 10), samples::row("a", 0.05, 1e-2, 2, 20),
+       samples::row("b", 0.1, 1e-3, 4, 10)}};
+  EXPECT_EQ(pareto_front(problem, seconds_of), (std::vector<Vec<2>>{{1, 1e-2}, {4, 1e-3}}));
 }
 
 }  // namespace
