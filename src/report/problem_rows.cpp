@@ -239,7 +239,7 @@ std::optional<Floor> observed_floor(std::span<const Row> rows) {
   for (std::size_t i = 1; i + 1 < rows.size(); ++i) {
     const auto tail = rows.subspan(i);
     const auto most = std::ranges::max_element(tail, {}, error);
-    if (error(*most) > kBegun || error(*most) >= error(rows[i - 1])) continue;
+    if (error(*most) == 0 || error(*most) > kBegun || error(*most) >= error(rows[i - 1])) continue;
     const double power = tail.size() > 2 ? half : 0;  // one may be slow by chance
     const auto stays = [&](const Row& row) {
       return error(row) >= error(*most) * geometry::pow(row.step / most->step, power);

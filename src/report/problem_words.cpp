@@ -122,45 +122,45 @@ std::string clause_of(const Range& r, bool whole) {
                      share == last ? share : share + " to " + last, r.over);
 }
 
-// Where errors do not hang on steps: who is off least, at the largest step as at all smaller ones.
+// Where errors hang on steps too little: who is off least, at the largest as at all smaller ones.
 std::string who_bears_the_largest_step(std::span<const MethodRows> methods) {
   struct Bearing {
     double seconds = 0, error = 0;
-    std::string words;
+    std::string name;
   };
   double step = 0;
   for (const MethodRows& method : methods)
     for (const Row& row : method.rows)
       if (row.was_run()) step = std::max(step, row.step);
-  std::vector<Bearing> best, others;
+  std::vector<Bearing> all;
   for (const MethodRows& method : methods) {
     const auto row = std::ranges::find(method.rows, step, &Row::step);
     if (row == method.rows.end()) continue;
     const auto error = assured_errors(method)[static_cast<std::size_t>(row - method.rows.begin())];
     const auto seconds = seconds_of(*row);
-    if (error && seconds)
-      best.push_back(
-          {*seconds, *error, fmt::format("{} ({})", name_of(method), seconds_text(*seconds))});
+    if (error && seconds) all.push_back({*seconds, *error, name_of(method)});
   }
-  std::ranges::sort(best, {}, &Bearing::error);
-  while (!best.empty() && best.back().error > kAlike * std::max(best.front().error, kRounding)) {
-    others.insert(others.begin(), std::move(best.back()));
-    best.pop_back();
-  }
-  if (best.size() + others.size() < 2)
+  if (all.size() < 2)
     return "Who is the quickest cannot be told here: no two methods were timed at one error, or at "
            "the largest step.";
-  const double least = best.back().error;
-  std::ranges::sort(best, {}, &Bearing::seconds);
+  std::ranges::sort(all, {}, &Bearing::error);
+  const auto next = std::ranges::find_if(all, [&](const Bearing& one) {
+    return one.error > kAlike * std::max(all[0].error, kRounding);
+  });
+  const double least = std::prev(next)->error;
+  std::sort(all.begin(), next, [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
   std::vector<std::string> names;
-  for (const Bearing& one : best) names.push_back(one.words);
+  for (auto one = all.begin(); one != next; ++one)
+    names.push_back(fmt::format("{} ({}{})", one->name, seconds_text(one->seconds),
+                                names.empty() ? " at the largest" : ""));
   if (names.size() > 4) {
     names[3] = fmt::format("{} others", names.size() - 3);
     names.resize(4);
   }
-  std::string text = fmt::format("At steps of {} s and less {} {} off by {} at most", figure(step),
-                                 listed(names), best.size() == 1 ? "is" : "are", figure(least));
-  if (!others.empty()) text += ", the next one by up to " + figure(others.front().error);
+  std::string text = fmt::format("At steps of up to {} s that were run, {} {} off by {}{}",
+                                 figure(step), listed(names), names.size() == 1 ? "is" : "are",
+                                 least > 0 ? "at most " : "", figure(least));
+  if (next != all.end()) text += ", the next one by up to " + figure(next->error);
   return text + ".";
 }
 

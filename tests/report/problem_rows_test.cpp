@@ -134,6 +134,16 @@ TEST(WhoIsQuickest, KnowsHowMuchLessASmallerStepMayCost) {
                    "exact turning costs at most 0.8 of what explicit Euler costs"));
 }
 
+// Runs that were left out vouch for nothing, and say nothing against a larger step.
+TEST(WhoIsQuickest, IsElseWhoIsOffLeastAtTheLargestStep) {
+  auto exact = runs_of("exact", {1e-15, 0, 2e-15}, 1), one = runs_of("impulse", {0, 0, 0}, 1);
+  exact[2].status = one[1].status = Status::left_out;
+  one[0].processor.median = 3;
+  EXPECT_EQ(quickest_of({runs_of("lecture", {0.3, 0.4, 0.2}, 1), exact, one}),
+            "At steps of up to 0.1 s that were run, exact turning (1 s at the largest) and "
+            "impulses (3 s) are off by at most 1e-15, the next one by up to 0.4.");
+}
+
 TEST(WhoIsQuickest, IsTheCheapestRightOutcomeWhereErrorsAreCounted) {
   EXPECT_EQ(quickest_of({runs_of("exact", {3, 0, 0}, 1), runs_of("lecture", {9, 7, 0}, 1)}),
             "Of fixed steps, by the cheapest run: for a right outcome exact turning and the "
