@@ -242,7 +242,7 @@ std::optional<Floor> observed_floor(std::span<const Row> rows) {
     if (error(*most) == 0 || error(*most) > kBegun || error(*most) >= error(rows[i - 1])) continue;
     const double power = tail.size() > 2 ? half : 0;  // one may be slow by chance
     const auto stays = [&](const Row& row) {
-      return error(row) >= error(*most) * geometry::pow(row.step / most->step, power);
+      return error(row) >= error(*most) * geometry::pow(row.step / rows[i].step, power);
     };
     if (std::all_of(most, tail.end(), stays)) return Floor{i, rows.size() - 1, error(*most)};
   }

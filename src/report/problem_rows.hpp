@@ -72,10 +72,10 @@ struct Order {
 // tolerances.
 std::optional<Order> observed_order(std::span<const Row> rows);
 
-// The rows, the largest step first, to which errors fell, and from the largest of which on they
-// shrink more slowly than by half the observed order (of half a power where there is none); two
-// rows are none if the second is less. Of rounding or of the method. None of an adaptive method, or
-// of errors that have not begun to shrink.
+// The rows, the largest step first, to which errors fell, and on which they shrink after the
+// largest of them more slowly than by half the observed order (of half a power where there is
+// none); two rows are none if the second is less. Of rounding or of the method. None of an adaptive
+// method, of errors that have not begun to shrink, or of 0.
 std::optional<Floor> observed_floor(std::span<const Row> rows);
 
 // What each run vouches for: the largest of its error, of those of all runs at smaller steps and of

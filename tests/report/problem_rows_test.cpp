@@ -77,6 +77,16 @@ TEST(Floor, OfNoiseIsToldByItsLargestError) {
             "Floors, where smaller steps bring no smaller error: at most m 5.1e-13.");
 }
 
+TEST(Floor, MayEndOnAnErrorThatIsSmallByChance) {
+  std::vector<Row> rows = power(5, 1, 0, 8);
+  const double noise[] = {2.9e-13, 4.8e-13, 8.1e-14};
+  for (std::size_t i = 0; i < 3; ++i) rows[i + 5].norms[0].value = noise[i];
+  const auto floor = observed_floor(rows);
+  ASSERT_TRUE(floor);
+  EXPECT_EQ(floor->first, 5u);
+  EXPECT_EQ(floor->largest, 4.8e-13);
+}
+
 TEST(Order, ThatIsOnItsWayIsToldByItsEnds) {
   std::vector<Row> rows = power(4, 1, 0, 6);
   for (Row& row : rows) row.norms[0].value *= 1 + 8 * row.step;
