@@ -356,6 +356,7 @@ DrawList draw_problem(const ProblemRows& problem, const Measurement& measurement
 std::optional<DrawList> draw_drift(const ProblemRows& problem, const Measurement& measurement) {
   auto plots = drift_plots(problem, looks_of(measurement.rows));
   if (!plots) return std::nullopt;
+  std::erase_if(plots->error.series, [](const PlotSeries& s) { return s.points.empty(); });
   return draw_plots(problem, "drift with time", std::move(plots->error), std::move(plots->energy),
                     {}, measurement.circumstances);
 }
