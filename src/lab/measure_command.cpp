@@ -225,12 +225,13 @@ class Measure : public Experiment {
                                 kept ? fmt::format("; {} are finished from before", kept) : ""));
     std::ranges::copy(plan_->missing_peers(), std::back_inserter(lines));
     if (longest)
-      lines.push_back(fmt::format(
-          "{} left out as too long; the longest ({}, {} at {:.3g} s) would take {}. --full runs "
-          "them all",
-          long_ones == 1 ? "1 run is" : fmt::format("{} runs are", long_ones),
-          plan_->scenario(*longest).name, plan_->solver(*longest).name(), longest->step,
-          duration_text(plan_->seconds(*longest))));
+      lines.push_back(
+          fmt::format("{} left out as too long; the longest ({}, {} at {:.3g} s) would take {:.2g} "
+                      "s. --full runs "
+                      "them all",
+                      long_ones == 1 ? "1 run is" : fmt::format("{} runs are", long_ones),
+                      plan_->scenario(*longest).name, plan_->solver(*longest).name(), longest->step,
+                      plan_->seconds(*longest)));
     return lines;
   }
 

@@ -113,7 +113,8 @@ class TrajectoryMetric : public ErrorMetric {
                    std::string parameters = "");
   void look(const Observation& now) override;
   std::string reference() const override {
-    return ErrorMetric::reference() + (parameters_.empty() ? "" : "; " + parameters_);
+    return ErrorMetric::reference() + "; rounded once" +
+           (parameters_.empty() ? "" : "; " + parameters_);
   }
   double reference_error() const override { return kRoundedOnce; }
 

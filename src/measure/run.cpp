@@ -286,7 +286,8 @@ std::uint64_t looks_of(const Schedule& schedule) {
 }
 
 std::string looks_words(const Schedule& schedule) {
-  return fmt::format("; looked at {} times in {:.4g} s", looks_of(schedule), schedule.seconds);
+  return fmt::format("; looked at {} times in {:.4g} s, whose intervals the steps divide",
+                     looks_of(schedule), schedule.seconds);
 }
 
 }  // namespace

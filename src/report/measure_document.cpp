@@ -63,13 +63,11 @@ std::vector<Cell> best_of(const MethodRows& method, const WorkCount& work) {
   std::string not_ok;
   for (const auto& [status, count] : failed)
     not_ok += fmt::format("{}{} {}", not_ok.empty() ? "" : ", ", count, to_string(status));
-  const auto order =
-      method.is_peer && method.rows.size() < 3 ? std::nullopt : observed_order(method.rows);
   const auto seconds = best ? seconds_of(*best) : std::nullopt;
   const auto count = best ? work.of(*best) : std::nullopt;
   return {short_name(method),
           fmt::format("{}/{}", ok, method.rows.size()),
-          order ? order->words() : kNothing,
+          method.order ? method.order->words() : kNothing,
           floor  ? "≤ " + figure(floor->largest)
           : best ? figure(*best->error())
                  : kNothing,
@@ -140,18 +138,21 @@ class Writer {
         "Problems whose answers are known, method by method: how far each run is off, and what it "
         "costs: processor time, the median of repeats that the runs took in turn. Down and to the "
         "left is better. Pale bars are 95 % intervals of the medians, which were repeated until "
-        "these were within 5 %, or are called wide; methods whose intervals overlap, or whose "
-        "medians are within 10 %, tie. Behind an order: how far slopes from step to step lie from "
-        "it; or the first and the last, where they only rise or fall. Runs that failed lie at the "
-        "upper edge. The pale stairs join the runs that no other "
-        "beats in both, among those that do the world's step; a run counts as off by as much as "
-        "any "
-        "of its method's at smaller steps. What a method "
-        "takes for an error is read between its neighbouring runs. 95 % is nominal: repeats end "
-        "once "
-        "an interval is narrow. Where errors stop falling, the table has the largest of the errors "
-        "there, and the "
-        "first step.";
+        "these were within 5 %, or are called wide: nominal ones, since repeats end once an "
+        "interval is narrow; methods whose intervals overlap, or whose medians are within 10 %, "
+        "tie. A method's order is fitted to the longest piece of its runs between which the slopes "
+        "lie within 0.35 of the middle one, three at least, whose errors are at most 0.5 and above "
+        "its floor and 100 times the rounding of as many steps; behind it stands how far slopes "
+        "lie from it, or, where they only rise or only fall, by more than 0.05, the first and the "
+        "last of them. A run has diverged if it is off, or its energy has changed, by more than "
+        "100 times their scale. Runs that failed have no time; where their work was counted, they "
+        "lie at the upper edge of its plot. The energy's drift is told over the kinetic and "
+        "elastic energy at the start, or over the largest kinetic one if there is none. The pale "
+        "stairs join the runs that no other beats in both, among those that do the world's step; a "
+        "run counts as off by as much as any of its method's at smaller steps. What a method takes "
+        "for an error is read on the straight line between its neighbouring runs, both axes "
+        "logarithmic; at most so much, if it is so good at its largest step already. Behind ≤ "
+        "stands what no error exceeds from the step beside it on: they scatter below.";
     document_.legends = {"Lantern’s methods", "Other engines"};
     for (const ProblemRows& problem : by_problem(all))
       for (const MethodRows& method : by_method(problem))
@@ -168,9 +169,10 @@ class Writer {
     }
     add_engines(measurements);
     for (std::size_t i = 0; i < measurements.size(); ++i)
-      document_.notes.push_back(fmt::format("Machine {}: {} runs, seed {}.", machine_letter(i),
-                                            measurements[i].rows.size(),
-                                            measurements[i].circumstances.seed));
+      document_.notes.push_back(
+          fmt::format("Machine {}: {} of {} runs were made, seed {}.", machine_letter(i),
+                      std::ranges::count_if(measurements[i].rows, &Row::was_run),
+                      measurements[i].rows.size(), measurements[i].circumstances.seed));
     for (const Measurement& m : measurements) document_.notes.push_back(wide_words(m));
     for (const SharedProblem& problem : shared_problems()) add(problem);
   }

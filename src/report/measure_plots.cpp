@@ -66,19 +66,11 @@ std::optional<double> cost_of_step(std::span<const Row> rows, const Cost& cost) 
   return ratios[ratios.size() / 2];
 }
 
-// Of a run that failed, and so was not timed, what its steps would have cost.
-std::optional<double> cost_or_estimate(const Row& row, const std::optional<double>& of_step,
-                                       const Cost& cost) {
-  const auto price = cost(row);
-  if (price || row.status == Status::ok || !of_step || row.counted.steps == 0) return price;
-  return *of_step * static_cast<double>(row.counted.steps);
-}
-
 void add_floor(const ProblemRows& problem, const Cost& cost, double least, double most,
                Plot& plot) {
   const auto per_step = cost_of_step(problem.rows, cost);
   if (!per_step || *per_step <= 0) return;
-  PlotGuide guide{"rounding, as a random walk: 2⁻⁵² √steps", {}};
+  PlotGuide guide{"rounding, as a random walk", {}};
   for (const double x : {least, most}) guide.points.push_back({x, rounding_floor(x / *per_step)});
   plot.guides.push_back(std::move(guide));
 }
@@ -207,15 +199,13 @@ Plot cost_plot(const ProblemRows& problem, const Cost& cost, const Looks& looks,
     for (std::size_t i = 1; i < group.size(); ++i) twins[group[i]] = group[0];
   for (const MethodRows& c : by_method(problem)) {
     PlotSeries series = series_of(c, looks);
-    const auto of_step = cost_of_step(c.rows, cost);
     for (const Row& row : c.rows)
-      if (const auto price = cost_or_estimate(row, of_step, cost);
-          price && row.status != Status::refused) {
+      if (const auto price = cost(row); price && row.status != Status::refused) {
         series.points.push_back(point_of(row, *price));
         least = std::min(least, *price);
         most = std::max(most, *price);
       }
-    const auto order = observed_order(c.rows);
+    const auto& order = c.order;
     const auto twin = twins.find(c.method);
     if (with_orders && twin != twins.end())
       series.name += ": errors equal those of " + method_words(twin->second);
@@ -230,7 +220,7 @@ Plot cost_plot(const ProblemRows& problem, const Cost& cost, const Looks& looks,
     plot.series.push_back(std::move(series));
     const auto end = c.floor ? cost(c.rows[c.floor->last]) : std::nullopt;
     if (end)
-      plot.guides.push_back({plot.guides.empty() ? "stops falling" : "",
+      plot.guides.push_back({plot.guides.empty() ? "scatters below" : "",
                              {{*end, c.floor->largest}, {4 * *end, c.floor->largest}}});
   }
   double reference = 0;
@@ -299,7 +289,8 @@ std::optional<DriftPlots> drift_plots(const ProblemRows& problem, const Looks& l
   plots.error.title = "Error so far against time";
   plots.error.y_name = error_words(problem);
   plots.energy.title = "Drift of the energy against time";
-  plots.energy.y_name = "largest change of the energy so far, relative";
+  plots.energy.y_name =
+      "largest change of the energy so far, over the kinetic and elastic at first";
   plots.energy.empty = "the problem does not keep its energy";
   return plots;
 }

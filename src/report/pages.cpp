@@ -384,6 +384,8 @@ DrawList draw_slide(const ProblemRows& problem, const Measurement& measurement) 
     std::erase_if(shown.rows, is_other);
   Plot plot = plots_of(shown, looks_of(measurement.rows)).first;
   plot.title.clear();
+  plot.guides.clear();
+  plot.slopes.clear();
   for (PlotSeries& series : plot.series)  // orders are on the other page
     series.name = series.name.substr(0, series.name.find(": "));
   plot.size = 27;

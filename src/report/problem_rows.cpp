@@ -105,11 +105,12 @@ std::vector<ProblemRows> by_problem(std::span<const Row> rows) {
 std::vector<MethodRows> by_method(const ProblemRows& problem) {
   std::vector<MethodRows> all;
   for (const Row& row : problem.rows)
-    with_name(all, &MethodRows::method, {row.method, row.is_peer(), row.version, {}, {}})
+    with_name(all, &MethodRows::method, {row.method, row.is_peer(), row.version, {}, {}, {}})
         .rows.push_back(row);
   for (MethodRows& c : all) {
     std::ranges::stable_sort(c.rows, std::greater(), &Row::step);
     c.floor = observed_floor(c.rows);
+    c.order = observed_order(std::span(c.rows).first(c.floor ? c.floor->first : c.rows.size()));
   }
   return all;
 }

@@ -19,10 +19,22 @@ inline constexpr double kRounding = 0x1p-52;  // an error that says no more than
 // It chooses its steps itself, and moves the bodies without the world's step.
 inline bool is_adaptive(std::string_view method) { return method == kAdaptive; }
 
-// Where smaller steps bring no smaller error: from the first to the last of some rows.
+// An order, and how far the slopes between neighbouring rows lie from it, at most; where they only
+// rise or only fall as steps shrink, the first and the last: then the order is still on its way.
+struct Order {
+  double exponent = 0, spread = 0;
+  std::optional<std::pair<double, double>> trend = {};
+  std::string words() const {
+    if (trend) return fmt::format("{:.2f}→{:.2f}", trend->first, trend->second);
+    return fmt::format("{:.2f}±{:.2f}", exponent, spread);
+  }
+};
+
+// From the first to the last of some rows errors scatter below the largest of them: which of them a
+// run ends with is chance.
 struct Floor {
   std::size_t first = 0, last = 0;
-  double largest = 0;  // error there: which of them a run ends with is chance
+  double largest = 0;
 };
 
 // The same of one method, the largest step first.
@@ -32,7 +44,8 @@ struct MethodRows {
   std::string version;
   std::vector<Row> rows;
   std::optional<Floor> floor;
-  std::string name() const;  // "explicit Euler", "Bullet:10 3.24"
+  std::optional<Order> order;  // of the rows before it
+  std::string name() const;    // "explicit Euler", "Bullet:10 3.24"
 };
 std::vector<MethodRows> by_method(const ProblemRows& problem);
 
@@ -54,17 +67,6 @@ bool has_whole_errors(const ProblemRows& problem);
 // first row, peers from kFirstPeerLook on.
 using Looks = std::map<std::string, int>;
 Looks looks_of(std::span<const Row> rows);
-
-// An order, and how far the slopes between neighbouring rows lie from it, at most; where they only
-// rise or only fall as steps shrink, the first and the last: then the order is still on its way.
-struct Order {
-  double exponent = 0, spread = 0;
-  std::optional<std::pair<double, double>> trend = {};
-  std::string words() const {
-    if (trend) return fmt::format("{:.2f}→{:.2f}", trend->first, trend->second);
-    return fmt::format("{:.2f}±{:.2f}", exponent, spread);
-  }
-};
 
 // p in error ~ step^p: least squares through the logarithms of the rows above the rounding floor,
 // where the error has begun to shrink evenly. Nothing for fewer than three such rows, or if no even
@@ -133,8 +135,8 @@ std::vector<Vec<2>> pareto_front(const ProblemRows& problem, const Cost& cost);
 std::optional<double> seconds_of(const Row& row);
 
 // One plot of a problem: its methods as series, the observed order behind each name if
-// `with_orders`, runs that failed at the upper edge, the estimated rounding floor, the Pareto
-// front. `looks` must hold every method (looks_of).
+// `with_orders`, runs that failed at the upper edge if they have a cost, the estimated rounding
+// floor, the Pareto front. `looks` must hold every method (looks_of).
 Plot cost_plot(const ProblemRows& problem, const Cost& cost, const Looks& looks, bool with_orders);
 
 // The two plots of a problem: error against seconds and against counted work. Runs that are only

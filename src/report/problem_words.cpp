@@ -66,11 +66,16 @@ struct Range {
   std::string who, over;  // nobody is lead over where some tie
   bool ahead = false;     // each of them of all others
   int from = 0, to = 0;   // decades
-  double share = 1, last_share = 1;
+  double least_share = 1, most_share = 1;
   bool at_most = false;  // the share
   bool goes_on_in(const Range& next) const {
     return who == next.who && over == next.over && ahead == next.ahead && at_most == next.at_most &&
            to == next.to + 1;
+  }
+  void take(const Range& next) {
+    to = next.to;
+    least_share = std::min(least_share, next.least_share);
+    most_share = std::max(most_share, next.most_share);
   }
 };
 
@@ -102,8 +107,13 @@ std::optional<Range> range_of(std::span<const MethodRows> methods, double error,
   if (names.size() > 3)
     range.who = fmt::format("{} methods, {} among them,", names.size(), names[0]);
   if (names.size() == 1) {
-    range.over = second.name;
-    range.share = range.last_share = first.time.median / second.least;
+    std::vector<std::string> next{second.name};
+    for (const Standing& one : others)
+      if (one.name != second.name && !is_quicker(second, one)) next.push_back(one.name);
+    std::ranges::sort(next);
+    range.over = next.size() > 3 ? fmt::format("the next, of {} that tie,", next.size())
+                                 : fmt::format("{}", fmt::join(next, " or "));
+    range.least_share = range.most_share = first.time.median / second.least;
     range.at_most = first.least < first.time.median || second.least < second.time.median;
   }
   return range;
@@ -116,10 +126,11 @@ std::string clause_of(const Range& r, bool whole) {
                                           : "at errors of " + error(r.from) + " to " + error(r.to);
   if (r.over.empty())
     return fmt::format("{} {} tie{}", at, r.who, r.ahead ? ", ahead of the others" : "");
-  const std::string share = fmt::format("{:.2g}", r.share),
-                    last = fmt::format("{:.2g}", r.last_share);
+  std::string share = fmt::format("{:.2g}", r.most_share);
+  if (const std::string least = fmt::format("{:.2g}", r.least_share); least != share)
+    share = least + " to " + share;
   return fmt::format("{} {} costs {}{} of what {} costs", at, r.who, r.at_most ? "at most " : "",
-                     share == last ? share : share + " to " + last, r.over);
+                     share, r.over);
 }
 
 // Where errors hang on steps too little: who is off least, at the largest as at all smaller ones.
@@ -177,7 +188,7 @@ std::string who_is_quickest(const ProblemRows& problem) {
     if (ranges.empty() || !ranges.back().goes_on_in(*range))
       ranges.push_back(std::move(*range));
     else
-      ranges.back().to = decade, ranges.back().last_share = range->last_share;
+      ranges.back().take(*range);
   }
   if (ranges.empty()) return who_bears_the_largest_step(methods);
   while (ranges.size() > 3)  // one line: the widest
@@ -214,30 +225,37 @@ std::vector<std::string> notes_on(const ProblemRows& problem) {
         fmt::format("The reference is itself off by about {}, its distance from the same run at "
                     "twice its step; no smaller error is claimed.",
                     figure(reference_error)));
-  std::vector<std::string> floors;
+  std::vector<std::string> floors, evaluations;
   std::map<double, std::string> prices;  // of an evaluation
   for (const MethodRows& method : by_method(problem)) {
     if (method.floor)
-      floors.push_back(fmt::format("{} {}", method.name(), figure(method.floor->largest)));
+      floors.push_back(fmt::format("{} {} from {} s on", method.name(),
+                                   figure(method.floor->largest),
+                                   figure(method.rows[method.floor->first].step)));
     const Row& most = *std::ranges::max_element(
         method.rows, {}, [](const Row& row) { return row.counted.force_evaluations; });
-    if (const auto seconds = seconds_of(most); seconds && most.counted.force_evaluations > 0)
-      prices[*seconds / static_cast<double>(most.counted.force_evaluations)] = method.name();
+    const auto count = static_cast<double>(most.counted.force_evaluations);
+    if (const auto seconds = seconds_of(most); seconds && count > 0) {
+      prices[*seconds / count] = method.name();
+      evaluations.push_back(
+          fmt::format("{} {:.3g}", method.name(), count / static_cast<double>(most.counted.steps)));
+    }
   }
   if (!floors.empty())
-    notes.push_back("Floors, where smaller steps bring no smaller error: at most " +
-                    fmt::format("{}", fmt::join(floors, ", ")) + ".");
+    notes.push_back(fmt::format("At most, and scattered below: {}.", fmt::join(floors, ", ")));
   if (prices.size() > 1 && work_count(problem).count == &Counted::force_evaluations)
     notes.push_back(fmt::format(
-        "For each evaluation of the forces the longest run of a method takes {} ({}) to {} ({}): "
-        "each bears its share of the step.",
-        seconds_text(prices.begin()->first), prices.begin()->second,
+        "The longest run of a method evaluates the forces so often in a step: {}; for each it "
+        "takes "
+        "{} ({}) to {} ({}), with its share of the step.",
+        fmt::join(evaluations, ", "), seconds_text(prices.begin()->first), prices.begin()->second,
         seconds_text(prices.rbegin()->first), prices.rbegin()->second));
   if (adaptive)
     notes.push_back(
-        "Dormand–Prince, adaptive, solves the bare equations of motion, without the world's step: "
-        "its seconds buy less. Its “step” stands for a tolerance: 1e-3 at the largest, less by the "
-        "fifth power, 1e-14 at least.");
+        "Dormand–Prince, adaptive, solves the bare equations of motion: its seconds do not pay for "
+        "the world's step, and stand beside none. Its “step” stands for a tolerance, relative to "
+        "the scene's size and speed: 1e-3 at its largest step, less by the fifth power, 1e-14 at "
+        "least.");
   if (left_out > 0)
     notes.push_back(fmt::format("{} of {} runs {} left out as too long.", left_out,
                                 problem.rows.size(), left_out == 1 ? "was" : "were"));

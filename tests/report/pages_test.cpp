@@ -115,16 +115,21 @@ TEST(CostPlot, HasEveryRunThatCostSomething) {
   }
 }
 
-TEST(CostPlot, ShowsARunThatDivergedAndSoWasNotTimed) {
+// It has no time, but its work was counted.
+TEST(CostPlot, ShowsARunThatDivergedByItsWorkAlone) {
   ProblemRows problem{"oscillator", "oscillator", "plain", {}};
   problem.rows = {samples::row("a", 0.1, 1, 0, 100), samples::row("a", 0.05, 1e-3, 0.02, 200),
                   samples::row("a", 0.025, 1e-4, 0.04, 400)};
   problem.rows[0].status = Status::diverged;
-  const auto series = cost_plot(problem, seconds_of, looks_of(problem.rows), false).series;
-  ASSERT_EQ(series.size(), 1u);
-  ASSERT_EQ(series[0].points.size(), 3u) << "the run that diverged is not shown";
-  EXPECT_TRUE(series[0].points[0].beyond);
-  EXPECT_NEAR(series[0].points[0].at.x, 0.01, 1e-12) << "100 steps at 0.1 ms";
+  const Looks looks = looks_of(problem.rows);
+  const auto timed = cost_plot(problem, seconds_of, looks, false).series;
+  ASSERT_EQ(timed.size(), 1u);
+  EXPECT_EQ(timed[0].points.size(), 2u);
+  const auto work = [&](const Row& row) { return work_count(problem).of(row); };
+  const auto counted = cost_plot(problem, work, looks, false).series;
+  ASSERT_EQ(counted[0].points.size(), 3u) << "the run that diverged is not shown";
+  EXPECT_TRUE(counted[0].points[0].beyond);
+  EXPECT_EQ(counted[0].points[0].at.x, 100);
 }
 
 TEST(Overview, IsLaidOut) {
