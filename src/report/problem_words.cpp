@@ -229,20 +229,23 @@ std::vector<std::string> notes_on(const ProblemRows& problem) {
   std::map<double, std::string> prices;  // of an evaluation
   for (const MethodRows& method : by_method(problem)) {
     if (method.floor)
-      floors.push_back(fmt::format("{} {} from {} s on", method.name(),
-                                   figure(method.floor->largest),
-                                   figure(method.rows[method.floor->first].step)));
+      floors.push_back(fmt::format("from {} s on: {} ({})",
+                                   figure(method.rows[method.floor->first].step),
+                                   figure(method.floor->largest), method.name()));
     const Row& most = *std::ranges::max_element(
         method.rows, {}, [](const Row& row) { return row.counted.force_evaluations; });
     const auto count = static_cast<double>(most.counted.force_evaluations);
     if (const auto seconds = seconds_of(most); seconds && count > 0) {
       prices[*seconds / count] = method.name();
-      evaluations.push_back(
-          fmt::format("{} {:.3g}", method.name(), count / static_cast<double>(most.counted.steps)));
+      evaluations.push_back(fmt::format(
+          "{:.3g} ({})", count / static_cast<double>(most.counted.steps), method.name()));
     }
   }
   if (!floors.empty())
-    notes.push_back(fmt::format("At most, and scattered below: {}.", fmt::join(floors, ", ")));
+    notes.push_back(
+        fmt::format("Dashed: rounding as a random walk, 2^-52 times the square root of "
+                    "the steps; and what no error exceeds at steps {}.",
+                    fmt::join(floors, ", ")));
   if (prices.size() > 1 && work_count(problem).count == &Counted::force_evaluations)
     notes.push_back(fmt::format(
         "The longest run of a method evaluates the forces so often in a step: {}; for each it "

@@ -73,8 +73,10 @@ TEST(Floor, OfNoiseIsToldByItsLargestError) {
   EXPECT_EQ(floor->first, 4u);
   EXPECT_EQ(floor->last, 9u);
   EXPECT_EQ(floor->largest, 5.1e-13);
-  EXPECT_EQ(notes_on({"p", "p", "plain", rows})[0],
-            "At most, and scattered below: m 5.1e-13 from 0.00625 s on.");
+  EXPECT_EQ(
+      notes_on({"p", "p", "plain", rows})[0],
+      "Dashed: rounding as a random walk, 2^-52 times the square root of the steps; and what no "
+      "error exceeds at steps from 0.00625 s on: 5.1e-13 (m).");
 }
 
 TEST(Floor, MayEndOnAnErrorThatIsSmallByChance) {
@@ -332,8 +334,8 @@ TEST(Notes, TellWhatAnEvaluationCostsWhatWasHeldAgainstAndWhatWasLeftOut) {
   EXPECT_EQ(notes[0], "Reference: closed form; period 3 s; looked at 21 times in 9 s.");
   EXPECT_EQ(
       notes[1],
-      "The longest run of a method evaluates the forces so often in a step: velocity Verlet 2, "
-      "Runge–Kutta 4 4; for each it takes 0.25 µs (Runge–Kutta 4) to 2 µs (velocity Verlet), "
+      "The longest run of a method evaluates the forces so often in a step: 2 (velocity Verlet), "
+      "4 (Runge–Kutta 4); for each it takes 0.25 µs (Runge–Kutta 4) to 2 µs (velocity Verlet), "
       "with its share of the step.");
   EXPECT_EQ(notes[2], "1 of 3 runs was left out as too long.");
 }
