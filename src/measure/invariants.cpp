@@ -180,14 +180,15 @@ void DriftMeter::look(const std::vector<BodyState>& states) {
       std::max(angular_momentum_, glm::length(now.angular_momentum - start_.angular_momentum));
 }
 
-// Changes of energy against what the scene starts with, or, dropped from rest, with its largest
-// kinetic energy.
+double DriftMeter::energy_scale() const {
+  const double energy = start_.kinetic_energy + start_.spring_energy;
+  return energy > 0 ? energy : most_kinetic_;
+}
+
 Drift DriftMeter::drift() const {
   const auto relative = [](double change, double scale) { return scale > 0 ? change / scale : 0; };
-  const double energy = start_.kinetic_energy + start_.spring_energy;
   Drift drift;
-  if (invariants_.keeps_energy())
-    drift.energy = relative(energy_, energy > 0 ? energy : most_kinetic_);
+  if (invariants_.keeps_energy()) drift.energy = relative(energy_, energy_scale());
   if (invariants_.keeps_momentum()) drift.momentum = relative(momentum_, start_.flow);
   if (invariants_.keeps_angular_momentum())
     drift.angular_momentum = relative(angular_momentum_, start_.swirl);

@@ -56,6 +56,9 @@ class DriftMeter {
   explicit DriftMeter(const Invariants& invariants) : invariants_(invariants) {}
   void look(const std::vector<BodyState>& states);
   Drift drift() const;
+  // What the drift of the energy is told over, J: the kinetic and elastic energy of the start, or,
+  // of what is dropped from rest, the largest kinetic energy so far.
+  double energy_scale() const;
   double penetration() const { return penetration_; }
 
  private:

@@ -154,14 +154,23 @@ class Sampler : public ErrorMetric {
     metric_.look(now);
     const double seen = seen_++;
     if (seen < next_ && seen < looks_) return;
-    if (seen > 0)
+    if (seen > 0) {
       samples_.push_back({now.time, metric_.norms().front().value, meter_.drift().energy});
+      scales_.push_back(meter_.energy_scale());
+    }
     next_ = std::max(seen + 1, std::floor(seen * growth_));
   }
   void interfere(const Observation& now, Simulation& simulation) override {
     metric_.interfere(now, simulation);
   }
-  const std::vector<DriftSample>& samples() const { return samples_; }
+  // All over the scale of the whole run: what has changed so far does not shrink.
+  std::vector<DriftSample> samples() const {
+    std::vector<DriftSample> all = samples_;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (all[i].energy && meter_.energy_scale() > 0)
+        *all[i].energy *= scales_[i] / meter_.energy_scale();
+    return all;
+  }
 
  private:
   static constexpr double kSamples = 12;
@@ -170,6 +179,7 @@ class Sampler : public ErrorMetric {
   const DriftMeter& meter_;
   double looks_ = 0, seen_ = 0, next_ = 1, growth_ = 1;
   std::vector<DriftSample> samples_;
+  std::vector<double> scales_;  // that their energies are over
 };
 
 // --- the runs ---

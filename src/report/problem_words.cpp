@@ -126,7 +126,9 @@ std::string clause_of(const Range& r, bool whole) {
                                           : "at errors of " + error(r.from) + " to " + error(r.to);
   if (r.over.empty())
     return fmt::format("{} {} tie{}", at, r.who, r.ahead ? ", ahead of the others" : "");
-  std::string share = fmt::format("{:.2g}", r.most_share);
+  const double unit = geometry::pow(10, std::floor(geometry::log10(r.most_share)) - 1);
+  const double most = r.at_most ? unit * std::ceil(r.most_share / unit) : r.most_share;  // a bound
+  std::string share = fmt::format("{:.2g}", most);
   if (const std::string least = fmt::format("{:.2g}", r.least_share); least != share)
     share = least + " to " + share;
   return fmt::format("{} {} costs {}{} of what {} costs", at, r.who, r.at_most ? "at most " : "",
@@ -163,7 +165,7 @@ std::string who_bears_the_largest_step(std::span<const MethodRows> methods) {
   std::vector<std::string> names;
   for (auto one = all.begin(); one != next; ++one)
     names.push_back(fmt::format("{} ({}{})", one->name, seconds_text(one->seconds),
-                                names.empty() ? " at the largest" : ""));
+                                names.empty() ? " at the largest step" : ""));
   if (names.size() > 4) {
     names[3] = fmt::format("{} others", names.size() - 3);
     names.resize(4);
@@ -171,7 +173,8 @@ std::string who_bears_the_largest_step(std::span<const MethodRows> methods) {
   std::string text = fmt::format("At steps of up to {} s that were run, {} {} off by {}{}",
                                  figure(step), listed(names), names.size() == 1 ? "is" : "are",
                                  least > 0 ? "at most " : "", figure(least));
-  if (next != all.end()) text += ", the next one by up to " + figure(next->error);
+  if (next != all.end())
+    text += fmt::format(", the next, {}, by up to {}", next->name, figure(next->error));
   return text + ".";
 }
 
@@ -196,7 +199,7 @@ std::string who_is_quickest(const ProblemRows& problem) {
         std::ranges::min_element(ranges, {}, [](const Range& r) { return r.from - r.to; }));
   std::vector<std::string> clauses;
   for (const Range& range : ranges) clauses.push_back(clause_of(range, whole));
-  return fmt::format("Of fixed steps, {}: {}.",
+  return fmt::format("At given steps, {}: {}.",
                      whole ? "by the cheapest run" : "read between neighbouring runs",
                      fmt::join(clauses, "; "));
 }
@@ -227,31 +230,43 @@ std::vector<std::string> notes_on(const ProblemRows& problem) {
                     figure(reference_error)));
   std::vector<std::string> floors, evaluations;
   std::map<double, std::string> prices;  // of an evaluation
+  const bool by_forces = work_count(problem).count == &Counted::force_evaluations;
+  bool varied = false;
   for (const MethodRows& method : by_method(problem)) {
     if (method.floor)
       floors.push_back(fmt::format("from {} s on: {} ({})",
                                    figure(method.rows[method.floor->first].step),
                                    figure(method.floor->largest), method.name()));
-    const Row& most = *std::ranges::max_element(
+    std::vector<double> in_a_step;
+    for (const Row& row : method.rows)
+      if (row.status == Status::ok && row.counted.force_evaluations > 0)
+        in_a_step.push_back(static_cast<double>(row.counted.force_evaluations) /
+                            static_cast<double>(row.counted.steps));
+    if (in_a_step.empty()) continue;
+    const auto [least, most] = std::ranges::minmax(in_a_step);
+    const std::string few = fmt::format("{:.3g}", least), many = fmt::format("{:.3g}", most);
+    varied = varied || few != many;
+    evaluations.push_back(
+        fmt::format("{} ({})", few == many ? few : few + " to " + many, method.name()));
+    const Row& longest = *std::ranges::max_element(
         method.rows, {}, [](const Row& row) { return row.counted.force_evaluations; });
-    const auto count = static_cast<double>(most.counted.force_evaluations);
-    if (const auto seconds = seconds_of(most); seconds && count > 0) {
-      prices[*seconds / count] = method.name();
-      evaluations.push_back(fmt::format(
-          "{:.3g} ({})", count / static_cast<double>(most.counted.steps), method.name()));
-    }
+    if (const auto seconds = seconds_of(longest))
+      prices[*seconds / static_cast<double>(longest.counted.force_evaluations)] = method.name();
   }
   if (!floors.empty())
     notes.push_back(
         fmt::format("Dashed: rounding as a random walk, 2^-52 times the square root of "
                     "the steps; and what no error exceeds at steps {}.",
                     fmt::join(floors, ", ")));
-  if (prices.size() > 1 && work_count(problem).count == &Counted::force_evaluations)
+  if ((by_forces && !evaluations.empty()) || varied)
     notes.push_back(fmt::format(
-        "The longest run of a method evaluates the forces so often in a step: {}; for each it "
-        "takes "
-        "{} ({}) to {} ({}), with its share of the step.",
-        fmt::join(evaluations, ", "), seconds_text(prices.begin()->first), prices.begin()->second,
+        "A step evaluates the forces so often, more where it is taken in parts or again: {}.",
+        fmt::join(evaluations, ", ")));
+  if (by_forces && prices.size() > 1)
+    notes.push_back(fmt::format(
+        "For each evaluation the longest run of a method takes {} ({}) to {} ({}), with its share "
+        "of the step.",
+        seconds_text(prices.begin()->first), prices.begin()->second,
         seconds_text(prices.rbegin()->first), prices.rbegin()->second));
   if (adaptive)
     notes.push_back(
@@ -259,6 +274,12 @@ std::vector<std::string> notes_on(const ProblemRows& problem) {
         "the world's step, and stand beside none. Its “step” stands for a tolerance, relative to "
         "the scene's size and speed: 1e-3 at its largest step, less by the fifth power, 1e-14 at "
         "least.");
+  for (const std::vector<std::string>& group : equal_methods(problem)) {
+    std::vector<std::string> names;
+    std::ranges::transform(group, std::back_inserter(names), method_words);
+    notes.push_back(fmt::format("{} are one method here: they are off by the same in every run.",
+                                listed(names)));
+  }
   if (left_out > 0)
     notes.push_back(fmt::format("{} of {} runs {} left out as too long.", left_out,
                                 problem.rows.size(), left_out == 1 ? "was" : "were"));

@@ -123,7 +123,7 @@ bool says(const std::string& text, const std::string& part) {
 TEST(WhoIsQuickest, IsReadBetweenRuns) {
   EXPECT_EQ(quickest_of({runs_of("velocity_verlet", {1, 1e-1, 1e-2, 1e-3, 1e-4, 1e-5}, 1),
                          runs_of("runge_kutta_4", {1, 1e-2, 1e-4}, 2)}),
-            "Of fixed steps, read between neighbouring runs: at an error of 0.1 velocity Verlet "
+            "At given steps, read between neighbouring runs: at an error of 0.1 velocity Verlet "
             "costs 0.71 of what Runge–Kutta 4 costs; at an error of 0.01 Runge–Kutta 4 and "
             "velocity Verlet tie; at errors of 0.001 to 1e-4 Runge–Kutta 4 costs 0.5 to 0.71 of "
             "what velocity Verlet costs.");
@@ -151,17 +151,18 @@ TEST(WhoIsQuickest, IsElseWhoIsOffLeastAtTheLargestStep) {
   auto exact = runs_of("exact", {1e-15, 0, 2e-15}, 1), one = runs_of("impulse", {0, 0, 0}, 1);
   exact[2].status = one[1].status = Status::left_out;
   one[0].processor.median = 3;
-  EXPECT_EQ(quickest_of({runs_of("lecture", {0.3, 0.4, 0.2}, 1), exact, one}),
-            "At steps of up to 0.1 s that were run, exact turning (1 s at the largest) and "
-            "impulses (3 s) are off by at most 1e-15, the next one by up to 0.4.");
+  EXPECT_EQ(
+      quickest_of({runs_of("lecture", {0.3, 0.4, 0.2}, 1), exact, one}),
+      "At steps of up to 0.1 s that were run, exact turning (1 s at the largest step) and "
+      "impulses (3 s) are off by at most 1e-15, the next, the lecture's solver, by up to 0.4.");
 }
 
 TEST(WhoIsQuickest, IsTheCheapestRightOutcomeWhereErrorsAreCounted) {
   EXPECT_EQ(quickest_of({runs_of("exact", {3, 0, 0}, 1), runs_of("lecture", {9, 7, 0}, 1)}),
-            "Of fixed steps, by the cheapest run: for a right outcome exact turning and the "
+            "At given steps, by the cheapest run: for a right outcome exact turning and the "
             "lecture's solver tie.");
   EXPECT_EQ(quickest_of({runs_of("exact", {3, 0, 0}, 1), runs_of("lecture", {9, 9, 7, 0}, 1)}),
-            "Of fixed steps, by the cheapest run: for a right outcome exact turning costs at most "
+            "At given steps, by the cheapest run: for a right outcome exact turning costs at most "
             "0.5 of what the lecture's solver costs.");
 }
 
@@ -306,9 +307,9 @@ TEST(Notes, DefineTheNormAndNameWhoIsMeasuredOtherwise) {
   Row own = samples::row("dormand_prince:adaptive", 0.1, 1e-9, 1e-3, 100);
   own.norms[0] = {"depth", 0.1, "units", "deepest overlap"};
   const std::vector<std::string> notes = notes_on(problem_of({own}));
-  ASSERT_EQ(notes.size(), 2u);
+  ASSERT_EQ(notes.size(), 3u);
   EXPECT_EQ(notes[0], "“depth” (units): deepest overlap.");
-  EXPECT_NE(notes[1].find("do not pay for the world's step"), std::string::npos);
+  EXPECT_NE(notes[2].find("do not pay for the world's step"), std::string::npos);
   EXPECT_TRUE(notes_on(problem_of({})).empty());
 }
 
@@ -316,8 +317,20 @@ TEST(Notes, TellHowGoodTheReferenceIs) {
   Row fine = samples::row("velocity_verlet", 0.005, 1e-9, 0.002, 2060);
   fine.reference_error = 3e-4;
   EXPECT_EQ(fine.error(), 3e-4);
-  EXPECT_NE(notes_on(problem_of({fine})).back().find("is itself off by about 3e-4"),
-            std::string::npos);
+  EXPECT_NE(notes_on(problem_of({fine}))[0].find("is itself off by about 3e-4"), std::string::npos);
+}
+
+TEST(Notes, TellWhoIsOneMethodAndWhoseStepsAreTakenInParts) {
+  std::vector<Row> rows;
+  for (const char* name : {"velocity_verlet", "semi_implicit_euler"})
+    for (const double h : {0.1, 0.05})
+      rows.push_back(samples::row(name, h, h * h, 1e-3, h == 0.1 ? 80 : 40)),
+          rows.back().counted.steps = 20;
+  const std::vector<std::string> notes = notes_on(problem_of(rows));
+  EXPECT_TRUE(says(notes[0], "again: 2 to 4 (velocity Verlet), 2 to 4 (semi-implicit Euler)."));
+  EXPECT_EQ(notes.back(),
+            "velocity Verlet and semi-implicit Euler are one method here: they are off by the same "
+            "in every run.");
 }
 
 TEST(Notes, TellWhatAnEvaluationCostsWhatWasHeldAgainstAndWhatWasLeftOut) {
@@ -330,14 +343,15 @@ TEST(Notes, TellWhatAnEvaluationCostsWhatWasHeldAgainstAndWhatWasLeftOut) {
   a.counted.steps = 500;
   b.counted.steps = 1000;
   const std::vector<std::string> notes = notes_on(problem_of({a, b, c}));
-  ASSERT_EQ(notes.size(), 3u);
+  ASSERT_EQ(notes.size(), 4u);
   EXPECT_EQ(notes[0], "Reference: closed form; period 3 s; looked at 21 times in 9 s.");
-  EXPECT_EQ(
-      notes[1],
-      "The longest run of a method evaluates the forces so often in a step: 2 (velocity Verlet), "
-      "4 (Runge–Kutta 4); for each it takes 0.25 µs (Runge–Kutta 4) to 2 µs (velocity Verlet), "
-      "with its share of the step.");
-  EXPECT_EQ(notes[2], "1 of 3 runs was left out as too long.");
+  EXPECT_EQ(notes[1],
+            "A step evaluates the forces so often, more where it is taken in parts or again: 2 "
+            "(velocity Verlet), 4 (Runge–Kutta 4).");
+  EXPECT_EQ(notes[2],
+            "For each evaluation the longest run of a method takes 0.25 µs (Runge–Kutta 4) to 2 µs "
+            "(velocity Verlet), with its share of the step.");
+  EXPECT_EQ(notes[3], "1 of 3 runs was left out as too long.");
 }
 
 TEST(EqualMethods, AgreeInEveryRunThatTheyShare) {
