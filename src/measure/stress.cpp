@@ -245,7 +245,7 @@ std::span<const StressCase> stress_cases() {
     std::vector<StressCase> all;
     for (StressTopic* const topic :
          {tree_cases, input_cases, shape_cases, origin_cases, step_cases, contact_cases,
-          stiff_cases, stability_cases, energy_cases, law_cases, bar_cases, scenario_cases})
+          stiff_cases, stability_cases, energy_cases, law_cases, scenario_cases})
       std::ranges::copy(topic(), std::back_inserter(all));
     return all;
   }();

@@ -43,7 +43,7 @@ StressOutcome run_case(const StressCase& stress_case);
 // The tables of the topics, a file each (stress_<topic>.cpp), in the order of the whole table.
 using StressTopic = std::vector<StressCase>();
 StressTopic tree_cases, input_cases, shape_cases, origin_cases, step_cases, contact_cases,
-    stiff_cases, stability_cases, energy_cases, law_cases, bar_cases;
+    stiff_cases, stability_cases, energy_cases, law_cases;
 
 // The stability map: how much one step of each method multiplies a damped spring's motion, measured
 // with the real engine, over the step (omega h) and the damping ratio (zeta).

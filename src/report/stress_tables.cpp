@@ -61,7 +61,7 @@ std::string row_text(const StressOutcome& outcome, std::size_t name_width) {
 // bounds are Lantern's.
 std::string seen_elsewhere(std::string_view name) {
   constexpr std::pair<std::string_view, std::string_view> kSeen[] = {
-      {"free_fall", "0.0245 m"},           {"torque_free_momentum", "6e-3"},
+      {"free_fall", "0.0245 m"},           {"torque_free", "6e-3 of its momentum"},
       {"elastic_bounce", "5.7e-6"},        {"stack_of_60", "0.1 mm (Jolt)"},
       {"heavy_on_light", "11 mm (Jolt)"},  {"chain_of_rods", "13 mm (Jolt)"},
       {"sliding", "1e-2 m (Jolt's test)"}, {"far_from_origin", "1e-3 m (Box2D's test)"},
