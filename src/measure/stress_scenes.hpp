@@ -402,12 +402,20 @@ Scene<D> beside_itself(Scene<D> s) {
 }
 
 // What a law leaves out: kinds of scenes, by these methods, or by all; in the plane, or in space,
-// too.
+// too; by these integrators, or by all.
 struct LeftOut {
   std::string_view law;
   std::vector<SceneKind> kinds;
   std::vector<ContactMethod> methods = {};
   bool plane = true;
+  std::vector<Integrator> integrators = {};
+
+  template <int D>
+  bool covers(const Scene<D>& scene) const {
+    return (D == 3 || plane) && std::ranges::count(kinds, scene.kind) > 0 &&
+           (methods.empty() || scene.is_of(methods)) &&
+           (integrators.empty() || std::ranges::count(integrators, scene.config.integrator) > 0);
+  }
 };
 
 // A case: the worst of `part(scene)` over all scenes that the law holds for, and where it was.
@@ -421,10 +429,7 @@ StressCase law(const std::vector<LeftOut>& left_out, std::string_view name, cons
             const auto go = [&]<int D>(const Scene<D>& scene) {
               ++all;
               for (const LeftOut& one : left_out)
-                if (one.law == name && (D == 3 || one.plane) &&
-                    std::ranges::count(one.kinds, scene.kind) > 0 &&
-                    (one.methods.empty() || scene.is_of(one.methods)))
-                  return;
+                if (one.law == name && one.covers(scene)) return;
               const double far = part(scene);
               ++tried;
               if (!(far <= worst)) where = scene.name;
