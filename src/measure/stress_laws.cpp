@@ -17,6 +17,7 @@ const std::vector<LeftOut> kLeftOut = {
     {"in_other_units", {bridge, heap}},
     {"in_other_units", {stack}, {soft, direct}},
     {"in_other_units", {slope}, {soft, lecture}},
+    {"in_other_units", {slope}, {direct}, false},
     {"in_mirrors", {bridge, heap}},
     {"in_mirrors", {slope, stack}, {}, false},
     // Links that are struck part for a step; what closes their gaps, and by how much explicit Euler
@@ -29,6 +30,8 @@ const std::vector<LeftOut> kLeftOut = {
     {"plane_in_space", {SceneKind::free, chain, room}, {}, false},
     // What bounces or hangs on joints gets impulses that no contact tells.
     {"settled", {SceneKind::free, chain, heap, swarm}},
+    // It is off 25 times as far as by any other method.
+    {"settled", {stack}, {direct}, true, {Integrator::explicit_euler}},
     {"two_ways", {SceneKind::free, chain, room, heap, swarm}},
     {"two_ways", {slope, stack, bridge}, {soft, impulse, lecture}},
     // What stands on something is pushed from outside.
@@ -61,7 +64,7 @@ double two_ways(Scene<D> scene) {
   scene.steps = 8;
   Scene<D> swept = scene;
   swept.config.contacts = impulse, swept.config.iterations = 1000;
-  const double allowed = scene.is(bridge) ? 1 : scene.is(slope) ? 0.2 : 1e-10;
+  const double allowed = scene.is(bridge) ? 1 : scene.is(slope) ? 0.2 : 1e-9;
   return Telling<D>().apart(after(scene), after(swept)) / allowed;
 }
 
@@ -150,7 +153,7 @@ StressResult orders() {
     if (!(off <= worst)) where = to_string(integrator);
     worst = largest(worst, off);
   }
-  return at_most(0.3, worst, "of an order", where);
+  return at_most(0.3, worst, "of an order", where);  // another order is 1 off, or 2
 }
 
 // What scenes keep that nothing pushes from outside: momentum, with which their middle moves on;
@@ -419,7 +422,7 @@ std::vector<StressCase> law_cases() {
       {"splittings", kGroup, "Splittings of the rotation are of order 2 and 4.",
        none_above(0.3, "of an order", "60 boxes, steps of 0.1 and 0.05 radians", splittings)},
       {"blows", kGroup, "A blow between two bodies obeys Newton's law, by every method.",
-       none_above(1e-12, "SI units", "40 pairs each, to 40 m/s, restitution 0.2, 0.5, 1",
+       none_above(5e-12, "SI units", "40 pairs each, to 40 m/s, restitution 0.2, 0.5, 1",
                   by_methods(blows<2>), by_methods(blows<3>))},
       {"same_bits", kGroup, "Scenes move bit for bit as they did when this was written.",
        same_bits},
@@ -431,12 +434,12 @@ std::vector<StressCase> law_cases() {
       law(kLeftOut, "two_ways", "All rows at once move bodies as sweeps do that go on for long.", 1,
           "of what is allowed", [](const auto& s) { return two_ways(s); }),
       law(kLeftOut, "in_other_units",
-          "Scenes move the same in other units of length, time and mass.", 1e-10, "m, m/s, kg m2/s",
+          "Scenes move the same in other units of length, time and mass.", 1e-12, "m, m/s, kg m2/s",
           []<int D>(const Scene<D>& s) {
             return Telling<D>{.length = 4, .time = 2, .mass = 8}.parted(s);
           }),
       law(kLeftOut, "in_mirrors",
-          "Scenes move the same along other axes, in a mirror, and in passing.", 1e-10,
+          "Scenes move the same along other axes, in a mirror, and in passing.", 5e-12,
           "m, m/s, kg m2/s", [](const auto& s) { return in_mirrors(s); }),
       law(kLeftOut, "beside_others", "Scenes move bit for bit the same beside others, far away.", 0,
           "m, m/s, kg m2/s", [](const auto& s) { return beside_others(s); }),

@@ -92,6 +92,7 @@ StressResult below_limit() {
     if (far > worst) at = zeta;
     worst = largest(worst, far);
   }
+  // So near to the limit what is damped critically swells for a while, by theory 36 times.
   return at_most(100, worst, "x the start", fmt::format("worst at damping ratio {}", at));
 }
 
@@ -256,7 +257,7 @@ std::vector<StressCase> stability_cases() {
        map_agrees},
       {"explicit_euler_energy", kGroup,
        "Each step multiplies an undamped spring's energy by 1 + (omega h)^2.",
-       keeps_law(1e-10, "500 steps, omega h from 0.01 to 1", explicit_euler, {0.01, 0.1, 1}, 500,
+       keeps_law(2e-13, "500 steps, omega h from 0.01 to 1", explicit_euler, {0.01, 0.1, 1}, 500,
                  [](double w2) { return 1 + w2; })},
       // The modified energy v^2 + w^2 x^2 - h w^2 x v is kept.
       {"semi_implicit_euler_energy", kGroup, "The energy of an undamped spring stays bounded.",
@@ -269,15 +270,15 @@ std::vector<StressCase> stability_cases() {
       // |R(iw)|^2 = 1 - w^6/72 + w^8/576, exactly.
       {"runge_kutta_4_energy", kGroup,
        "Each step loses (omega h)^6/72 of an undamped spring's energy.",
-       keeps_law(1e-10, "200 steps, omega h from 0.01 to 2", runge_kutta_4, {0.01, 0.1, 1, 2}, 200,
+       keeps_law(5e-13, "200 steps, omega h from 0.01 to 2", runge_kutta_4, {0.01, 0.1, 1, 2}, 200,
                  [](double w2) { return 1 - w2 * w2 * w2 / 72 + w2 * w2 * w2 * w2 / 576; })},
       {"implicit_midpoint_energy", kGroup,
        "The energy of an undamped spring is kept to rounding, at any step.",
-       keeps_law(1e-11, "1000 steps, omega h from 0.01 to 100", implicit_midpoint,
+       keeps_law(1e-12, "1000 steps, omega h from 0.01 to 100", implicit_midpoint,
                  {0.01, 0.1, 1, 10, 100}, 1000, [](double) { return 1.0; })},
       {"implicit_euler_energy", kGroup,
        "Each step divides an undamped spring's energy by 1 + (omega h)^2.",
-       keeps_law(1e-10, "500 steps, omega h from 0.01 to 1", implicit_euler, {0.01, 0.1, 1}, 500,
+       keeps_law(2e-13, "500 steps, omega h from 0.01 to 1", implicit_euler, {0.01, 0.1, 1}, 500,
                  [](double w2) { return 1 / (1 + w2); })},
       {"million_periods", kGroup,
        "Over a million periods Verlet's energy wavers, but does not drift.", many_periods, true}};
