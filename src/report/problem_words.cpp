@@ -259,9 +259,10 @@ std::vector<std::string> notes_on(const ProblemRows& problem) {
                     "the steps; and what no error exceeds at steps {}.",
                     fmt::join(floors, ", ")));
   if ((by_forces && !evaluations.empty()) || varied)
-    notes.push_back(fmt::format(
-        "A step evaluates the forces so often, more where it is taken in parts or again: {}.",
-        fmt::join(evaluations, ", ")));
+    notes.push_back(
+        fmt::format("A step evaluates the forces so often, more where it is taken in parts or "
+                    "solved again: {}.",
+                    fmt::join(evaluations, ", ")));
   if (by_forces && prices.size() > 1)
     notes.push_back(fmt::format(
         "For each evaluation the longest run of a method takes {} ({}) to {} ({}), with its share "

@@ -345,9 +345,10 @@ TEST(Notes, TellWhatAnEvaluationCostsWhatWasHeldAgainstAndWhatWasLeftOut) {
   const std::vector<std::string> notes = notes_on(problem_of({a, b, c}));
   ASSERT_EQ(notes.size(), 4u);
   EXPECT_EQ(notes[0], "Reference: closed form; period 3 s; looked at 21 times in 9 s.");
-  EXPECT_EQ(notes[1],
-            "A step evaluates the forces so often, more where it is taken in parts or again: 2 "
-            "(velocity Verlet), 4 (Runge–Kutta 4).");
+  EXPECT_EQ(
+      notes[1],
+      "A step evaluates the forces so often, more where it is taken in parts or solved again: 2 "
+      "(velocity Verlet), 4 (Runge–Kutta 4).");
   EXPECT_EQ(notes[2],
             "For each evaluation the longest run of a method takes 0.25 µs (Runge–Kutta 4) to 2 µs "
             "(velocity Verlet), with its share of the step.");
