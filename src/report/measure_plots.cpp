@@ -232,6 +232,7 @@ Plot cost_plot(const ProblemRows& problem, const Cost& cost, const Looks& looks,
   add_slopes(orders, plot);
   if (most > 0) add_floor(problem, cost, least, most, plot);
   plot.front = pareto_front(problem, cost);
+  plot.front_name = "front, borne out";
   if (whole) put_into_bands(plot);
   return plot;
 }

@@ -105,7 +105,7 @@ std::vector<LegendEntry> legend_of(const Plot& plot) {
 // were made, at the page's lower edge. Gives the y of the rule above it.
 double draw_page_foot(const std::vector<std::string>& notes, const std::string& small,
                       DrawList& list, Labels& labels) {
-  constexpr std::size_t kMostLines = 8;
+  constexpr std::size_t kMostLines = 9;
   constexpr double kLineHeight = 26;
   const TextStyle quiet{kLeastDeskLabel + 0.1, Weight::regular, Role::quiet_ink, Role::none};
   const double width = list.page.x - 2 * kMargin, bottom = list.page.y - 26;
@@ -384,8 +384,10 @@ DrawList draw_slide(const ProblemRows& problem, const Measurement& measurement) 
     std::erase_if(shown.rows, is_other);
   Plot plot = plots_of(shown, looks_of(measurement.rows)).first;
   plot.title.clear();
+  plot.y_name += "; lower left is better";
   plot.guides.clear();
   plot.slopes.clear();
+  if (plot.bands.empty()) plot.front.clear();  // the line below says more
   for (PlotSeries& series : plot.series)  // orders are on the other page
     series.name = series.name.substr(0, series.name.find(": "));
   plot.size = 27;

@@ -7,12 +7,12 @@ namespace lantern::report {
 namespace {
 
 struct KnownMethod {
-  std::string_view name, words;
+  std::string_view name, words;  // no words: it is called by its name
   int look;
 };
 
 // The first ones are those that meet most often in one plot.
-constexpr std::array<KnownMethod, 19> kKnown{{
+constexpr std::array<KnownMethod, 31> kKnown{{
     {"velocity_verlet", "velocity Verlet", 0},
     {"explicit_euler", "explicit Euler", 1},
     {"runge_kutta_4", "Runge–Kutta 4", 2},
@@ -32,6 +32,18 @@ constexpr std::array<KnownMethod, 19> kKnown{{
     {"soft:16", "soft contacts (16 sub-steps)", 48},
     {"direct", "direct solve", 19},
     {"lecture", "the lecture's solver", 20},
+    {"Bullet:10", "", 10},
+    {"Bullet:50", "", 11},
+    {"Bullet:NNCG", "", 12},
+    {"Bullet:Dantzig", "", 13},
+    {"Box2D:8,3", "", 22},
+    {"Box2D:40,20", "", 23},
+    {"Bullet:multibody", "", 24},
+    {"Bullet:multibody,RK4", "", 25},
+    {"MuJoCo:Euler", "", 26},
+    {"MuJoCo:implicit", "", 27},
+    {"MuJoCo:RK4", "", 36},
+    {"MuJoCo:Euler,hard", "", 37},
 }};
 
 const KnownMethod* known(std::string_view name) {
@@ -120,7 +132,8 @@ std::string MethodRows::name() const {
 }
 
 std::string method_words(std::string_view method) {
-  if (const KnownMethod* k = known(method)) return std::string(k->words);
+  const KnownMethod* k = known(method);
+  if (k && !k->words.empty()) return std::string(k->words);
   const bool soft = method.starts_with("soft:");
   if (soft || method.starts_with("impulse:")) {
     const std::string_view effort = method.substr(method.find(':') + 1);
@@ -177,11 +190,11 @@ Looks looks_of(std::span<const Row> rows) {
   for (const Row& row : rows) {
     if (looks.contains(row.method)) continue;
     int look = row.is_peer() ? kFirstPeerLook : 0;
-    if (const KnownMethod* k = row.is_peer() ? nullptr : known(row.method)) {
+    if (const KnownMethod* k = known(row.method)) {
       look = k->look;
     } else {
       const auto of_other_kind = [&](int l) {  // crosses and stars are for peers
-        return !row.is_peer() && l % kPlotMarks >= kFirstPeerLook;
+        return row.is_peer() != (l % kPlotMarks >= kFirstPeerLook);
       };
       while (taken.contains(look) || of_other_kind(look)) ++look;
     }

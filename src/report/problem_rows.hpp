@@ -63,7 +63,7 @@ std::string main_norm(const ProblemRows& problem);
 // and there is nothing between. False if no run has an error.
 bool has_whole_errors(const ProblemRows& problem);
 
-// A look for each method: the known methods have always the same, others in order of their
+// A look for each method: those that are known have always the same, others in order of their
 // first row, peers from kFirstPeerLook on.
 using Looks = std::map<std::string, int>;
 Looks looks_of(std::span<const Row> rows);

@@ -29,18 +29,24 @@ double between(double a, double b, double share) { return a * geometry::pow(b / 
 // less.
 std::optional<Standing> standing(const MethodRows& method, double error) {
   const auto errors = assured_errors(method);
-  const Row *good = nullptr, *coarser = nullptr;
+  const Row *good = nullptr, *coarsest = nullptr, *coarser = nullptr;
   double off = 0, coarser_off = 0;
-  for (std::size_t i = 0; i < errors.size() && !good; ++i) {
+  for (std::size_t i = 0; i < errors.size(); ++i) {
     const Row& row = method.rows[i];
-    if (errors[i] && *errors[i] <= error) {
-      good = &row, off = *errors[i];
-    } else if (row.was_run()) {
+    if (!row.was_run()) continue;
+    if (!errors[i] || *errors[i] > error) {
       coarser = &row, coarser_off = errors[i].value_or(0);
+      continue;
     }
+    if (!coarsest) coarsest = &row, off = *errors[i];
+    if (seconds_of(row) && (!good || row.processor.median < good->processor.median)) good = &row;
   }
-  if (!good || !seconds_of(*good)) return std::nullopt;
+  if (!good) return std::nullopt;
   Standing all{name_of(method), good->processor, 0};
+  if (good != coarsest) {  // larger steps cost more
+    all.least = all.time.median;
+    return all;
+  }
   if (!coarser) return all;
   if (off > 0 && coarser_off > 0 && seconds_of(*coarser)) {
     const double share = geometry::log(error / off) / geometry::log(coarser_off / off);
@@ -129,7 +135,7 @@ std::string clause_of(const Range& r, bool whole) {
   const double unit = geometry::pow(10, std::floor(geometry::log10(r.most_share)) - 1);
   const double most = r.at_most ? unit * std::ceil(r.most_share / unit) : r.most_share;  // a bound
   std::string share = fmt::format("{:.2g}", most);
-  if (const std::string least = fmt::format("{:.2g}", r.least_share); least != share)
+  if (const std::string least = fmt::format("{:.2g}", r.least_share); !r.at_most && least != share)
     share = least + " to " + share;
   return fmt::format("{} {} costs {}{} of what {} costs", at, r.who, r.at_most ? "at most " : "",
                      share, r.over);
@@ -164,15 +170,15 @@ std::string who_bears_the_largest_step(std::span<const MethodRows> methods) {
   std::sort(all.begin(), next, [](const auto& a, const auto& b) { return a.seconds < b.seconds; });
   std::vector<std::string> names;
   for (auto one = all.begin(); one != next; ++one)
-    names.push_back(fmt::format("{} ({}{})", one->name, seconds_text(one->seconds),
+    names.push_back(fmt::format("{} in {}{}", one->name, seconds_text(one->seconds),
                                 names.empty() ? " at the largest step" : ""));
   if (names.size() > 4) {
     names[3] = fmt::format("{} others", names.size() - 3);
     names.resize(4);
   }
-  std::string text = fmt::format("At steps of up to {} s that were run, {} {} off by {}{}",
-                                 figure(step), listed(names), names.size() == 1 ? "is" : "are",
-                                 least > 0 ? "at most " : "", figure(least));
+  std::string text = fmt::format("At steps of up to {} s that were run, {} {} {}", figure(step),
+                                 listed(names), names.size() == 1 ? "is" : "are",
+                                 least > 0 ? "off by at most " + figure(least) : "exact");
   if (next != all.end())
     text += fmt::format(", the next, {}, by up to {}", next->name, figure(next->error));
   return text + ".";
@@ -255,26 +261,24 @@ std::vector<std::string> notes_on(const ProblemRows& problem) {
   }
   if (!floors.empty())
     notes.push_back(
-        fmt::format("Dashed: rounding as a random walk, 2^-52 times the square root of "
-                    "the steps; and what no error exceeds at steps {}.",
+        fmt::format("Dashed: rounding, 2⁻⁵² √steps as a random walk; and what no error exceeds {}.",
                     fmt::join(floors, ", ")));
   if ((by_forces && !evaluations.empty()) || varied)
     notes.push_back(
-        fmt::format("A step evaluates the forces so often, more where it is taken in parts or "
+        fmt::format("Forces are evaluated so often in a step, more where it is taken in parts or "
                     "solved again: {}.",
                     fmt::join(evaluations, ", ")));
   if (by_forces && prices.size() > 1)
     notes.push_back(fmt::format(
-        "For each evaluation the longest run of a method takes {} ({}) to {} ({}), with its share "
-        "of the step.",
+        "An evaluation, with its share of the step, takes {} ({}) to {} ({}) in the longest runs.",
         seconds_text(prices.begin()->first), prices.begin()->second,
         seconds_text(prices.rbegin()->first), prices.rbegin()->second));
   if (adaptive)
     notes.push_back(
-        "Dormand–Prince, adaptive, solves the bare equations of motion: its seconds do not pay for "
-        "the world's step, and stand beside none. Its “step” stands for a tolerance, relative to "
-        "the scene's size and speed: 1e-3 at its largest step, less by the fifth power, 1e-14 at "
-        "least.");
+        "Dormand–Prince, adaptive, solves the bare equations: its seconds pay for no world's step. "
+        "Its “step” stands for a tolerance: 1e-3 of the scene's size and speed at its largest "
+        "step, "
+        "less by the fifth power, 1e-14 at least.");
   for (const std::vector<std::string>& group : equal_methods(problem)) {
     std::vector<std::string> names;
     std::ranges::transform(group, std::back_inserter(names), method_words);

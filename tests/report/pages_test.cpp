@@ -95,7 +95,7 @@ TEST(ProblemPage, PrintsTheObservedOrders) {
   const DrawList list = draw_problem(by_problem(m.rows)[0], m);
   EXPECT_TRUE(says_part(list, "Runge–Kutta 4: order 4.0") ||
               says_part(list, "Runge–Kutta 4: order 3.9"));
-  for (const char* name : {"h", "h²", "h⁴", "Pareto front", "diverged"})
+  for (const char* name : {"h", "h²", "h⁴", "front, borne out", "diverged"})
     EXPECT_TRUE(says(list, name)) << name;
 }
 
