@@ -168,12 +168,13 @@ Invariants::Invariants(const Scenario& scenario) {
 void DriftMeter::look(const std::vector<BodyState>& states) {
   const Kept now = invariants_.of(states);
   penetration_ = std::max(penetration_, now.penetration);
-  most_kinetic_ = std::max(most_kinetic_, now.kinetic_energy);
   if (!begun_) {
     start_ = now;
     begun_ = true;
     return;
   }
+  const auto stored = [](const Kept& kept) { return kept.energy - kept.kinetic_energy; };
+  most_fallen_ = std::max(most_fallen_, stored(start_) - stored(now));
   energy_ = std::max(energy_, std::abs(now.energy - start_.energy));
   momentum_ = std::max(momentum_, glm::length(now.momentum - start_.momentum));
   angular_momentum_ =
@@ -182,7 +183,7 @@ void DriftMeter::look(const std::vector<BodyState>& states) {
 
 double DriftMeter::energy_scale() const {
   const double energy = start_.kinetic_energy + start_.spring_energy;
-  return energy > 0 ? energy : most_kinetic_;
+  return energy > 0 ? energy : most_fallen_;
 }
 
 Drift DriftMeter::drift() const {

@@ -56,8 +56,9 @@ class DriftMeter {
   explicit DriftMeter(const Invariants& invariants) : invariants_(invariants) {}
   void look(const std::vector<BodyState>& states);
   Drift drift() const;
-  // What the drift of the energy is told over, J: the kinetic and elastic energy of the start, or,
-  // of what is dropped from rest, the largest kinetic energy so far.
+  // What the drift of the energy is told over, J: the kinetic and elastic energy of the start or,
+  // of what begins at rest, the most that its potential energy has fallen so far: what blows up is
+  // not paid for by that.
   double energy_scale() const;
   double penetration() const { return penetration_; }
 
@@ -66,7 +67,7 @@ class DriftMeter {
   bool begun_ = false;
   Kept start_;
   double energy_ = 0, momentum_ = 0, angular_momentum_ = 0;  // largest changes
-  double most_kinetic_ = 0;
+  double most_fallen_ = 0;                                   // of all energy but the kinetic, J
   double penetration_ = 0;
 };
 

@@ -231,7 +231,7 @@ std::optional<Order> observed_order(std::span<const Row> rows) {
     from = i;
     length = n;
   }
-  if (length < 2) return std::nullopt;
+  if (length < 2 || from + length + 1 < slopes.size()) return std::nullopt;
   const double order = fitted(std::span(samples).subspan(from, length + 1));
   if (!(order > 0)) return std::nullopt;
   Order seen{order};

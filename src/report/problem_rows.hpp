@@ -70,8 +70,8 @@ Looks looks_of(std::span<const Row> rows);
 
 // p in error ~ step^p: least squares through the logarithms of the rows above the rounding floor,
 // where the error has begun to shrink evenly. Nothing for fewer than three such rows, or if no even
-// piece is there, or if the error grows as steps shrink. An adaptive method has none: its steps are
-// tolerances.
+// piece is there or it ends more than one slope before the last, or if the error grows as steps
+// shrink. An adaptive method has none: its steps are tolerances.
 std::optional<Order> observed_order(std::span<const Row> rows);
 
 // The rows, the largest step first, to which errors fell, and on which they shrink after the

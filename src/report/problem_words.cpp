@@ -256,13 +256,13 @@ std::vector<std::string> notes_on(const ProblemRows& problem) {
         fmt::format("{} ({})", few == many ? few : few + " to " + many, method.name()));
     const Row& longest = *std::ranges::max_element(
         method.rows, {}, [](const Row& row) { return row.counted.force_evaluations; });
-    if (const auto seconds = seconds_of(longest))
+    if (const auto seconds = seconds_of(longest); seconds && !is_adaptive(method.method))
       prices[*seconds / static_cast<double>(longest.counted.force_evaluations)] = method.name();
   }
   if (!floors.empty())
-    notes.push_back(
-        fmt::format("Dashed: rounding, 2⁻⁵² √steps as a random walk; and what no error exceeds {}.",
-                    fmt::join(floors, ", ")));
+    notes.push_back(fmt::format(
+        "Dashed: rounding, 2⁻⁵² √steps as a random walk; and the largest error of the runs {}.",
+        fmt::join(floors, ", ")));
   if ((by_forces && !evaluations.empty()) || varied)
     notes.push_back(
         fmt::format("Forces are evaluated so often in a step, more where it is taken in parts or "

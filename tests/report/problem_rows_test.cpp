@@ -75,8 +75,8 @@ TEST(Floor, OfNoiseIsToldByItsLargestError) {
   EXPECT_EQ(floor->largest, 5.1e-13);
   EXPECT_EQ(
       notes_on({"p", "p", "plain", rows})[0],
-      "Dashed: rounding, 2⁻⁵² √steps as a random walk; and what no error exceeds from 0.00625 s "
-      "on: 5.1e-13 (m).");
+      "Dashed: rounding, 2⁻⁵² √steps as a random walk; and the largest error of the runs from "
+            "0.00625 s on: 5.1e-13 (m).");
 }
 
 TEST(Floor, MayEndOnAnErrorThatIsSmallByChance) {

@@ -108,10 +108,11 @@ class Stack : public ErrorMetric {
   std::vector<double> reaches_;      // half heights
   Burdens burdens_;
   bool has_fallen_ = false;
-  Worst& depth_ = norm("depth", "units",
-                       "deepest overlap or widest gap of a contact over the run, by the heights of "
-                       "the centres, an engine's skin taken for a part of the shape; it starts at "
-                       "rest with neither, so 0 means undisturbed");
+  Worst& depth_ =
+      norm("depth", "units",
+           "largest error of the height between two neighbouring centres over the run, an "
+           "overlap or a gap, an engine's skin taken for a part of the shape; it starts "
+           "at 0, and tilts are not seen");
   Worst& impulse_ = norm("impulse", "1",
                          "largest error of a contact's mean impulse between two samples, relative");
 };
