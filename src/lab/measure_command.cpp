@@ -226,7 +226,8 @@ class Measure : public Experiment {
     std::ranges::copy(plan_->missing_peers(), std::back_inserter(lines));
     if (longest)
       lines.push_back(
-          fmt::format("{} left out as too long; the longest ({}, {} at {:.3g} s) would take {:.2g} "
+          fmt::format("{} left out as too long, by estimate; the longest ({}, {} at {:.3g} s) "
+                      "would take {:.2g} "
                       "s. --full runs "
                       "them all",
                       long_ones == 1 ? "1 run is" : fmt::format("{} runs are", long_ones),

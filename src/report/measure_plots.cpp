@@ -291,7 +291,7 @@ std::optional<DriftPlots> drift_plots(const ProblemRows& problem, const Looks& l
   plots.error.y_name = error_words(problem);
   plots.energy.title = "Drift of the energy against time";
   plots.energy.y_name =
-      "largest change of the energy so far, over that at first, or the most that has fallen";
+      "change of the energy so far, over the kinetic and elastic at first, or what has fallen";
   plots.energy.empty = "the problem does not keep its energy";
   return plots;
 }

@@ -265,14 +265,15 @@ std::vector<std::string> notes_on(const ProblemRows& problem) {
         fmt::join(floors, ", ")));
   if ((by_forces && !evaluations.empty()) || varied)
     notes.push_back(
-        fmt::format("Forces are evaluated so often in a step, more where it is taken in parts or "
-                    "solved again: {}.",
+        fmt::format("In runs that are ok forces are evaluated so often in a step, more where it is "
+                    "taken in parts or solved again: {}.",
                     fmt::join(evaluations, ", ")));
   if (by_forces && prices.size() > 1)
-    notes.push_back(fmt::format(
-        "An evaluation, with its share of the step, takes {} ({}) to {} ({}) in the longest runs.",
-        seconds_text(prices.begin()->first), prices.begin()->second,
-        seconds_text(prices.rbegin()->first), prices.rbegin()->second));
+    notes.push_back(
+        fmt::format("An evaluation at given steps, with its share of the step, takes {} ({}) to {} "
+                    "({}) in the longest runs.",
+                    seconds_text(prices.begin()->first), prices.begin()->second,
+                    seconds_text(prices.rbegin()->first), prices.rbegin()->second));
   if (adaptive)
     notes.push_back(
         "Dormand–Prince, adaptive, solves the bare equations: its seconds pay for no world's step. "

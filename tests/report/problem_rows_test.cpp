@@ -76,7 +76,7 @@ TEST(Floor, OfNoiseIsToldByItsLargestError) {
   EXPECT_EQ(
       notes_on({"p", "p", "plain", rows})[0],
       "Dashed: rounding, 2⁻⁵² √steps as a random walk; and the largest error of the runs from "
-            "0.00625 s on: 5.1e-13 (m).");
+      "0.00625 s on: 5.1e-13 (m).");
 }
 
 TEST(Floor, MayEndOnAnErrorThatIsSmallByChance) {
@@ -353,10 +353,11 @@ TEST(Notes, TellWhatAnEvaluationCostsWhatWasHeldAgainstAndWhatWasLeftOut) {
   ASSERT_EQ(notes.size(), 4u);
   EXPECT_EQ(notes[0], "Reference: closed form; period 3 s; looked at 21 times in 9 s.");
   EXPECT_EQ(notes[1],
-            "Forces are evaluated so often in a step, more where it is taken in parts or solved "
-            "again: 2 (velocity Verlet), 4 (Runge–Kutta 4).");
+            "In runs that are ok forces are evaluated so often in a step, more where it is taken "
+            "in parts or solved again: 2 (velocity Verlet), 4 (Runge–Kutta 4).");
   EXPECT_EQ(notes[2],
-            "An evaluation, with its share of the step, takes 0.25 µs (Runge–Kutta 4) to 2 µs "
+            "An evaluation at given steps, with its share of the step, takes 0.25 µs (Runge–Kutta "
+            "4) to 2 µs "
             "(velocity Verlet) in the longest runs.");
   EXPECT_EQ(notes[3], "1 of 3 runs was left out as too long.");
 }
