@@ -283,8 +283,10 @@ std::vector<std::string> notes_on(const ProblemRows& problem) {
   for (const std::vector<std::string>& group : equal_methods(problem)) {
     std::vector<std::string> names;
     std::ranges::transform(group, std::back_inserter(names), method_words);
-    notes.push_back(fmt::format("{} are one method here: they are off by the same in every run.",
-                                listed(names)));
+    notes.push_back(
+        fmt::format("{} are run as one method here, of which the order is, whatever its "
+                    "name: they are off by the same in every run.",
+                    listed(names)));
   }
   if (left_out > 0)
     notes.push_back(fmt::format("{} of {} runs {} left out as too long.", left_out,

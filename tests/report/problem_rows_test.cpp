@@ -335,9 +335,10 @@ TEST(Notes, TellWhoIsOneMethodAndWhoseStepsAreTakenInParts) {
           rows.back().counted.steps = 20;
   const std::vector<std::string> notes = notes_on(problem_of(rows));
   EXPECT_TRUE(says(notes[0], "again: 2 to 4 (velocity Verlet), 2 to 4 (semi-implicit Euler)."));
-  EXPECT_EQ(notes.back(),
-            "velocity Verlet and semi-implicit Euler are one method here: they are off by the same "
-            "in every run.");
+  EXPECT_EQ(
+      notes.back(),
+      "velocity Verlet and semi-implicit Euler are run as one method here, of which the order "
+      "is, whatever its name: they are off by the same in every run.");
 }
 
 TEST(Notes, TellWhatAnEvaluationCostsWhatWasHeldAgainstAndWhatWasLeftOut) {
