@@ -60,6 +60,7 @@ class DriftMeter {
   // of what begins at rest, the most that its potential energy has fallen so far: what blows up is
   // not paid for by that.
   double energy_scale() const;
+  double energy_change() const { return energy_; }  // the largest so far, J
   double penetration() const { return penetration_; }
 
  private:

@@ -154,10 +154,8 @@ class Sampler : public ErrorMetric {
     metric_.look(now);
     const double seen = seen_++;
     if (seen < next_ && seen < looks_) return;
-    if (seen > 0) {
-      samples_.push_back({now.time, metric_.norms().front().value, meter_.drift().energy});
-      scales_.push_back(meter_.energy_scale());
-    }
+    if (seen > 0)
+      samples_.push_back({now.time, metric_.norms().front().value, meter_.energy_change()});
     next_ = std::max(seen + 1, std::floor(seen * growth_));
   }
   void interfere(const Observation& now, Simulation& simulation) override {
@@ -166,9 +164,11 @@ class Sampler : public ErrorMetric {
   // All over the scale of the whole run: what has changed so far does not shrink.
   std::vector<DriftSample> samples() const {
     std::vector<DriftSample> all = samples_;
-    for (std::size_t i = 0; i < all.size(); ++i)
-      if (all[i].energy && meter_.energy_scale() > 0)
-        *all[i].energy *= scales_[i] / meter_.energy_scale();
+    const double scale = meter_.energy_scale();
+    for (DriftSample& sample : all) {
+      if (!meter_.drift().energy) sample.energy.reset();
+      if (sample.energy) *sample.energy = scale > 0 ? *sample.energy / scale : 0;
+    }
     return all;
   }
 
@@ -178,8 +178,7 @@ class Sampler : public ErrorMetric {
   ErrorMetric& metric_;
   const DriftMeter& meter_;
   double looks_ = 0, seen_ = 0, next_ = 1, growth_ = 1;
-  std::vector<DriftSample> samples_;
-  std::vector<double> scales_;  // that their energies are over
+  std::vector<DriftSample> samples_;  // their energies in J
 };
 
 // --- the runs ---

@@ -104,6 +104,19 @@ bool are_equal(const MethodRows& a, const MethodRows& b) {
   return shared >= 2;
 }
 
+std::vector<std::optional<double>> assured_errors(const MethodRows& method) {
+  std::vector<std::optional<double>> all(method.rows.size());
+  std::optional<double> worst = method.floor ? method.floor->largest : 0;
+  for (std::size_t i = all.size(); i-- > 0;) {
+    const Row& row = method.rows[i];
+    if (!row.was_run()) continue;
+    const auto error = row.error();
+    worst = error && worst ? std::optional(std::max(*worst, *error)) : std::nullopt;
+    all[i] = worst;
+  }
+  return all;
+}
+
 }  // namespace
 
 std::vector<ProblemRows> by_problem(std::span<const Row> rows) {
@@ -117,12 +130,13 @@ std::vector<ProblemRows> by_problem(std::span<const Row> rows) {
 std::vector<MethodRows> by_method(const ProblemRows& problem) {
   std::vector<MethodRows> all;
   for (const Row& row : problem.rows)
-    with_name(all, &MethodRows::method, {row.method, row.is_peer(), row.version, {}, {}, {}})
+    with_name(all, &MethodRows::method, {row.method, row.is_peer(), row.version, {}, {}, {}, {}})
         .rows.push_back(row);
   for (MethodRows& c : all) {
     std::ranges::stable_sort(c.rows, std::greater(), &Row::step);
     c.floor = observed_floor(c.rows);
     c.order = observed_order(std::span(c.rows).first(c.floor ? c.floor->first : c.rows.size()));
+    c.assured = assured_errors(c);
   }
   return all;
 }
@@ -263,19 +277,6 @@ std::optional<Floor> observed_floor(std::span<const Row> rows) {
   return std::nullopt;
 }
 
-std::vector<std::optional<double>> assured_errors(const MethodRows& method) {
-  std::vector<std::optional<double>> all(method.rows.size());
-  std::optional<double> worst = method.floor ? method.floor->largest : 0;
-  for (std::size_t i = all.size(); i-- > 0;) {
-    const Row& row = method.rows[i];
-    if (!row.was_run()) continue;
-    const auto error = row.error();
-    worst = error && worst ? std::optional(std::max(*worst, *error)) : std::nullopt;
-    all[i] = worst;
-  }
-  return all;
-}
-
 double rounding_floor(double steps) { return kRounding * std::sqrt(std::max(1.0, steps)); }
 
 std::optional<double> WorkCount::of(const Row& row) const {
@@ -332,7 +333,7 @@ std::vector<std::size_t> pareto_front(std::span<const Vec<2>> cost_and_error) {
 std::vector<Vec<2>> pareto_front(const ProblemRows& problem, const Cost& cost) {
   std::vector<Vec<2>> points, front;
   for (const MethodRows& method : by_method(problem)) {
-    const auto errors = assured_errors(method);
+    const auto& errors = method.assured;
     for (std::size_t i = 0; i < errors.size() && !is_adaptive(method.method); ++i)
       if (const auto price = cost(method.rows[i]); price && errors[i])
         points.push_back({*price, *errors[i]});

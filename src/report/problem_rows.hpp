@@ -45,7 +45,11 @@ struct MethodRows {
   std::vector<Row> rows;
   std::optional<Floor> floor;
   std::optional<Order> order;  // of the rows before it
-  std::string name() const;    // "explicit Euler", "Bullet:10 3.24"
+  // What each run vouches for: the largest of its error, of those of all runs at smaller steps and
+  // of the floor, since an error may be small by chance. Nothing for what was not run, for runs
+  // that failed, and where one at a smaller step did.
+  std::vector<std::optional<double>> assured;
+  std::string name() const;  // "explicit Euler", "Bullet:10 3.24"
 };
 std::vector<MethodRows> by_method(const ProblemRows& problem);
 
@@ -80,11 +84,6 @@ std::optional<Order> observed_order(std::span<const Row> rows);
 // method, of errors that have not begun to shrink, or of 0.
 std::optional<Floor> observed_floor(std::span<const Row> rows);
 
-// What each run vouches for: the largest of its error, of those of all runs at smaller steps and of
-// the method's floor, since an error may be small by chance. Nothing for what was not run, for
-// runs that failed, and where one at a smaller step did.
-std::vector<std::optional<double>> assured_errors(const MethodRows& method);
-
 // What rounding alone leaves after so many steps if each rounds once, as a random walk: 2^-52 times
 // their square root (Henrici, "Discrete Variable Methods", 1962). Relative. Steps of many stages
 // round more often, and errors in the phase grow faster: what is observed lies above it.
@@ -107,11 +106,11 @@ std::vector<std::vector<std::string>> equal_methods(const ProblemRows& problem);
 // The line for a student: to be off by at most so much, which method of fixed steps is the
 // quickest, and how the next one compares; of many changes the three that hold for most. Errors are
 // decades, or 0 where they are whole numbers. What a method takes for an error is read between the
-// two neighbouring runs that vouch for more and for less (assured_errors), by the straight line of
-// the plot. Decades are told at which none but the quickest is so good at its largest step already:
-// of others larger ones might cost less. Whom another measurement might rank otherwise tie. Who
-// does not do the world's step is left out. Where nothing is told so: who is off least at the
-// largest step and all smaller ones; or why there is no such line.
+// two neighbouring runs that vouch for more and for less (MethodRows::assured), by the straight
+// line of the plot. Decades are told at which none but the quickest is so good at its largest step
+// already: of others larger ones might cost less. Whom another measurement might rank otherwise
+// tie. Who does not do the world's step is left out. Where nothing is told so: who is off least at
+// the largest step and all smaller ones; or why there is no such line.
 std::string who_is_quickest(const ProblemRows& problem);
 
 // What a reader must know beside the numbers: what the main norm is, how good its reference is, and

@@ -9,11 +9,6 @@ namespace {
 constexpr int kFinest = -13;   // of the decades that are told: a hundred times rounding
 constexpr double kAlike = 10;  // of two errors, one over the other
 
-std::string name_of(const MethodRows& method) {
-  const std::string words = method.is_peer ? method.method : method_words(method.method);
-  return words.substr(0, words.find(" (double)"));
-}
-
 // What a method takes to be off by at most so much.
 struct Standing {
   std::string name;
@@ -28,7 +23,7 @@ double between(double a, double b, double share) { return a * geometry::pow(b / 
 // that has failed, or errors are counted, the run takes what it takes, and steps between may take
 // less.
 std::optional<Standing> standing(const MethodRows& method, double error) {
-  const auto errors = assured_errors(method);
+  const auto& errors = method.assured;
   const Row *good = nullptr, *coarsest = nullptr, *coarser = nullptr;
   double off = 0, coarser_off = 0;
   for (std::size_t i = 0; i < errors.size(); ++i) {
@@ -42,7 +37,7 @@ std::optional<Standing> standing(const MethodRows& method, double error) {
     if (seconds_of(row) && (!good || row.processor.median < good->processor.median)) good = &row;
   }
   if (!good) return std::nullopt;
-  Standing all{name_of(method), good->processor, 0};
+  Standing all{method_words(method.method), good->processor, 0};
   if (good != coarsest) {  // larger steps cost more
     all.least = all.time.median;
     return all;
@@ -155,9 +150,9 @@ std::string who_bears_the_largest_step(std::span<const MethodRows> methods) {
   for (const MethodRows& method : methods) {
     const auto row = std::ranges::find(method.rows, step, &Row::step);
     if (row == method.rows.end()) continue;
-    const auto error = assured_errors(method)[static_cast<std::size_t>(row - method.rows.begin())];
+    const auto error = method.assured[static_cast<std::size_t>(row - method.rows.begin())];
     const auto seconds = seconds_of(*row);
-    if (error && seconds) all.push_back({*seconds, *error, name_of(method)});
+    if (error && seconds) all.push_back({*seconds, *error, method_words(method.method)});
   }
   if (all.size() < 2)
     return "Who is the quickest cannot be told here: no two methods were timed at one error, or at "
@@ -278,8 +273,7 @@ std::vector<std::string> notes_on(const ProblemRows& problem) {
     notes.push_back(
         "Dormand–Prince, adaptive, solves the bare equations: its seconds pay for no world's step. "
         "Its “step” stands for a tolerance: 1e-3 of the scene's size and speed at its largest "
-        "step, "
-        "less by the fifth power, 1e-14 at least.");
+        "step, less by the fifth power, 1e-14 at least.");
   for (const std::vector<std::string>& group : equal_methods(problem)) {
     std::vector<std::string> names;
     std::ranges::transform(group, std::back_inserter(names), method_words);
