@@ -1,4 +1,4 @@
-# What `./run test` leaves out, to end in nine minutes: for each room filters of GoogleTest. It is run
+# What `./run test` leaves out, to end in eight minutes: for each room filters of GoogleTest. It is run
 # by `./run deep rooms sanitized`, and by a ctest without `-LE long`.
 set(long_spatial
   BroadPhase.AHundredThousandAtOnePointAreNoHangWhileTheySleep

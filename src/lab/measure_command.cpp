@@ -15,7 +15,7 @@
 #include "base/suggest.hpp"
 #include "lab/commands.hpp"
 #include "language/method.hpp"
-#include "measure/run.hpp"
+#include "measure/plan.hpp"
 #include "measure/solvers.hpp"
 #include "report/benches.hpp"
 #include "report/document.hpp"
@@ -227,9 +227,7 @@ class Measure : public Experiment {
     if (longest)
       lines.push_back(
           fmt::format("{} left out as too long, by estimate; the longest ({}, {} at {:.3g} s) "
-                      "would take {:.2g} "
-                      "s. --full runs "
-                      "them all",
+                      "would take {:.2g} s. --full runs them all",
                       long_ones == 1 ? "1 run is" : fmt::format("{} runs are", long_ones),
                       plan_->scenario(*longest).name, plan_->solver(*longest).name(), longest->step,
                       plan_->seconds(*longest)));

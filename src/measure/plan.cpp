@@ -1,5 +1,6 @@
+#include "measure/plan.hpp"
+
 #include "embedded/problems.hpp"
-#include "measure/run.hpp"
 #include "measure/solvers.hpp"
 
 namespace lantern::measure {

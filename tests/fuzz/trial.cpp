@@ -12,7 +12,7 @@
 #include "draw/page.hpp"
 #include "fuzz/energy.hpp"
 #include "language/text/problems.hpp"
-#include "measure/run.hpp"
+#include "measure/plan.hpp"
 #include "render/svg.hpp"
 #include "run/director.hpp"
 #include "run/tally.hpp"

@@ -1,6 +1,4 @@
 // Runs and what is told of them.
-#include "measure/run.hpp"
-
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -10,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/stop.hpp"
 #include "measure/contact_runs.hpp"
+#include "measure/plan.hpp"
 #include "measure/scenes.hpp"
 #include "measure/solvers.hpp"
 

@@ -1,10 +1,11 @@
 // What is run when a scenario is measured.
+#include "measure/schedule.hpp"
+
 #include <limits>
 
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
-#include "measure/run.hpp"
 #include "measure/scenes.hpp"
 
 namespace lantern::measure {

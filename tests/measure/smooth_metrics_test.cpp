@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include "base/error.hpp"
+#include "measure/plan.hpp"
 #include "measure/row.hpp"
-#include "measure/run.hpp"
 
 namespace lantern::measure {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "base/error.hpp"
 #include "measure/forms/closed_forms.hpp"
-#include "measure/run.hpp"
+#include "measure/plan.hpp"
 #include "measure/solvers.hpp"
 #include "physics/body.hpp"
 
