@@ -225,6 +225,69 @@ TEST(Grid, TellsTheCellsThatABodyReaches) {
                                             "store 2 of 4: 1"}));
 }
 
+// What a look at all cells says of the way to those that hold the body: a cell that holds it alone
+// was made for it, and so was what lies above and holds nothing else.
+template <int D>
+std::vector<std::string> way_to(const Grid<D>& grid, BodyId id) {
+  std::vector<NodeView<D>> nodes;
+  std::vector<std::size_t> count, others;  // in each node; bodies below it, besides
+  std::vector<bool> holds;
+  grid.visit([&](const NodeView<D>& node) {
+    nodes.push_back(node);
+    count.push_back(node.bodies.size());
+    holds.push_back(std::ranges::count(node.bodies, id) > 0);
+    others.push_back(count.back() - holds.back());
+    return true;
+  });
+  for (std::size_t i = nodes.size(); i-- > 1;) {
+    others[nodes[i].parent] += others[i];
+    if (holds[i]) holds[nodes[i].parent] = true;
+  }
+  std::vector<std::string> told;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    if (!holds[i]) continue;
+    if (i > 0 && others[i] == 0) told.push_back(fmt::format("make {}", nodes[i].handle));
+    told.push_back(fmt::format("test {}", nodes[i].handle));
+    if (nodes[i].leaf) told.push_back(fmt::format("store {}: {}", nodes[i].handle, count[i]));
+  }
+  return told;
+}
+
+template <int D>
+void tells_the_way_to_its_cells(Sort sort, std::uint64_t seed) {
+  Random random(7000 * seed + static_cast<std::uint64_t>(sort));
+  StructureConfig<D> config = grid_config_of<D>(sort, random);
+  config.most_entries = static_cast<std::uint64_t>(random.whole(20, 400));
+  const bool looks = random.bits() % 2 == 0;  // all the time, whoever is told
+  Grid<D> grid(config);
+  for (int round = 0; round < 2; ++round) {
+    for (const Item<D>& item : testing::random_world<D>(sort, 40, random)) {
+      std::vector<std::string> told;
+      const auto tell = [&](const Event& e) {
+        EXPECT_EQ(e.body, item.id);
+        EXPECT_TRUE(!looks || grid.counters().nodes > e.node);
+        if (e.kind == Event::Kind::make_child) told.push_back(fmt::format("make {}", e.node));
+        if (e.kind == Event::Kind::test) told.push_back(fmt::format("test {}", e.node));
+        if (e.kind == Event::Kind::store)
+          told.push_back(fmt::format("store {}: {}", e.node, e.count));
+      };
+      const bool told_of = random.whole(0, 3) != 0;
+      grid.insert(item, told_of ? EventWatch(tell) : EventWatch());
+      if (random.whole(0, 3) == 0) grid.sort();
+      EXPECT_EQ(told, told_of ? way_to(grid, item.id) : told) << "seed " << seed;
+    }
+    grid.clear();
+  }
+}
+
+TEST(Grid, TellsTheWayToTheCellsThatALookAtAllOfThemShows) {
+  for (const Sort sort : kSorts)
+    for (std::uint64_t seed = 0; seed < 12; ++seed) {
+      tells_the_way_to_its_cells<2>(sort, seed);
+      if (sort != Sort::ratios) tells_the_way_to_its_cells<3>(sort, seed);
+    }
+}
+
 TEST(Grid, OfSeveralLevelsABodyIsOnTheFinestThatIsAsLargeAsItIs) {
   Grid<2> grid({.bounds = {{0, 0}, {16, 16}}, .cell = 2, .levels = 3});
   grid.insert({1, {{0, 0}, {2, 1}}});

@@ -13,7 +13,7 @@
 // its cells go on without end, and are hashed into buckets.
 //
 // The finished grid does not depend on the order of insertion. Where the side of the cells is left
-// to it, all is made anew with each body; else handles last.
+// to it, all is made anew when that changes; else handles last.
 #pragma once
 
 #include <array>
@@ -30,47 +30,59 @@ namespace lantern::spatial {
 // (19 of 20) are, so that few are larger than a cell and each meets the bodies of three or four
 // cells; but where sizes differ much, three times the median, and not so small that most cells
 // would be empty. Measured on worlds of 1e3 to 1e6 bodies. Does not depend on the order of the
-// items. `room` is scratch memory. Time: O(n).
+// items.
 template <int D>
-double side_for(std::span<const Item<D>> items, std::vector<double>& room) {
-  // Extents by their leading bits: eight of the exponent and two of the fraction.
-  constexpr int kShift = 21;
-  std::array<std::uint32_t, 2048> histogram{};
-  for (const Item<D>& item : items) {
-    const auto extent = static_cast<float>(std::clamp(extent_of(item.box), 0.0, 1e38));
-    ++histogram[std::bit_cast<std::uint32_t>(extent) >> kShift];
+class SideRule {
+ public:
+  void clear() { histogram_.fill(0); }
+  void add(const Box<D>& box) {
+    const auto extent = static_cast<float>(std::clamp(extent_of(box), 0.0, 1e38));
+    ++histogram_[std::bit_cast<std::uint32_t>(extent) >> kShift];
   }
+
+  // For these items, which were added. Time: O(n), but where sizes differ little the same for any
+  // n.
+  double side(std::span<const Item<D>> items) {
+    const double half = quantile(0.5, items.size()), most = quantile(0.95, items.size());
+    double side = std::min(1.5 * most, 3 * half);
+    if (most > 4 * half || most == 0) {
+      // Half of how far apart the bodies are, from where the middle half of them is.
+      double volume = 1;
+      for (int i = 0; i < D; ++i) {
+        room_.clear();
+        for (const Item<D>& item : items) room_.push_back(item.box.lo[i]);
+        const auto at = [&](std::size_t place) {
+          if (room_.empty()) return 0.0;
+          std::nth_element(room_.begin(), room_.begin() + static_cast<std::ptrdiff_t>(place),
+                           room_.end());
+          return room_[place];
+        };
+        const double low = at(room_.size() / 4),
+                     high = at(room_.size() - room_.size() / 4 - !room_.empty());
+        volume *= geometry::pow(std::max(2 * (high - low), 0.0), 1.0 / D);
+      }
+      side = std::max(side,
+                      volume / geometry::pow(static_cast<double>(items.size() + 1), 1.0 / D) / 2);
+    }
+    return side > 0 ? std::clamp(side, 1e-100, 1e100) : 1;
+  }
+
+ private:
+  // Extents by their leading bits: eight of the exponent and two of the fraction.
+  static constexpr int kShift = 21;
+
   // No less than this part of the extents.
-  const auto quantile = [&](double part) {
-    const auto wanted = static_cast<std::uint64_t>(part * static_cast<double>(items.size()));
+  double quantile(double part, std::size_t count) const {
+    const auto wanted = static_cast<std::uint64_t>(part * static_cast<double>(count));
     std::uint64_t seen = 0;
     std::uint32_t bin = 0;
-    while (bin + 1 < 1024 && (seen += histogram[bin]) <= wanted) ++bin;
+    while (bin + 1 < 1024 && (seen += histogram_[bin]) <= wanted) ++bin;
     return bin == 0 ? 0.0 : double{std::bit_cast<float>((bin + 1) << kShift)};
-  };
-  const double half = quantile(0.5), most = quantile(0.95);
-  double side = std::min(1.5 * most, 3 * half);
-  if (most > 4 * half || most == 0) {
-    // Half of how far apart the bodies are, from where the middle half of them is.
-    double volume = 1;
-    for (int i = 0; i < D; ++i) {
-      room.clear();
-      for (const Item<D>& item : items) room.push_back(item.box.lo[i]);
-      const auto at = [&](std::size_t place) {
-        if (room.empty()) return 0.0;
-        std::nth_element(room.begin(), room.begin() + static_cast<std::ptrdiff_t>(place),
-                         room.end());
-        return room[place];
-      };
-      const double low = at(room.size() / 4),
-                   high = at(room.size() - room.size() / 4 - !room.empty());
-      volume *= geometry::pow(std::max(2 * (high - low), 0.0), 1.0 / D);
-    }
-    side =
-        std::max(side, volume / geometry::pow(static_cast<double>(items.size() + 1), 1.0 / D) / 2);
   }
-  return side > 0 ? std::clamp(side, 1e-100, 1e100) : 1;
-}
+
+  std::array<std::uint32_t, 2048> histogram_{};
+  std::vector<double> room_;  // scratch
+};
 
 template <int D>
 class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
@@ -95,20 +107,23 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
                     rasters_[0].cells(), config_.cell);
   }
 
-  // Tells make_child, test and store of the cells that the body reaches: whoever is told looks at
-  // all cells each time.
+  // Tells make_child, test and store of the cells that the body reaches.
   template <class Observer>
   void add(const Item<D>& item, Observer&& observer) {
     append(items_, item);
+    side_rule_.add(item.box);
     held_ = shown_ = false;
     if constexpr (!std::is_same_v<std::remove_cvref_t<Observer>, NoObserver>) {
-      show();
-      tell(item.id, observer);
+      config_.open ? hold_anew() : fit();
+      for (const Event& event :
+           cells_.way_of_last(items_, rasters(), table_, config_.open, config_.most_entries))
+        observer(event);
     }
   }
 
   void clear() override {
     items_.clear();
+    side_rule_.clear();
     cells_.forget();
     placed_ = 0;
     held_ = shown_ = false;
@@ -120,6 +135,8 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
     for (const Item<D>& item : items) require_valid(item);
     allocations_ += items.size() > items_.capacity();
     items_.assign(items.begin(), items.end());
+    if (config_.cell == 0)
+      for (const Item<D>& item : items) side_rule_.add(item.box);
     hold();
   }
 
@@ -133,7 +150,7 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
   // changes, but it must not be done by two threads at once.
   void hold() const {
     if (held_) return;
-    if (config_.cell == 0) cut(side_for<D>(items_, room_));
+    fit();
     table_.build(items_, rasters());
     placed_ += items_.size();
     held_ = true;
@@ -236,43 +253,27 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
       rasters_[level] = GridRaster<D>(config_.bounds, side, config_.open);
   }
 
-  void show() const {
-    if (shown_) return;
-    if (config_.cell == 0 || config_.open) {  // other cells, or buckets
-      hold();
-      cells_.forget();
-    }
-    cells_.make(items_, rasters(), table_, config_.open, config_.most_entries);
-    shown_ = true;
+  // Cells as suit the bodies, where that is left to it.
+  void fit() const {
+    if (config_.cell != 0) return;
+    const double side = side_rule_.side(items_);
+    if (side == rasters_[0].side()) return;
+    cut(side);
+    cells_.forget();
   }
 
-  // A cell that holds it alone was made for it, and so was what lies above and holds nothing else.
-  template <class Observer>
-  void tell(BodyId id, Observer& observer) const {
-    using Kind = Event::Kind;
-    std::vector<NodeView<D>> nodes;
-    std::vector<std::uint32_t> others;  // bodies below each node, besides
-    std::vector<std::uint32_t> count;
-    std::vector<bool> holds;
-    this->visit([&](const NodeView<D>& node) {
-      nodes.push_back(node);
-      others.push_back(static_cast<std::uint32_t>(node.bodies.size()));
-      count.push_back(others.back());
-      holds.push_back(std::ranges::binary_search(node.bodies, id));
-      if (holds.back()) --others.back();
-      return true;
-    });
-    for (std::size_t i = nodes.size(); i-- > 1;) {
-      others[nodes[i].parent] += others[i];
-      if (holds[i]) holds[nodes[i].parent] = true;
-    }
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-      if (!holds[i]) continue;
-      const NodeHandle handle = nodes[i].handle;
-      if (i > 0 && others[i] == 0) observer(Event{Kind::make_child, handle, id, 0, 0});
-      observer(Event{Kind::test, handle, id, 0, 0});
-      if (nodes[i].leaf) observer(Event{Kind::store, handle, id, count[i], 0});
-    }
+  // The buckets of an open grid may be others with each body.
+  void hold_anew() const {
+    hold();
+    cells_.forget();
+  }
+
+  void show() const {
+    if (shown_) return;
+    if (config_.open) hold_anew();
+    if (config_.cell == 0) hold();
+    cells_.make(items_, rasters(), table_, config_.open, config_.most_entries);
+    shown_ = true;
   }
 
   StructureConfig<D> config_;
@@ -282,7 +283,7 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
   mutable std::array<GridRaster<D>, kMostLevels> rasters_;
   mutable GridTable<D> table_;
   mutable GridCells<D> cells_;
-  mutable std::vector<double> room_;
+  mutable SideRule<D> side_rule_;  // of the items; unused where the side is given
   mutable std::uint64_t placed_ = 0;
   mutable bool held_ = false, shown_ = false;
 };

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <map>
 #include <span>
 #include <tuple>
 #include <vector>
@@ -23,10 +24,12 @@ class GridCells : CountsAllocations {
  public:
   static constexpr double kMostOfBody = 1 << 14;
 
-  // The items may be other ones from now on.
+  // The items may be other ones from now on, on other rasters.
   void forget() {
-    entries_.clear();
     reach_.clear();
+    reached_ = 0;
+    limit_ = kMostOfBody;
+    empty();
   }
 
   // At most `most` entries: if there would be more, kMostOfBody is halved until there are not.
@@ -35,17 +38,12 @@ class GridCells : CountsAllocations {
             const GridTable<D>& table, bool open, std::uint64_t most) {
     nodes_.clear();
     bodies_.clear();
-    while (reach_.size() < items.size()) append(reach_, Reach(items[reach_.size()].box, rasters));
-    std::uint32_t first = entries_.empty() ? 0 : entered_;
-    if (const double limit = limit_for(most); limit != limit_) {
-      limit_ = limit;
-      entries_.clear();
-      first = 0;
-    }
+    look_how_far(items, rasters, most);
+    const std::uint32_t first = entries_.empty() ? 0 : entered_;
     const auto before_them = static_cast<std::ptrdiff_t>(entries_.size());
     for (std::uint32_t k = first; k < items.size(); ++k) {
       stop_if_asked();
-      enter(reach_[k], {.id = items[k].id, .item = k}, open ? &table : nullptr);
+      enter(reach_[k], {.id = items[k].id, .item = k}, open ? &table : nullptr, entries_);
     }
     entered_ = static_cast<std::uint32_t>(items.size());
     std::sort(entries_.begin() + before_them, entries_.end(), before);
@@ -53,6 +51,41 @@ class GridCells : CountsAllocations {
     append(nodes_, Node{.depth = 0, .leaf = entries_.empty()});
     group(rasters, open);
     number();
+  }
+
+  // How the last item comes to its cells: make_child, test and store, node by node in the order of
+  // visiting. The same holds as for `make`, which would give the nodes the same handles; but none
+  // is looked at that the item does not reach.
+  const std::vector<Event>& way_of_last(std::span<const Item<D>> items,
+                                        std::span<const GridRaster<D>> rasters,
+                                        const GridTable<D>& table, bool open, std::uint64_t most) {
+    look_how_far(items, rasters, most);
+    for (; stored_ < items.size(); ++stored_) {
+      way_.clear();
+      here_.clear();
+      const BodyId id = items[stored_].id;
+      enter(reach_[stored_], {.id = id, .item = stored_}, open ? &table : nullptr, here_);
+      std::sort(here_.begin(), here_.end(), before);
+      const auto come_to = [&](const Place& place) -> Standing& {
+        const auto handle = static_cast<NodeHandle>(standing_.size());
+        const auto [at, is_new] = standing_.try_emplace(place, Standing{handle, 0});
+        if (is_new && handle > 0) append(way_, {Event::Kind::make_child, at->second.handle, id});
+        append(way_, {Event::Kind::test, at->second.handle, id});
+        return at->second;
+      };
+      come_to({0, 0, 0, {}});
+      const Entry* last = nullptr;
+      for (const Entry& e : here_) {
+        const bool large = e.level == kGridLarge;
+        if (rasters.size() > 1 && !large && !last) come_to({1, e.level, 0, {}});
+        if (open && !large && !(last && last->bucket == e.bucket))
+          come_to({2, e.level, e.bucket, {}});
+        Standing& leaf = come_to({3, e.level, e.bucket, e.cell});
+        append(way_, {Event::Kind::store, leaf.handle, id, ++leaf.bodies});
+        last = &e;
+      }
+    }
+    return way_;
   }
 
   std::uint64_t nodes() const { return nodes_.size(); }
@@ -121,28 +154,42 @@ class GridCells : CountsAllocations {
     return x < y || (x == y && a.id < b.id);
   }
 
-  // How many cells a body may reach so that all reach no more than `most` together.
-  double limit_for(std::uint64_t most) const {
-    double limit = kMostOfBody;
-    const auto all = [&] {
-      double sum = 0;
-      for (const Reach& reach : reach_) sum += reach.cells <= limit ? reach.cells : 1;
-      return sum;
+  // Which cells the items reach that came since, and how many a body may reach so that all reach no
+  // more than `most` together.
+  void look_how_far(std::span<const Item<D>> items, std::span<const GridRaster<D>> rasters,
+                    std::uint64_t most) {
+    const auto counted = [&](const Reach& reach) {
+      return reach.cells <= limit_ ? reach.cells : 1;
     };
-    while (limit >= 1 && all() > static_cast<double>(most)) limit /= 2;
-    return limit;
+    while (reach_.size() < items.size()) {
+      append(reach_, Reach(items[reach_.size()].box, rasters));
+      reached_ += counted(reach_.back());
+    }
+    while (limit_ >= 1 && reached_ > static_cast<double>(most)) {
+      limit_ /= 2;
+      reached_ = 0;
+      for (const Reach& reach : reach_) reached_ += counted(reach);
+      empty();
+    }
   }
 
-  void enter(const Reach& reach, Entry entry, const GridTable<D>* hash) {
+  void empty() {
+    entries_.clear();
+    standing_.clear();
+    stored_ = 0;
+  }
+
+  void enter(const Reach& reach, Entry entry, const GridTable<D>* hash,
+             std::vector<Entry>& entries) {
     entry.level = reach.level;
     if (reach.cells > limit_) {
       entry.level = kGridLarge;
-      return append(entries_, entry);
+      return append(entries, entry);
     }
     entry.cell = reach.from;
     for (;;) {
       if (hash) entry.bucket = hash->level(entry.level).bucket(entry.cell);
-      append(entries_, entry);
+      append(entries, entry);
       std::size_t i = 0;
       for (; i < D && entry.cell[i] == reach.to[i]; ++i) entry.cell[i] = reach.from[i];
       if (i == D) return;
@@ -290,12 +337,25 @@ class GridCells : CountsAllocations {
     }
   };
 
+  // A node while bodies come one after another: what it is called, and how many a leaf holds.
+  struct Standing {
+    NodeHandle handle = 0;
+    std::uint32_t bodies = 0;
+  };
+  // Its kind (root, level, bucket, cell), level, bucket and cell.
+  using Place = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, GridCell<D>>;
+
   std::vector<Reach> reach_;  // of each item
+  double reached_ = 0;        // cells by all of them
   std::vector<Entry> entries_;
   std::vector<Node> nodes_;  // in the order of visiting
   std::vector<BodyId> bodies_;
   std::vector<std::uint32_t> path_;  // scratch
   std::uint32_t entered_ = 0;        // so many items have their entries
+  std::map<Place, Standing> standing_;
+  std::uint32_t stored_ = 0;  // so many items are in these
+  std::vector<Entry> here_;   // of one item
+  std::vector<Event> way_;
   double limit_ = kMostOfBody;
   std::uint64_t leaves_ = 0;
   std::uint32_t above_ = 0;  // levels of nodes between the root and the cells
