@@ -156,8 +156,10 @@ void Lighting::light_pairs(bool few, Frame& frame) const {
     return;
   }
   std::size_t fresh = 0;
+  auto before = pairs_.begin();  // both lists ascend
   for (FramePair& p : frame.pairs) {
-    p.lit = !std::ranges::binary_search(pairs_, p.pair);
+    while (before != pairs_.end() && *before < p.pair) ++before;
+    p.lit = before == pairs_.end() || *before != p.pair;
     fresh += p.lit;
   }
   if (few || 2 * fresh <= frame.pairs.size()) return;
