@@ -84,24 +84,30 @@ void BroadPhase<D>::build(std::span<const Proxy<D>> proxies, const Watch& watch)
   });
 }
 
-// From now on the stores hold these bodies; structures whose bodies are where they were stand.
+// From now on the stores hold these bodies; structures whose bodies are where they were stand. A
+// body that is as it was needs no second look: most of what a town holds.
 template <int D>
 void BroadPhase<D>::take(std::span<const Proxy<D>> proxies) {
   bool ascending = true;
   bool same_bodies = true;  // are they those that the stores hold, each in its own?
   std::array<std::size_t, 2> places{};
+  changed_.clear();
   for (std::size_t i = 0; i < proxies.size(); ++i) {
     const Proxy<D>& proxy = proxies[i];
-    require_valid(Item<D>{proxy.id, proxy.box});
     ascending = ascending && (i == 0 || proxies[i - 1].id < proxy.id);
-    const bool of_static = is_of_static(proxy);
-    const std::vector<BodyId>& names = (of_static ? static_ : dynamic_).names;
-    const std::size_t place = places[of_static]++;
-    same_bodies = same_bodies && place < names.size() && names[place] == proxy.id;
+    const Store& store = store_for(proxy);
+    const std::size_t place = places[is_of_static(proxy)]++;
+    same_bodies = same_bodies && place < store.names.size() && store.names[place] == proxy.id;
+    if (same_bodies && is_in(store, place, proxy)) continue;
+    require_valid(Item<D>{proxy.id, proxy.box});
+    if (same_bodies) changed_.emplace_back(i, place);
   }
   same_bodies = same_bodies && ascending && places[0] == dynamic_.names.size() &&
                 places[1] == static_.names.size();
-  if (same_bodies) return move(proxies);
+  if (same_bodies) {
+    for (const auto& [i, place] : changed_) set(store_for(proxies[i]), place, proxies[i]);
+    return;
+  }
   if (ascending) return replace(proxies);
   sorted_.assign(proxies.begin(), proxies.end());
   std::ranges::sort(sorted_, {}, &Proxy<D>::id);
@@ -112,17 +118,11 @@ void BroadPhase<D>::take(std::span<const Proxy<D>> proxies) {
 }
 
 template <int D>
-void BroadPhase<D>::move(std::span<const Proxy<D>> proxies) {
-  std::array<std::size_t, 2> places{};
-  for (const Proxy<D>& proxy : proxies) set(store_for(proxy), places[is_of_static(proxy)]++, proxy);
-}
-
-template <int D>
 void BroadPhase<D>::set(Store& store, std::size_t place, const Proxy<D>& proxy) {
+  if (is_in(store, place, proxy)) return;
   Item<D>& item = store.items[place];
   const ProxyState state{proxy.is_static, proxy.awake};
   const bool moves = !(item.box == proxy.box);
-  if (!moves && store.states[place] == state) return;
   found_all_ = false;
   item.box = proxy.box;
   store.states[place] = state;
@@ -517,7 +517,7 @@ std::size_t BroadPhase<D>::own_places() const {
   const auto of_store = [](const Store& s) { return s.places() + s.ranks.capacity(); };
   return pairs_.capacity() + sorted_.capacity() + all_names_.capacity() + ids_.capacity() +
          of_store(static_) + of_store(dynamic_) + fresh_.places() + stirring_.capacity() +
-         search_->places() + search_->order.places();
+         changed_.capacity() + search_->places() + search_->order.places();
 }
 
 template class BroadPhase<2>;

@@ -175,7 +175,10 @@ class BroadPhase {
   template <class F>
   void all_or_nothing(F&& change);
   void take(std::span<const Proxy<D>> proxies);
-  void move(std::span<const Proxy<D>> proxies);
+  static bool is_in(const Store& store, std::size_t place, const Proxy<D>& proxy) {
+    return store.items[place].box == proxy.box &&
+           store.states[place] == ProxyState{proxy.is_static, proxy.awake};
+  }
   void set(Store& store, std::size_t place, const Proxy<D>& proxy);
   void replace(std::span<const Proxy<D>> proxies);
   void forget();
@@ -210,7 +213,9 @@ class BroadPhase {
   std::size_t put_to_rest_ = 0;  // since that tree was built
 
   // Scratch of an update, kept for its memory.
-  std::vector<Proxy<D>> sorted_;   // all, by id, if they came otherwise
+  std::vector<Proxy<D>> sorted_;  // all, by id, if they came otherwise
+  // Of those that came and are not as they were: which of them, and their places in their stores.
+  std::vector<std::pair<std::size_t, std::size_t>> changed_;
   std::vector<BodyId> all_names_;  // by rank, if there are static bodies
   Bodies fresh_;                   // of a store whose bodies are others now
   std::vector<BodyId> ids_;
