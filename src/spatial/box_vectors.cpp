@@ -16,7 +16,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // A box against as many as a vector holds. Two boxes overlap if no bound of one lies beyond the
 // other's. Both are rounded outward by less than one float: so they certainly overlap if they still
-// do after one of them has been made two floats smaller on each side.
+// do after one of them has been made at least two floats smaller on each side.
 template <int D>
 class Look {
   using Floats = hn::ScalableTag<float>;
@@ -26,12 +26,17 @@ class Look {
   using Mask = hn::Mask<Floats>;
 
   Look(const BoxTable<D>& queries, std::uint32_t place) {
+    // By four to eight floats; where they lie closest, by more. What is beyond all floats may lie
+    // right behind the last.
+    const Vector below = hn::Set(Floats(), 1 - 0x1p-21f), above = hn::Set(Floats(), 1 + 0x1p-21f);
+    const Vector least = hn::Set(Floats(), 0x1p-120f);
+    const Vector last = hn::Set(Floats(), hwy::HighestValue<float>());
     for (int i = 0; i < D; ++i) {
-      const float lo = queries.lo(i)[place], hi = queries.hi(i)[place];
-      lo_[i] = hn::Set(Floats(), lo);
-      hi_[i] = hn::Set(Floats(), hi);
-      sure_lo_[i] = hn::Set(Floats(), detail::stepped(lo, 2));
-      sure_hi_[i] = hn::Set(Floats(), detail::stepped(hi, -2));
+      lo_[i] = hn::Set(Floats(), queries.lo(i)[place]);
+      hi_[i] = hn::Set(Floats(), queries.hi(i)[place]);
+      const Vector lo = hn::Max(lo_[i], hn::Neg(last)), hi = hn::Min(hi_[i], last);
+      sure_lo_[i] = hn::Add(hn::Max(hn::Mul(lo, below), hn::Mul(lo, above)), least);
+      sure_hi_[i] = hn::Sub(hn::Min(hn::Mul(hi, below), hn::Mul(hi, above)), least);
     }
   }
 
@@ -41,7 +46,7 @@ class Look {
       const Vector lo = hn::LoadU(Floats(), table.lo(i) + place);
       const Vector hi = hn::LoadU(Floats(), table.hi(i) + place);
       maybe = hn::And(maybe, hn::And(hn::Le(lo_[i], hi), hn::Le(lo, hi_[i])));
-      surely = hn::And(surely, hn::And(hn::Le(sure_lo_[i], hi), hn::Le(lo, sure_hi_[i])));
+      surely = hn::And(surely, hn::And(hn::Lt(sure_lo_[i], hi), hn::Lt(lo, sure_hi_[i])));
     }
   }
 

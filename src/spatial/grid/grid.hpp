@@ -135,8 +135,7 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
     for (const Item<D>& item : items) require_valid(item);
     allocations_ += items.size() > items_.capacity();
     items_.assign(items.begin(), items.end());
-    if (config_.cell == 0)
-      for (const Item<D>& item : items) side_rule_.add(item.box);
+    for (const Item<D>& item : items) side_rule_.add(item.box);
     hold();
   }
 
@@ -173,7 +172,7 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
     std::uint64_t rows = 0;
     table_.each_run(items_, [&](std::uint32_t asks, std::uint32_t from, std::uint32_t to) {
       stop_if_asked();
-      ++rows;
+      rows += from < to;
       const BodyId a = items_[table_.table().id(asks)].id;
       const bool stirs = awake(a);
       for (std::uint32_t place = from; place < to; ++place) {

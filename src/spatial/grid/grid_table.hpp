@@ -61,8 +61,12 @@ class GridRaster {
 
   double side() const { return side_; }
 
+  // How many sides beyond the corner of the bounds, where there are cells.
+  double sides(double x, int axis) const {
+    return std::clamp((x - bounds_.lo[axis]) * inverse_, first_[axis], last_[axis]);
+  }
   std::int64_t at(double x, int axis) const {
-    const double t = std::clamp((x - bounds_.lo[axis]) * inverse_, first_[axis], last_[axis]);
+    const double t = sides(x, axis);
     const auto cell = static_cast<std::int64_t>(t);
     return cell - (static_cast<double>(cell) > t);
   }
@@ -123,6 +127,25 @@ struct GridLevel {
     std::int64_t slot = 0;
     for (std::size_t i = D; i-- > 0;) slot = slot * fold[i] + fold_of(cell[i] - base[i], i);
     return static_cast<std::uint32_t>(slot);
+  }
+
+  // How many cells in use a body reaches beyond its first, on each axis: two bits, since it is no
+  // larger than a cell and so reaches two at most.
+  std::uint8_t span(const GridCell<D>& from, const Vec<D>& hi) const {
+    std::uint32_t span = 0;
+    for (std::size_t i = 0; i < D; ++i) {
+      const auto axis = static_cast<int>(i);
+      const auto next = static_cast<double>(from[i] + 1);
+      const double to = std::min(raster.sides(hi[axis], axis), static_cast<double>(last[i]));
+      span |= static_cast<std::uint32_t>((to >= next) + (to >= next + 1)) << 2 * i;
+    }
+    return static_cast<std::uint8_t>(span);
+  }
+
+  // A cell in use as it is counted from the base.
+  GridCell<D> counted(GridCell<D> cell) const {
+    for (std::size_t i = 0; i < D; ++i) cell[i] -= base[i];
+    return cell;
   }
 
   // The first slot of a row, whose cells are counted from the base.
@@ -203,12 +226,13 @@ class GridTable : CountsAllocations {
     place(items);
   }
 
-  // f(place, from, to) for all runs of places that must be compared with one that asks.
+  // f(place, from, to) for all runs of places that must be compared with one that asks; some are
+  // empty: to tell which costs as much as to write one down.
   template <class F>
   void each_run(std::span<const Item<D>> items, F&& f) const {
     for (const Level& level : levels_) {
       if (level.count == 0) continue;
-      level.folded ? runs_within<true>(level, items, f) : runs_within<false>(level, items, f);
+      runs_within(level, items, f);
       for (const Level& finer : levels_) {
         if (&finer == &level) break;
         for (std::uint32_t p = level.first; p < level.first + level.count; ++p)
@@ -222,7 +246,10 @@ class GridTable : CountsAllocations {
   // f(from, to) for the runs of places whose bodies may reach the box.
   template <class F>
   void each_near(const Box<D>& box, F&& f) const {
-    for (const Level& level : levels_) ask(level, box, f);
+    for (const Level& level : levels_)
+      ask(level, box, [&](std::uint32_t from, std::uint32_t to) {
+        if (from < to) f(from, to);
+      });
     if (first_large_ < table_.size()) f(first_large_, static_cast<std::uint32_t>(table_.size()));
   }
 
@@ -233,6 +260,11 @@ class GridTable : CountsAllocations {
  private:
   using Level = GridLevel<D>;
   static constexpr std::uint8_t kLarge = 0xff;
+  // Where a body is: its level, its first cell, and how far it reaches beyond.
+  struct Spot {
+    std::uint32_t slot = 0;
+    std::uint8_t level = 0, span = 0;
+  };
 
   void set_up(std::span<const GridRaster<D>> rasters) {
     if (levels_.size() != rasters.size()) {
@@ -251,8 +283,8 @@ class GridTable : CountsAllocations {
 
   // Each body to the finest level whose cells are as large as it is.
   void deal(std::span<const Item<D>> items) {
-    make_room(level_of_, items.size());
-    make_room(slot_of_, items.size());
+    make_room(spot_of_, items.size());
+    make_room(spot_at_, items.size());
     large_.clear();
     const std::size_t levels = levels_.size();
     for (std::size_t k = 0; k < items.size(); ++k) {
@@ -261,11 +293,11 @@ class GridTable : CountsAllocations {
       std::size_t l = 0;
       while (l < levels && extent > levels_[l].raster.side()) ++l;
       if (l == levels) {
-        level_of_[k] = kLarge;
+        spot_of_[k].level = kLarge;
         append(large_, static_cast<std::uint32_t>(k));
         continue;
       }
-      level_of_[k] = static_cast<std::uint8_t>(l);
+      spot_of_[k].level = static_cast<std::uint8_t>(l);
       Level& level = levels_[l];
       ++level.count;
       level.corners.lo = glm::min(level.corners.lo, box.lo);
@@ -286,10 +318,13 @@ class GridTable : CountsAllocations {
     allocations_ += slots + 2 > start_.capacity();
     start_.assign(slots + 2, 0);
     for (std::size_t k = 0; k < items.size(); ++k) {
-      if (level_of_[k] == kLarge) continue;
-      const Level& level = levels_[level_of_[k]];
-      slot_of_[k] = level.first_slot + level.slot(level.raster.at(items[k].box.lo));
-      ++start_[slot_of_[k] + 2];
+      Spot& spot = spot_of_[k];
+      if (spot.level == kLarge) continue;
+      const Level& level = levels_[spot.level];
+      const GridCell<D> from = level.raster.at(items[k].box.lo);
+      spot.slot = level.first_slot + level.slot(from);
+      spot.span = level.span(from, items[k].box.hi);
+      ++start_[spot.slot + 2];
     }
     std::uint32_t sum = 0;
     for (std::uint32_t& s : start_) s = sum += s;
@@ -300,8 +335,12 @@ class GridTable : CountsAllocations {
     const std::size_t places = table_.places();
     table_.resize(items.size());
     allocations_ += table_.places() != places;
-    for (std::uint32_t k = 0; k < items.size(); ++k)
-      if (level_of_[k] != kLarge) table_.set(start_[slot_of_[k] + 1]++, k, items[k].box);
+    for (std::uint32_t k = 0; k < items.size(); ++k) {
+      if (spot_of_[k].level == kLarge) continue;
+      const std::uint32_t p = start_[spot_of_[k].slot + 1]++;
+      table_.set(p, k, items[k].box);
+      spot_at_[p] = spot_of_[k];
+    }
     std::ranges::sort(large_, [&](std::uint32_t a, std::uint32_t b) {
       const double x = items[a].box.lo[0], y = items[b].box.lo[0];
       return x < y || (x == y && items[a].id < items[b].id);
@@ -338,79 +377,63 @@ class GridTable : CountsAllocations {
                 F&& f) const {
     const auto a = static_cast<std::uint32_t>(level.fold_of(x0, 0));
     const auto b = static_cast<std::uint32_t>(level.fold_of(x1, 0));
-    const auto run = [&](std::uint32_t from, std::uint32_t to) {
-      if (from < to) f(from, to);
-    };
-    if (a <= b) return run(start_[row + a], start_[row + b + 1]);
-    run(start_[row + a], start_[row + static_cast<std::uint32_t>(level.fold[0])]);
-    run(start_[row], start_[row + b + 1]);
-  }
-
-  Box<D> rounded_box(std::uint32_t place) const {
-    Box<D> box;
-    for (int i = 0; i < D; ++i) {
-      box.lo[i] = table_.lo(i)[place];
-      box.hi[i] = table_.hi(i)[place];
-    }
-    return box;
+    if (a <= b) return f(start_[row + a], start_[row + b + 1]);
+    f(start_[row + a], start_[row + static_cast<std::uint32_t>(level.fold[0])]);
+    f(start_[row], start_[row + b + 1]);
   }
 
   // Each body with those behind it in its row, and with those in the rows behind that it reaches.
-  template <bool kFolded, class F>
+  template <class F>
   void runs_within(const Level& level, std::span<const Item<D>> items, F& f) const {
     const auto width = static_cast<std::uint32_t>(level.fold[0]);
-    std::uint32_t y = 0, z = 0;
+    std::int64_t y = 0, z = 0;
     for (std::uint32_t row = level.first_slot; row < level.first_slot + level.slots; row += width) {
       stop_if_asked();
-      for (std::uint32_t p = start_[row]; p < start_[row + width]; ++p) {
-        const Box<D> box = kFolded ? items[table_.id(p)].box : rounded_box(p);
-        GridCell<D> from, to;
-        for (int i = 0; i < D; ++i) {
-          const auto a = static_cast<std::size_t>(i);
-          from[a] = level.raster.at(box.lo[i], i) - level.base[a];
-          to[a] = std::min(level.raster.at(box.hi[i], i), level.last[a]) - level.base[a];
-        }
-        if constexpr (!kFolded) {  // what was rounded outward may begin one cell too early
-          from[1] = y;
-          if constexpr (D == 3) from[2] = z;
-        }
-        runs_of<kFolded>(level, p, row, from, to, f);
+      const std::uint32_t end = start_[row + width];
+      for (std::uint32_t p = start_[row]; p < end; ++p) {
+        GridCell<D> from{spot_at_[p].slot - row, y};
+        if constexpr (D == 3) from[2] = z;
+        if (level.folded) from = level.counted(level.raster.at(items[table_.id(p)].box.lo));
+        runs_of(level, p, row, from, f);
       }
-      if (++y == static_cast<std::uint32_t>(level.fold[1])) {
+      if (++y == level.fold[1]) {
         y = 0;
         ++z;
       }
     }
   }
 
-  template <bool kFolded, class F>
+  template <class F>
   void runs_of(const Level& level, std::uint32_t p, std::uint32_t row, const GridCell<D>& from,
-               const GridCell<D>& to, F& f) const {
+               F& f) const {
     const auto tell = [&](std::uint32_t first, std::uint32_t end) { f(p, first, end); };
-    own_row<kFolded>(level, p, row, from, to, f);
     const auto before = [&](std::size_t axis) {
       return std::max<std::int64_t>(from[axis] - level.reach, 0);
     };
-    const std::int64_t x0 = before(0);
-    for (std::int64_t y = from[1] + 1; y <= to[1]; ++y)
-      row_runs(level, level.row(y, D == 3 ? from[D - 1] : 0), x0, to[0], tell);
+    const auto to = [&](std::size_t axis) {
+      return from[axis] + (spot_at_[p].span >> 2 * axis & 3);
+    };
+    const std::int64_t x0 = before(0), x1 = to(0), y1 = to(1);
+    own_row(level, p, row, from[0], x1, f);
+    for (std::int64_t y = from[1] + 1; y <= y1; ++y)
+      row_runs(level, level.row(y, D == 3 ? from[D - 1] : 0), x0, x1, tell);
     if constexpr (D == 3) {
-      for (std::int64_t z = from[2] + 1; z <= to[2]; ++z)
-        for (std::int64_t y = before(1); y <= to[1]; ++y)
-          row_runs(level, level.row(y, z), x0, to[0], tell);
+      const std::int64_t y0 = before(1), z1 = to(2);
+      for (std::int64_t z = from[2] + 1; z <= z1; ++z)
+        for (std::int64_t y = y0; y <= y1; ++y) row_runs(level, level.row(y, z), x0, x1, tell);
     }
   }
 
-  template <bool kFolded, class F>
-  void own_row(const Level& level, std::uint32_t p, std::uint32_t row, const GridCell<D>& from,
-               const GridCell<D>& to, F& f) const {
-    const auto last = static_cast<std::uint32_t>(level.fold_of(to[0], 0));
+  template <class F>
+  void own_row(const Level& level, std::uint32_t p, std::uint32_t row, std::int64_t x0,
+               std::int64_t x1, F& f) const {
+    const auto last = static_cast<std::uint32_t>(level.fold_of(x1, 0));
     std::uint32_t end = start_[row + last + 1];
-    if (kFolded && last < level.fold_of(from[0], 0)) {
-      if (start_[row] < end) f(p, start_[row], end);
+    if (level.folded && last < level.fold_of(x0, 0)) {
+      f(p, start_[row], end);
       end = start_[row + static_cast<std::uint32_t>(level.fold[0])];
     }
-    if (p + 1 < end) f(p, p + 1, end);
+    f(p, p + 1, end);
   }
 
   // Among themselves they are swept along x.
@@ -422,7 +445,7 @@ class GridTable : CountsAllocations {
       const Box<D>& box = items[table_.id(p)].box;
       std::uint32_t end = p + 1;
       while (end < n && items[table_.id(end)].box.lo[0] <= box.hi[0]) ++end;
-      if (p + 1 < end) f(p, p + 1, end);
+      f(p, p + 1, end);
       for (const Level& level : levels_)
         ask(level, box, [&](std::uint32_t from, std::uint32_t to) { f(p, from, to); });
     }
@@ -430,9 +453,8 @@ class GridTable : CountsAllocations {
 
   std::vector<Level> levels_;
   BoxTable<D> table_;
-  std::vector<std::uint32_t> start_;  // of each slot, the first place; one more behind the last
-  std::vector<std::uint8_t> level_of_;
-  std::vector<std::uint32_t> slot_of_;
+  std::vector<std::uint32_t> start_;     // of each slot, the first place; one more behind the last
+  std::vector<Spot> spot_of_, spot_at_;  // of each item, and of each place
   std::vector<std::uint32_t> large_;
   std::uint32_t first_large_ = 0;  // their first place
 };
