@@ -49,13 +49,23 @@ class PeerPairs : public BoxRun {
   std::vector<Pair> pairs_;
 };
 
+// Told once of what never moves, as the others are.
 template <int D>
 class OwnPairs : public BoxRun {
  public:
   OwnPairs(const BoxStage& stage, const BroadPhaseConfig<D>& config)
-      : scene_(updates_in<D>(stage)), broad_phase_(config) {}
+      : scene_(updates_in<D>(stage)),
+        some_rest_(std::ranges::any_of(scene_.frames[0], &Proxy<D>::is_static)),
+        broad_phase_(config) {}
 
-  void step(std::size_t frame) override { broad_phase_.update(scene_.frames[frame]); }
+  void step(std::size_t frame) override {
+    const std::vector<Proxy<D>>& boxes = scene_.frames[frame];
+    if (!some_rest_ || broad_phase_.counters().static_builds == 0)
+      return broad_phase_.update(boxes);
+    moving_.clear();
+    std::ranges::copy_if(boxes, std::back_inserter(moving_), std::not_fn(&Proxy<D>::is_static));
+    broad_phase_.follow(moving_);
+  }
   const std::vector<Pair>& found() const override { return broad_phase_.pairs(); }
   std::optional<std::uint64_t> allocations() const override {
     return broad_phase_.counters().allocations;
@@ -70,7 +80,9 @@ class OwnPairs : public BoxRun {
 
  private:
   const BoxUpdates<D>& scene_;
+  bool some_rest_;
   BroadPhase<D> broad_phase_;
+  std::vector<Proxy<D>> moving_;
 };
 
 template <int D>
