@@ -37,6 +37,11 @@ class Oracle {
   }
   virtual void within(const Box<D>& box, std::vector<BodyId>& ids) = 0;
   virtual void within(const Ball<D>& ball, std::vector<BodyId>& ids) = 0;
+  // Appends the body whose box is nearest to the point, of several the one with the lowest id;
+  // false, and nothing is done, if it cannot.
+  virtual bool nearest(const Vec<D>&, std::vector<BodyId>&) { return false; }
+  // Of all questions so far, where they are counted.
+  virtual std::optional<QueryCounts> counts() const { return std::nullopt; }
 };
 
 // One library by one of its ways.
@@ -53,6 +58,7 @@ struct BoxPeer {
   Maker<PairFinder<3>> pairs_3d = {};
   Maker<Oracle<2>> oracle_2d = {};
   Maker<Oracle<3>> oracle_3d = {};
+  bool finds_nearest = false;
   std::function<std::uint64_t()> allocations = {};  // calls for memory so far; empty: not counted
 };
 

@@ -64,7 +64,8 @@ int widest_axis(std::span<const Proxy<D>> boxes, const std::vector<BodyId>& bodi
   return widest;
 }
 
-// Halve the bodies at the median of their centres, across the axis of their widest spread.
+}  // namespace
+
 template <int D>
 std::vector<BspPlane<D>> median_planes(std::span<const Proxy<D>> boxes, std::uint32_t capacity,
                                        std::uint32_t most_depth) {
@@ -90,6 +91,12 @@ std::vector<BspPlane<D>> median_planes(std::span<const Proxy<D>> boxes, std::uin
   halve(halve, all, kNone, false, 0);
   return planes;
 }
+template std::vector<BspPlane<2>> median_planes<2>(std::span<const Proxy<2>>, std::uint32_t,
+                                                   std::uint32_t);
+template std::vector<BspPlane<3>> median_planes<3>(std::span<const Proxy<3>>, std::uint32_t,
+                                                   std::uint32_t);
+
+namespace {
 
 template <int D>
 void count_update(BroadPhase<D>& broad_phase, std::span<const Proxy<D>> boxes,

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "measure/boxes/worlds.hpp"
-#include "spatial/pairs.hpp"
 #include "measure/row.hpp"
+#include "spatial/pairs.hpp"
 
 namespace lantern::measure {
 
@@ -91,5 +91,12 @@ const BroadPhaseCost* row_of(std::span<const BroadPhaseCost> rows, const std::st
 // Whether the tree was out of proportion and built with half the depth limit instead: then a lower
 // limit of the same capacity made a deeper one.
 bool was_cut_back(std::span<const BroadPhaseCost> rows, const BroadPhaseCost& row);
+
+// The planes of a BSP that halve the bodies, whose ids are their places, at the median of their
+// centres, across the axis of their widest spread, while there are more than `capacity` on a side
+// and no more than `most_depth` planes one below the other.
+template <int D>
+std::vector<BspPlane<D>> median_planes(std::span<const Proxy<D>> boxes, std::uint32_t capacity,
+                                       std::uint32_t most_depth);
 
 }  // namespace lantern::measure

@@ -96,6 +96,17 @@ class PackedOracle : public measure::Oracle<D> {
                 }),
                 into(ids));
   }
+  // Of the boxes in which the point lies, Boost names any: here the first is asked for.
+  bool nearest(const Vec<D>& at, std::vector<BodyId>& ids) override {
+    const Point<D> point = to_boost<D>(at);
+    const std::size_t before = ids.size();
+    tree_.query(bgi::nearest(point, 1), into(ids));
+    if (!contains(boxes_[ids.back()].box, at)) return true;
+    tree_.query(bgi::intersects(point), into(ids));
+    ids[before] = *std::min_element(ids.begin() + static_cast<std::ptrdiff_t>(before), ids.end());
+    ids.resize(before + 1);
+    return true;
+  }
 
  private:
   static auto into(std::vector<BodyId>& ids) {
@@ -129,5 +140,6 @@ extern "C" void lantern_box_peers(std::vector<lantern::measure::BoxPeer>& peers)
                    .pairs_3d = made<PackedFinder, PairFinder<3>, 3>,
                    .oracle_2d = made<PackedOracle, Oracle<2>, 2>,
                    .oracle_3d = made<PackedOracle, Oracle<3>, 3>,
+                   .finds_nearest = true,
                    .allocations = [] { return calls_for_memory; }});
 }

@@ -86,10 +86,7 @@ class Queries {
     const std::vector<StructureView<D>> structures = world_.broad_phase()->each();
     for (std::size_t i = 0; i < structures.size(); ++i) {
       if (i == 1) found_.first_static = found_.walk.size();
-      const QueryCounts counts = f(structures[i], box_of, told);
-      found_.counts.nodes_visited += counts.nodes_visited;
-      found_.counts.nodes_skipped += counts.nodes_skipped;
-      found_.counts.objects_tested += counts.objects_tested;
+      found_.counts += f(structures[i], box_of, told);
     }
   }
 

@@ -14,6 +14,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <cstring>
 
 #include "spatial/structure.hpp"
 
@@ -34,6 +35,29 @@ inline float stepped(float x, int by) {
 
 }  // namespace detail
 
+// Some boxes in a row: each bound of all, and their ids.
+template <int D>
+struct BoxRow {
+  const float* lo[D];
+  const float* hi[D];
+  const std::byte* ids;
+
+  BodyId id(std::size_t place) const {
+    BodyId id;
+    std::memcpy(&id, ids + place * sizeof id, sizeof id);
+    return id;
+  }
+  BoxRow from(std::size_t place) const {
+    BoxRow row = *this;
+    for (int i = 0; i < D; ++i) {
+      row.lo[i] += place;
+      row.hi[i] += place;
+    }
+    row.ids += place * sizeof(BodyId);
+    return row;
+  }
+};
+
 template <int D>
 class BoxTable {
  public:
@@ -53,6 +77,23 @@ class BoxTable {
     ids_[place] = id;
   }
 
+  BoxRow<D> row(std::size_t first) const {
+    BoxRow<D> row;
+    for (int i = 0; i < D; ++i) {
+      row.lo[i] = lo_[i].data();
+      row.hi[i] = hi_[i].data();
+    }
+    row.ids = reinterpret_cast<const std::byte*>(ids_.data());
+    return row.from(first);
+  }
+  // What stands there will soon be looked at.
+  void fetch(std::size_t place) const {
+    for (int i = 0; i < D; ++i) {
+      __builtin_prefetch(lo_[i].data() + place);
+      __builtin_prefetch(hi_[i].data() + place);
+    }
+    __builtin_prefetch(ids_.data() + place);
+  }
   BodyId id(std::size_t place) const { return ids_[place]; }
   const float* lo(int axis) const { return lo_[axis].data(); }
   const float* hi(int axis) const { return hi_[axis].data(); }

@@ -2,11 +2,11 @@
 // chosen when it runs: by Highway, which includes this file again and again.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "spatial/box_vectors.cpp"
-#include "spatial/trees/aabb_walk.hpp"
-#include "spatial/vector_targets.hpp"
-
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+
+#include "spatial/box_row.hpp"
+#include "spatial/vector_targets.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace lantern::spatial::HWY_NAMESPACE {
@@ -95,32 +95,36 @@ ScanDone ScanRuns(const ScanTask<D>& task, const ScanRoom& room, std::size_t pai
   return {done, pairs};
 }
 
-// --- boxes and rays in a block of an AABB tree ---
+// --- boxes, balls and rays among the boxes of a row ---
 
 using Lanes = hn::CappedTag<float, kAabbBlock>;
 
+std::uint32_t MaskBits(hn::Mask<Lanes> mask) {
+  std::uint8_t part[8] = {};
+  hn::StoreMaskBits(Lanes(), mask, part);
+  return part[0] | std::uint32_t{part[1]} << 8;
+}
+
 // look(at): the mask of the lanes from place `at` on.
 template <class Look>
-std::uint32_t BitsOf(std::uint32_t first, Look look) {
+std::uint32_t BitsOf(Look look) {
   std::uint32_t bits = 0;
   for (std::uint32_t i = 0; i < kAabbBlock; i += static_cast<std::uint32_t>(hn::Lanes(Lanes()))) {
-    std::uint8_t part[8] = {};
-    hn::StoreMaskBits(Lanes(), look(first + i), part);
-    bits |= (part[0] | std::uint32_t{part[1]} << 8) << i;
+    bits |= MaskBits(look(i)) << i;
   }
   return bits;
 }
 
 template <int D>
-BlockBits Reached(const BoxTable<D>& table, std::uint32_t first, const AabbNode<D>& asked) {
+BlockBits Reached(const BoxRow<D>& row, const FloatBox<D>& asked) {
   const auto bits = [&](int smaller) {
-    return BitsOf(first, [&](std::uint32_t at) {
+    return BitsOf([&](std::uint32_t at) {
       auto all = hn::FirstN(Lanes(), kAabbBlock);
       for (int i = 0; i < D; ++i) {
         const auto lo = hn::Set(Lanes(), detail::stepped(asked.lo[i], smaller));
         const auto hi = hn::Set(Lanes(), detail::stepped(asked.hi[i], -smaller));
-        all = hn::And(all, hn::And(hn::Le(hn::LoadU(Lanes(), table.lo(i) + at), hi),
-                                   hn::Le(lo, hn::LoadU(Lanes(), table.hi(i) + at))));
+        all = hn::And(all, hn::And(hn::Le(hn::LoadU(Lanes(), row.lo[i] + at), hi),
+                                   hn::Le(lo, hn::LoadU(Lanes(), row.hi[i] + at))));
       }
       return all;
     });
@@ -128,32 +132,68 @@ BlockBits Reached(const BoxTable<D>& table, std::uint32_t first, const AabbNode<
   return {bits(0), bits(2)};
 }
 
-// The slab method (geometry/ray.hpp), each span widened by what float may have lost.
+// How far each box is from the centre, at least and at most, in squares.
 template <int D>
-std::uint32_t Met(const BoxTable<D>& table, std::uint32_t first, const FloatRay<D>& ray,
-                  float limit) {
+BlockBits InBall(const BoxRow<D>& row, const FloatBall<D>& ball, BlockEntries& entries) {
+  const auto set = [](float x) { return hn::Set(Lanes(), x); };
+  const auto less = set(1 - 0x1p-20f), more = set(1 + 0x1p-20f), none = hn::Zero(Lanes());
+  const auto bits = [&](bool at_most) {
+    return BitsOf([&](std::uint32_t at) {
+      auto squares = none;
+      for (int i = 0; i < D; ++i) {
+        const auto center = set(ball.center[i]), slack = set(ball.slack[i]);
+        const auto lo = hn::LoadU(Lanes(), row.lo[i] + at);
+        const auto hi = hn::LoadU(Lanes(), row.hi[i] + at);
+        const auto gap = hn::Max(hn::Sub(lo, center), hn::Sub(center, hi));
+        const auto wide =
+            at_most ? hn::Add(hn::Mul(gap, more), slack) : hn::Sub(hn::Mul(gap, less), slack);
+        const auto beside = hn::Max(wide, none);
+        squares = hn::Add(squares, hn::Mul(beside, beside));
+      }
+      if (!at_most) hn::StoreU(hn::Mul(squares, less), Lanes(), entries.data() + at);
+      return hn::Le(squares, hn::Mul(set(ball.square), at_most ? less : more));
+    });
+  };
+  return {bits(false), bits(true)};
+}
+
+// The slab method (geometry/ray.hpp), each span once widened and once narrowed by what float may
+// have lost.
+template <int D>
+BlockBits Met(const BoxRow<D>& row, const FloatRay<D>& ray, float limit, BlockEntries& entries) {
   const auto set = [](float x) { return hn::Set(Lanes(), x); };
   const auto less = set(1 - 0x1p-21f), more = set(1 + 0x1p-21f);
-  return BitsOf(first, [&](std::uint32_t at) {
-    auto from = set(0), to = set(limit);
-    auto all = hn::FirstN(Lanes(), kAabbBlock);
+  BlockBits bits;
+  bits.maybe = BitsOf([&](std::uint32_t at) {
+    auto from = set(0), to = set(limit), sure_from = from, sure_to = hn::Mul(to, less);
+    auto all = hn::FirstN(Lanes(), kAabbBlock), sure = all;
     for (int i = 0; i < D; ++i) {
-      const auto lo = hn::LoadU(Lanes(), table.lo(i) + at);
-      const auto hi = hn::LoadU(Lanes(), table.hi(i) + at);
+      const auto lo = hn::LoadU(Lanes(), row.lo[i] + at);
+      const auto hi = hn::LoadU(Lanes(), row.hi[i] + at);
       if (ray.stands[i]) {
-        all = hn::And(all, hn::And(hn::Le(lo, set(ray.above[i])), hn::Le(set(ray.below[i]), hi)));
+        const auto above = set(ray.above[i]), below = set(ray.below[i]);
+        all = hn::And(all, hn::And(hn::Le(lo, above), hn::Le(below, hi)));
+        sure = hn::And(sure, hn::And(hn::Lt(lo, below), hn::Lt(above, hi)));
         continue;
       }
       const auto inverse = set(ray.inverse[i]), origin = set(ray.origin[i]);
+      const auto slack = set(ray.slack[i]);
       const auto a = hn::Mul(hn::Sub(lo, origin), inverse);
       const auto b = hn::Mul(hn::Sub(hi, origin), inverse);
-      const auto begin = hn::Sub(hn::Min(a, b), set(ray.slack[i]));
-      const auto end = hn::Add(hn::Max(a, b), set(ray.slack[i]));
-      from = hn::Max(from, hn::Mul(begin, less));
-      to = hn::Min(to, hn::Max(hn::Mul(end, less), hn::Mul(end, more)));
+      const auto begin = hn::Min(a, b), end = hn::Max(a, b);
+      const auto late = hn::Add(begin, slack), soon = hn::Sub(end, slack);
+      const auto last = hn::Add(end, slack);
+      from = hn::Max(from, hn::Mul(hn::Sub(begin, slack), less));
+      to = hn::Min(to, hn::Max(hn::Mul(last, less), hn::Mul(last, more)));
+      sure_from = hn::Max(sure_from, hn::Mul(late, more));
+      sure_to = hn::Min(sure_to, hn::Min(hn::Mul(soon, less), hn::Mul(soon, more)));
     }
+    hn::StoreU(from, Lanes(), entries.data() + at);
+    sure = hn::And(sure, hn::And(hn::Le(sure_from, sure_to), hn::Lt(sure_from, set(1e30f))));
+    bits.surely |= MaskBits(sure) << at;
     return hn::And(all, hn::Le(from, to));
   });
+  return bits;
 }
 
 }  // namespace lantern::spatial::HWY_NAMESPACE
@@ -169,24 +209,30 @@ ScanDone scan_runs(const ScanTask<D>& task, const ScanRoom& room, std::size_t be
   return best(task, room, begin, end);
 }
 template <int D>
-BlockBits reached_in_block(const BoxTable<D>& table, std::uint32_t first,
-                           const AabbNode<D>& asked) {
+BlockBits reached_in_block(const BoxRow<D>& row, const FloatBox<D>& asked) {
   static const auto best = LANTERN_BEST(Reached<D>);
-  return best(table, first, asked);
+  return best(row, asked);
 }
 template <int D>
-std::uint32_t met_in_block(const BoxTable<D>& table, std::uint32_t first, const FloatRay<D>& ray,
-                           float limit) {
+BlockBits reached_in_block(const BoxRow<D>& row, const FloatBall<D>& ball, BlockEntries& entries) {
+  static const auto best = LANTERN_BEST(InBall<D>);
+  return best(row, ball, entries);
+}
+template <int D>
+BlockBits met_in_block(const BoxRow<D>& row, const FloatRay<D>& ray, float limit,
+                       BlockEntries& entries) {
   static const auto best = LANTERN_BEST(Met<D>);
-  return best(table, first, ray, limit);
+  return best(row, ray, limit, entries);
 }
 
 template ScanDone scan_runs(const ScanTask<2>&, const ScanRoom&, std::size_t, std::size_t);
 template ScanDone scan_runs(const ScanTask<3>&, const ScanRoom&, std::size_t, std::size_t);
-template BlockBits reached_in_block(const BoxTable<2>&, std::uint32_t, const AabbNode<2>&);
-template BlockBits reached_in_block(const BoxTable<3>&, std::uint32_t, const AabbNode<3>&);
-template std::uint32_t met_in_block(const BoxTable<2>&, std::uint32_t, const FloatRay<2>&, float);
-template std::uint32_t met_in_block(const BoxTable<3>&, std::uint32_t, const FloatRay<3>&, float);
+template BlockBits reached_in_block(const BoxRow<2>&, const FloatBox<2>&);
+template BlockBits reached_in_block(const BoxRow<3>&, const FloatBox<3>&);
+template BlockBits reached_in_block(const BoxRow<2>&, const FloatBall<2>&, BlockEntries&);
+template BlockBits reached_in_block(const BoxRow<3>&, const FloatBall<3>&, BlockEntries&);
+template BlockBits met_in_block(const BoxRow<2>&, const FloatRay<2>&, float, BlockEntries&);
+template BlockBits met_in_block(const BoxRow<3>&, const FloatRay<3>&, float, BlockEntries&);
 
 }  // namespace lantern::spatial
 #endif

@@ -9,15 +9,16 @@
 //     origin .--->--+--------+--------+     the hit in the first cell is nearer than where the ray
 //                   |  hit   |skipped |     enters the second
 //                   +--------+--------+
+//
+// So it goes where somebody watches, or asks but once. Who asks again and is told of nothing on the
+// way gets the same answers from rows of rounded boxes, which a structure makes of its leaves.
 #pragma once
 
-#include <limits>
 #include <type_traits>
 #include <utility>
 
 #include "base/stop.hpp"
-#include "geometry/not_finite.hpp"
-#include "spatial/query.hpp"
+#include "spatial/query_probe.hpp"
 
 namespace lantern::spatial {
 
@@ -40,12 +41,7 @@ Box<D> endless_at_rim(Box<D> box, const Box<D>& root, double slack) {
   return box;
 }
 
-// The zones of nodes in the order of visiting, for a Probe, which has
-//   Part                        what of the probe is left in a zone; copyable
-//   whole()                     the Part that is everywhere
-//   in_box(zone)                optional<Part>: what lies in a box that may be infinite
-//   beside(Part, plane, front)  optional<Part>: what of the part lies on that side; the plane is
-//                               scaled
+// The zones of nodes in the order of visiting, for a Probe (query_probe.hpp).
 template <int D, Zones kZones, class Probe>
 class ZoneWalk {
  public:
@@ -84,107 +80,6 @@ class ZoneWalk {
   Box<D> root_;
   std::vector<Above> way_;  // the inner nodes above, the root first
 };
-
-template <int D>
-struct RayProbe {
-  using Part = RaySpan;
-  const Ray<D>& ray;
-
-  RaySpan whole() const { return {0, ray.length}; }
-  std::optional<RaySpan> in_box(const Box<D>& zone) const { return span_in(ray, zone); }
-
-  // The height over the plane at t is h + t * rate, up to an error of at most e + t * r. So the
-  // part in front is not longer than where (h + e) + t * (rate + r) >= 0; behind, all signs are
-  // turned. Where numbers overflow, nothing is cut off.
-  std::optional<RaySpan> beside(RaySpan part, const Plane<D>& plane, bool front) const {
-    constexpr double kError = 64 * std::numeric_limits<double>::epsilon();
-    double h = -plane.offset, rate = 0, e = std::abs(plane.offset), r = 0;
-    for (int i = 0; i < D; ++i) {
-      const double a = plane.normal[i] * ray.origin[i], b = plane.normal[i] * ray.direction[i];
-      h += a;
-      rate += b;
-      e += std::abs(a);
-      r += std::abs(b);
-    }
-    const double begin = (front ? h : -h) + e * kError;
-    const double slope = (front ? rate : -rate) + r * kError;
-    if (slope == 0) return begin < 0 ? std::nullopt : std::optional(part);
-    if (begin + part.from * slope < 0 && begin + part.to * slope < 0) return std::nullopt;
-    const double crossing = -begin / slope;
-    if (slope > 0) part.from = std::max(part.from, crossing * (1 - kError));
-    if (slope < 0) part.to = std::min(part.to, crossing * (1 + kError));
-    return part;
-  }
-};
-
-// Whether a volume may lie within the zone of a node, which may be infinite. Of a frustum only its
-// planes are looked at, which is cheap and lets some in that lie outside, near its corners.
-template <int D, template <int> class Volume>
-bool may_overlap(const Volume<D>& volume, const Box<D>& zone) {
-  return overlap(volume, zone);
-}
-
-// Whether it may reach that side of a plane; generous by more than the error of heights.
-template <int D>
-bool may_reach(const Box<D>& box, const Plane<D>& plane, bool front) {
-  const Reach sides = reach(box, plane);
-  return front ? sides.front : sides.back;
-}
-template <int D>
-bool may_reach(const Ball<D>& ball, const Plane<D>& plane, bool front) {
-  constexpr double kError = 64 * std::numeric_limits<double>::epsilon();
-  double sum = std::abs(plane.offset), square = 0;
-  for (int i = 0; i < D; ++i) {
-    sum += std::abs(plane.normal[i] * ball.center[i]);
-    square += plane.normal[i] * plane.normal[i];
-  }
-  const double h = height(ball.center, plane);
-  const double most = (front ? h : -h) + ball.radius * std::sqrt(square);
-  return !(most < -kError * (sum + ball.radius));
-}
-template <int D>
-bool may_reach(const Frustum<D>& frustum, const Plane<D>& plane, bool front) {
-  constexpr double kError = 1024 * std::numeric_limits<double>::epsilon();
-  for (const Vec<D>& corner : frustum.corners) {
-    double sum = std::abs(plane.offset);
-    for (int i = 0; i < D; ++i) sum += std::abs(plane.normal[i] * corner[i]);
-    const double h = height(corner, plane);
-    if (!((front ? h : -h) < -kError * sum)) return true;
-  }
-  return false;
-}
-
-// A volume is in a zone or not: it has no parts.
-template <int D, class Volume>
-struct VolumeProbe {
-  struct Part {};
-  const Volume& volume;
-
-  Part whole() const { return {}; }
-  std::optional<Part> in_box(const Box<D>& zone) const {
-    return may_overlap(volume, zone) ? std::optional(Part{}) : std::nullopt;
-  }
-  std::optional<Part> beside(Part, const Plane<D>& plane, bool front) const {
-    return may_reach(volume, plane, front) ? std::optional(Part{}) : std::nullopt;
-  }
-};
-
-// A box in which the volume lies.
-template <int D>
-Box<D> box_around(const Box<D>& box) {
-  return box;
-}
-template <int D>
-Box<D> box_around(const Ball<D>& ball) {
-  Box<D> box;
-  for (int i = 0; i < D; ++i) {
-    const double center = ball.center[i];
-    const double reach = ball.radius + 1e-15 * (std::abs(center) + ball.radius);
-    box.lo[i] = center - reach;
-    box.hi[i] = center + reach;
-  }
-  return box;
-}
 
 // The bodies that a walk has met: a table of open addressing, whose places are ids or empty.
 class MetBodies {
@@ -236,6 +131,7 @@ void walk(const Tree& tree, QueryOf<D>& query, const Probe& probe, const Vec<D>&
   tree.take(Tour<D>{room, toward}, [&](const NodeView<D>& node) {
     const auto part = zones.part_in(node);
     if (!part || !enter(*part)) {
+      if (Tree::kFindsLeaves && node.leaf) return false;  // it is not even looked at
       ++query.counts.nodes_skipped;
       query.tell(Kind::skip, node.handle);
       return false;
@@ -258,36 +154,155 @@ void walk(const Tree& tree, QueryOf<D>& query, const Probe& probe, const Vec<D>&
   });
 }
 
-// Whether the tree has ways for boxes and rays of its own, for when nobody watches:
-//   each_near(box, f)         f(id, is_sure) for each body that the box may overlap, each once;
-//                             is_sure: it does
-//   each_along(ray, limit, f) f(id) for each body that the ray may meet, each once, about front to
-//                             back; what the ray enters beyond `limit()` may be left out
-// Both return how many nodes they visited and skipped.
-template <class Tree, int D>
-concept HasFastWays = requires(const Tree& t, const Box<D>& box, const Ray<D>& ray) {
-  t.each_near(box, [](BodyId, bool) {});
-  t.each_along(
-      ray, [] { return 0.0; }, [](BodyId) {});
+// The bodies that a walk has handed over lately: of those that lie in several leaves, which are met
+// one soon after the other, nearly all are handed over once.
+class Mailbox {
+ public:
+  // Whether it is new, as far as it is known.
+  bool takes(BodyId id) {
+    BodyId& place = last_[id % last_.size()];
+    return std::exchange(place, id) != id;
+  }
+  Mailbox() { last_.fill(kNone); }
+
+ private:
+  std::array<BodyId, 64> last_;
 };
+
+// What a structure makes of its bodies for who asks again and again. The first question after a
+// change is answered without it. Not to be asked by two threads at once until it is made.
+template <class T>
+class MadeWhenAsked {
+ public:
+  void forget() { asked_ = 0; }
+  bool is_due() { return asked_ > 1 || ++asked_ > 1; }
+  // fill(what)
+  template <class Fill>
+  const T& made(Fill&& fill) {
+    if (asked_ < kMade) fill(what_);
+    asked_ = kMade;
+    return what_;
+  }
+
+ private:
+  static constexpr int kMade = 3;
+  T what_;
+  int asked_ = 0;
+};
+
+// The way through a tree whose leaves are rows of rounded boxes:
+//   Place                            a node on the way
+//   has_rows()                       whether they are due to be made, or are made
+//   boxes()                          of all leaves
+//   root()
+//   leaf_run(place)                  of a leaf its bodies, of an inner node nothing
+//   open(place, probe, part, f)     f(child, its part, if it has one) for each child of an inner
+//                                    node, about in the order in which they are met
+template <int D, class Tree, class Probe, class Limit, class Soon, class F>
+class RowWalk {
+  using Place = typename Tree::Place;
+  using Part = typename Probe::Part;
+
+ public:
+  RowWalk(const Tree& tree, const Probe& probe, Limit& limit, Soon& soon, F& f)
+      : tree_(tree), boxes_(tree.boxes()), probe_(probe), limit_(limit), soon_(soon), f_(f) {}
+
+  WalkCounts whole() {
+    enter(tree_.root(), probe_.whole());
+    return counts_;
+  }
+
+ private:
+  void enter(const Place& at, const Part& part) {
+    ++counts_.visited;
+    if (const std::optional<LeafRun> leaf = tree_.leaf_run(at)) {
+      stop_if_asked();
+      counts_.compared += leaf->count;
+      each_in_row(boxes_.row(*leaf), leaf->count, probe_, limit_, soon_, [&](BodyId id, bool sure) {
+        if (Tree::kHoldsOnce || met_.takes(id)) f_(id, sure);
+      });
+      return;
+    }
+    tree_.open(at, probe_, part, [&](const Place& child, const std::optional<Part>& its) {
+      if (its && probe_.entry(*its) <= limit_())
+        enter(child, *its);
+      else
+        ++counts_.skipped;
+    });
+  }
+
+  const Tree& tree_;
+  const LeafBoxes<D>& boxes_;
+  const Probe& probe_;
+  Limit& limit_;
+  Soon& soon_;
+  F& f_;
+  Mailbox met_;
+  WalkCounts counts_;
+};
+
+template <int D, class Tree, class Probe, class Limit, class Soon, class F>
+WalkCounts walk_rows(const Tree& tree, const Probe& probe, Limit& limit, Soon& soon, F& f) {
+  return RowWalk<D, Tree, Probe, Limit, Soon, F>(tree, probe, limit, soon, f).whole();
+}
+
+// f(id, is_sure) for each body that the probe may meet before `limit()`, see each_in_row: by the
+// structure's own way, if it has one.
+template <class Tree, int D>
+concept IsAskedByRows = requires(const Tree& t, const VolumeProbe<D, Box>& probe, double (&limit)(),
+                                 void (&soon)(BodyId), void (&f)(BodyId, bool)) {
+  t.each_met(probe, limit, soon, f);
+};
+
+template <int D>
+void count(QueryOf<D>& query, const WalkCounts& walked, std::uint64_t tested) {
+  query.counts = {walked.visited, walked.skipped, tested, walked.compared};
+}
+
+// One by one, each as soon as it is met: what is found limits what is looked for.
+template <int D, class Tree, class Query, class Probe>
+void seek(const Tree& tree, Query& query, const Probe& probe) {
+  std::uint64_t tested = 0;
+  auto limit = [&] { return query.limit(); };
+  auto soon = [&](BodyId id) { query.fetch(id); };
+  auto test = [&](BodyId id, bool) {
+    ++tested;
+    query.test(id);
+  };
+  const WalkCounts walked = tree.each_met(probe, limit, soon, test);
+  count(query, walked, tested);
+}
+
+// First all that may be met, then what they are.
+template <int D, class Tree, class Query, class Probe, class Sure, class Test>
+void gather(const Tree& tree, Query& query, const Probe& probe, double most, Sure&& sure,
+            Test&& test) {
+  std::vector<BodyId>& met = *query.scratch;
+  met.clear();
+  auto limit = [&] { return most; };
+  auto soon = [](BodyId) {};
+  auto meet = [&](BodyId id, bool is_sure) {
+    if (is_sure) return sure(id);
+    met.push_back(id);
+    query.fetch(id);
+  };
+  const WalkCounts walked = tree.each_met(probe, limit, soon, meet);
+  for (const BodyId id : met) test(id);
+  count(query, walked, met.size());
+}
 
 template <int D, class Tree>
 void walk_along(const Tree& tree, RayQuery<D>& query) {
-  if constexpr (HasFastWays<Tree, D>)
-    if (!query.told) {
-      std::uint64_t tested = 0;
-      const auto walked = tree.each_along(
-          query.ray, [&] { return query.limit(); },
-          [&](BodyId id) {
-            ++tested;
-            query.test(id);
-          });
-      query.counts = {walked.visited, walked.skipped, tested};
-      return;
+  const RayProbe<D> probe(query.ray);
+  if constexpr (IsAskedByRows<Tree, D>)
+    if (!query.told && tree.has_rows()) {
+      if (query.all == nullptr) return seek<D>(tree, query, probe);
+      return gather<D>(
+          tree, query, probe, query.ray.length, [](BodyId) {}, [&](BodyId id) { query.test(id); });
     }
   walk<D>(
-      tree, query, RayProbe<D>{query.ray}, query.ray.direction,
-      [&](const RaySpan& part) { return !query.nearest || part.from <= query.nearest->distance; },
+      tree, query, probe, query.ray.direction,
+      [&](const RaySpan& part) { return part.from <= query.limit(); },
       [&](BodyId id) { return query.test(id); });
 }
 
@@ -295,30 +310,36 @@ template <int D, class Tree>
 void walk_within(const Tree& tree, VolumeQuery<D>& query) {
   std::visit(
       [&]<template <int> class Volume>(const Volume<D>* volume) {
+        const auto found = [&](BodyId id) { query.found->push_back(query.view.name(id)); };
         const auto test = [&](BodyId id) {
           if (!overlap(*volume, query.box(id))) return false;
-          query.found->push_back(query.view.name(id));
+          found(id);
           return true;
         };
-        if constexpr (HasFastWays<Tree, D>)
-          if constexpr (requires { box_around(*volume); })
-            if (!query.told) {
-              std::uint64_t tested = 0;
-              const auto walked = tree.each_near(box_around(*volume), [&](BodyId id, bool is_sure) {
-                ++tested;
-                if (std::is_same_v<Volume<D>, Box<D>> && is_sure)
-                  query.found->push_back(query.view.name(id));
-                else
-                  test(id);
-              });
-              query.counts = {walked.visited, walked.skipped, tested};
-              return;
-            }
+        const VolumeProbe<D, Volume> probe(*volume);
+        if constexpr (IsAskedByRows<Tree, D>)
+          if (!query.told && tree.has_rows()) {
+            if constexpr (requires { volume->length; })
+              return gather<D>(tree, query, RayProbe<D, false>(*volume), volume->length, found,
+                               test);
+            else
+              return gather<D>(tree, query, probe, 0, found, test);
+          }
         walk<D>(
-            tree, query, VolumeProbe<D, Volume<D>>{*volume}, Vec<D>(0.0),
-            [](const auto&) { return true; }, test);
+            tree, query, probe, Vec<D>(0.0), [](const auto&) { return true; }, test);
       },
       query.volume);
+}
+
+template <int D, class Tree>
+void walk_around(const Tree& tree, NearestQuery<D>& query) {
+  const PointProbe<D> probe(query.point);
+  if constexpr (IsAskedByRows<Tree, D>)
+    if (!query.told && tree.has_rows()) return seek<D>(tree, query, probe);
+  walk<D>(
+      tree, query, probe, Vec<D>(0.0),
+      [&](const auto& part) { return probe.entry(part) <= query.limit(); },
+      [&](BodyId id) { return query.test(id); });
 }
 
 }  // namespace lantern::spatial

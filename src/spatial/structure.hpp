@@ -211,6 +211,8 @@ struct RayQuery;
 template <int D>
 struct VolumeQuery;
 template <int D>
+struct NearestQuery;
+template <int D>
 class PairSearch;
 
 // The face of them all. It is virtual once a question, never once a node: what walks through the
@@ -248,9 +250,10 @@ class Structure {
   // Returns how many tests of nodes, planes, rows or other bodies it took to get there, 0 where
   // nobody counts them.
   virtual std::uint64_t near(const Box<D>& box, std::vector<BodyId>& ids) const = 0;
-  // What a ray meets, and which bodies reach into a volume: see query.hpp.
+  // What a ray meets, which bodies reach into a volume, and which is nearest: see query.hpp.
   virtual void ask(RayQuery<D>& query) const = 0;
   virtual void ask(VolumeQuery<D>& query) const = 0;
+  virtual void ask(NearestQuery<D>& query) const = 0;
   // Which bodies overlap: see pair_search.hpp.
   virtual void pair(PairSearch<D>& search) = 0;
   // The same comparisons made visible: f(id, id) for each, of which at least one is awake(id), in

@@ -39,6 +39,8 @@ template <class Tree, int D>
 class StructureOf : public Structure<D> {
  public:
   static constexpr bool kHoldsOnce = false;  // each body lies in one leaf
+  static constexpr bool kFindsLeaves =
+      false;  // it reckons which leaves are reached, and skips none
 
   bool insert(const Item<D>& item, const EventWatch& watch = {}) final {
     NoObserver nobody;
@@ -74,6 +76,7 @@ class StructureOf : public Structure<D> {
 
   void ask(RayQuery<D>& query) const final { walk_along<D>(tree(), query); }
   void ask(VolumeQuery<D>& query) const final { walk_within<D>(tree(), query); }
+  void ask(NearestQuery<D>& query) const final { walk_around<D>(tree(), query); }
 
   void pair(PairSearch<D>& search) final {
     if constexpr (requires { tree().find_pairs(std::span<const Item<D>>(), search.found); })

@@ -27,9 +27,12 @@ using testing::Sort;
 template <int D>
 class Scene {
  public:
-  Scene(Sort sort, std::size_t bodies, std::uint64_t seed)
-      : random_(seed), sort_(sort), items_(testing::random_world<D>(sort, bodies, random_)) {
-    for (const Item<D>& item : items_) boxes_[item.id] = item.box;
+  Scene(Sort sort, std::size_t bodies, std::uint64_t seed, double scale = 1)
+      : random_(seed),
+        sort_(sort),
+        scale_(scale),
+        items_(testing::random_world<D>(sort, bodies, random_)) {
+    for (Item<D>& item : items_) boxes_[item.id] = item.box = scaled(item.box);
   }
 
   Random& random() { return random_; }
@@ -40,23 +43,23 @@ class Scene {
   template <class F>
   void with_each(F&& f) {
     testing::TreeConfig<D> config;
-    config.bounds = testing::bounds_of<D>(sort_);
+    config.bounds = scaled(testing::bounds_of<D>(sort_));
     config.capacity = static_cast<std::uint32_t>(random_.whole(1, 4));
     config.max_depth = static_cast<std::uint32_t>(random_.whole(0, 7));
     config.eager_children = random_.bits() % 2 == 0;
     config.no_progress_stop = true;
     Orthtree<D> orthtree(config);
-    Bsp<D> bsp(
-        testing::bsp_config<D>(testing::random_planes<D>(sort_, 12, random_), config.bounds));
+    Bsp<D> bsp(testing::bsp_config<D>(scaled(testing::random_planes<D>(sort_, 12, random_)),
+                                      config.bounds));
     BruteForce<D> brute;
     SortAndSweep<D> sweep;
     Grid<D> grid({.bounds = config.bounds,
-                  .cell = random_.bits() % 2 == 0 ? 0 : random_.between(2, 20),
+                  .cell = random_.bits() % 2 == 0 ? 0 : random_.between(2, 20) * scale_,
                   .levels = static_cast<std::uint32_t>(random_.whole(1, 3)),
                   .open = random_.bits() % 2 == 0});
     grid.make(items_);
     KdTree<D> kd(testing::KdConfig<D>{config.capacity, config.max_depth});
-    AabbTree<D> built({.margin = random_.between(0, 1)}), inserted;
+    AabbTree<D> built({.margin = random_.between(0, 1) * scale_}), inserted;
     built.make(items_);
     kd.make(items_);
     for (const Item<D>& item : items_) {
@@ -89,7 +92,7 @@ class Scene {
     Vec<D> p = b.lo + random_point<D>(random_, -20, 84);
     if (sort_ == Sort::aligned)
       for (int i = 0; i < D; ++i) p[i] = 4.0 * static_cast<double>(random_.whole(-2, 18));
-    return p;
+    return p * scale_;
   }
 
   // Some along an axis, some from a corner to a corner, some endless.
@@ -114,8 +117,15 @@ class Scene {
   }
 
  private:
+  Box<D> scaled(const Box<D>& box) const { return {box.lo * scale_, box.hi * scale_}; }
+  std::vector<BspPlane<D>> scaled(std::vector<BspPlane<D>> planes) const {
+    for (BspPlane<D>& one : planes) one.plane.offset *= scale_;
+    return planes;
+  }
+
   Random random_;
   Sort sort_;
+  double scale_;
   std::vector<Item<D>> items_;
   std::map<BodyId, Box<D>> boxes_;
 };
@@ -232,6 +242,168 @@ TEST(Query, OverlapsAndViewsEqualBruteForceIn2D) {
 TEST(Query, OverlapsAndViewsEqualBruteForceIn3D) {
   for (const Sort sort : kSorts)
     for (std::uint64_t seed = 0; seed < 6; ++seed) overlaps_equal_brute_force<3>(sort, seed);
+}
+
+// Asked again and again, with nobody watching: by rows of boxes in float, where a structure has
+// such, whatever the numbers are.
+template <int D>
+void unwatched_equal_brute_force(Sort sort, std::size_t bodies, double scale, std::uint64_t seed) {
+  Scene<D> scene(sort, bodies, seed, scale);
+  const auto box_of = [&](BodyId id) { return scene.box_of(id); };
+  const auto overlaps = [&](const auto& what) {
+    std::vector<BodyId> ids;
+    for (const Item<D>& item : scene.items())
+      if (overlap(what, item.box)) ids.push_back(item.id);
+    std::sort(ids.begin(), ids.end());
+    return ids;
+  };
+  scene.with_each([&](const auto& structure, const std::string& name) {
+    SCOPED_TRACE(name + ", sort " + std::to_string(static_cast<int>(sort)) + ", scale " +
+                 std::to_string(scale) + ", seed " + std::to_string(seed));
+    for (int round = 0; round < 6; ++round) {
+      const Ray<D> ray = scene.ray();
+      std::vector<RayHit> hits;
+      for (const Item<D>& item : scene.items())
+        if (const auto span = span_in(ray, item.box)) hits.push_back({item.id, span->from});
+      std::sort(hits.begin(), hits.end(), RayHit::before);
+      ASSERT_EQ(raycast_all(structure, ray, box_of).hits, hits);
+      ASSERT_EQ(overlap_query(structure, ray, box_of).ids, overlaps(ray));
+      ASSERT_EQ(overlap_query(structure, ray, box_of, [](const QueryEvent&) {}).ids, overlaps(ray));
+      const auto first = raycast_nearest(structure, ray, box_of).hit;
+      ASSERT_EQ(first, hits.empty() ? std::nullopt : std::optional(hits.front()));
+
+      const Vec<D> a = scene.point(), b = scene.point();
+      const Box<D> box{glm::min(a, b), glm::max(a, b)};
+      ASSERT_EQ(overlap_query(structure, box, box_of).ids, overlaps(box));
+      const Ball<D> ball{a, round == 0 ? 0.0 : scene.random().between(0, 30) * scale};
+      ASSERT_EQ(overlap_query(structure, ball, box_of).ids, overlaps(ball));
+
+      std::optional<Neighbour> nearest;
+      for (const Item<D>& item : scene.items()) {
+        const Neighbour one{item.id, square_of(gaps<D>(a, item.box))};
+        if (!nearest || Neighbour::before(one, *nearest)) nearest = one;
+      }
+      ASSERT_EQ(nearest_body(structure, a, box_of).body, nearest);
+      const auto nobody_cares = [](const QueryEvent&) {};
+      ASSERT_EQ(nearest_body(structure, a, box_of, nobody_cares).body, nearest) << "watched";
+    }
+  });
+}
+
+TEST(Query, UnwatchedTheyEqualBruteForce) {
+  for (const Sort sort : kSorts)
+    for (std::uint64_t seed = 0; seed < 3; ++seed) {
+      unwatched_equal_brute_force<2>(sort, 80, 1, seed);
+      unwatched_equal_brute_force<3>(sort, 80, 1, seed);
+    }
+}
+TEST(Query, UnwatchedTheyEqualBruteForceAmongMany) {
+  for (const Sort sort : {Sort::uniform, Sort::far, Sort::outside}) {
+    unwatched_equal_brute_force<2>(sort, 900, 1, 7);
+    unwatched_equal_brute_force<3>(sort, 900, 1, 7);
+  }
+}
+TEST(Query, UnwatchedTheyEqualBruteForceAtAnyScale) {
+  for (const double scale : {1e-90, 1e-40, 1e-20, 1e-9, 1e9, 1e20, 1e40, 1e90})
+    for (const Sort sort : {Sort::uniform, Sort::aligned, Sort::ratios}) {
+      unwatched_equal_brute_force<2>(sort, 60, scale, 5);
+      unwatched_equal_brute_force<3>(sort, 60, scale, 5);
+    }
+}
+
+TEST(Query, OfNoBodiesNoneIsNearest) {
+  for (const StructureKind kind : known_structures()) {
+    if (!is_possible(kind, 2) || kind == structure_named("auto")) continue;
+    const auto empty = make_structure<2>(kind);
+    for (int again = 0; again < 3; ++again)
+      EXPECT_FALSE(nearest_body<2>(*empty, {1, 2}, {}).body) << to_string(kind);
+    EXPECT_THROW(nearest_body<2>(*empty, {1, NAN}, {}), Refused);
+  }
+}
+
+// Among 20,000 boxes of one size a question looks at some tens of them, in every structure that
+// parts the world: counted, for a ray of a fortieth of the world, a box and a ball of ten bodies,
+// and a point.
+TEST(Query, AsksFewOfMany) {
+  Random random(3);
+  std::vector<Proxy<2>> boxes;
+  for (BodyId id = 0; id < 20000; ++id)
+    boxes.push_back({id, Box<2>::around(random_point<2>(random, 0, 283), Vec<2>(0.5))});
+  for (const char* name : {"auto", "quadtree", "kd_tree", "grid", "aabb_tree"}) {
+    BroadPhaseConfig<2> config;
+    config.kind = *structure_named(name);
+    config.bounds = {Vec<2>(0.0), Vec<2>(283)};
+    config.build = Build::at_once;
+    config.capacity = 16;
+    config.max_depth = 12;
+    BroadPhase<2> phase(config);
+    phase.build(boxes);
+    QueryCounts sum;
+    std::uint64_t found = 0;
+    constexpr std::uint64_t kAsked = 100;
+    for (std::uint64_t i = 0; i < kAsked; ++i) {
+      const Vec<2> at = random_point<2>(random, 0, 283);
+      const Found in_box = overlap_query<2>(phase.dynamic(), Box<2>::around(at, Vec<2>(3)));
+      const Found in_ball = overlap_query<2>(phase.dynamic(), Ball<2>{at, 3});
+      const AllHits along = raycast_all<2>(phase.dynamic(), {at, random_direction<2>(random), 7});
+      const NearestHit first = raycast_nearest<2>(phase.dynamic(), {at, {1, 0}, 7});
+      const NearestBody nearest = nearest_body<2>(phase.dynamic(), at);
+      if (i == 0) continue;  // the rows are made by the second question
+      for (const QueryCounts& one :
+           {in_box.counts, in_ball.counts, along.counts, first.counts, nearest.counts})
+        sum += one;
+      found += in_box.ids.size() + in_ball.ids.size() + along.hits.size() + 2;
+    }
+    EXPECT_GT(found, 20 * kAsked);
+    EXPECT_LT(sum.boxes_compared, 5 * 80 * kAsked) << name;
+    EXPECT_LT(sum.objects_tested, 5 * 12 * kAsked) << name;
+    EXPECT_LT(sum.nodes_visited, 5 * 25 * kAsked) << name;
+  }
+}
+
+// Of a grid only the cells that a question reaches are told of: of 1,024 those of the row that a
+// ray goes along, or up to the first hit, and of a box those that it covers.
+TEST(Query, OfAGridOnlyTheCellsThatAreReachedAreLookedAt) {
+  Grid<2> grid({.bounds = {Vec<2>(0.0), Vec<2>(64)}, .cell = 2});
+  std::map<BodyId, Box<2>> boxes;
+  for (BodyId id = 0; id < 1024; ++id) {
+    boxes[id] = Box<2>::around({2.0 * (id % 32) + 1, 2.0 * (id / 32) + 1}, Vec<2>(0.5));
+    grid.insert({id, boxes[id]});
+  }
+  const auto box_of = [&](BodyId id) { return boxes.at(id); };
+  std::uint64_t told = 0;
+  const auto watch = [&](const QueryEvent& event) { told += event.kind != QueryEvent::Kind::hit; };
+  const Ray<2> ray{{-1, 5}, {1, 0}};
+  const AllHits all = raycast_all<2>(grid, ray, box_of, {}, watch);
+  EXPECT_EQ(all.hits.size(), 32u);
+  EXPECT_EQ(all.counts.nodes_visited, 1 + 32u) << "the root, and a row";
+  EXPECT_EQ(all.counts.nodes_skipped, 0u);
+  const NearestHit first = raycast_nearest<2>(grid, ray, box_of, {}, watch);
+  EXPECT_EQ(first.counts.nodes_visited, 1 + 1u);
+  const Found found = overlap_query<2>(grid, Box<2>{Vec<2>(10.5), Vec<2>(15.5)}, box_of, watch);
+  EXPECT_EQ(found.counts.nodes_visited, 1 + 9u);
+  EXPECT_EQ(told, (33 + 32) + (2 + 1) + (10 + 9u));
+}
+
+// Who asks once after each change does not pay for rows of all bodies.
+TEST(Query, AskedOnceAfterEachInsertionNothingIsMadeOfAll) {
+  Random random(4);
+  AabbTree<2> tree;
+  Quadtree quadtree(testing::TreeConfig<2>{{{0, 0}, {64, 64}}, 4, 6});
+  std::map<BodyId, Box<2>> boxes;
+  const auto box_of = [&](BodyId id) { return boxes.at(id); };
+  for (BodyId id = 0; id < 200; ++id) {
+    boxes[id] = Box<2>::around(random_point<2>(random, 0, 64), Vec<2>(0.5));
+    tree.insert({id, boxes[id]});
+    quadtree.insert({id, boxes[id]});
+    for (const Structure<2>* one :
+         {static_cast<Structure<2>*>(&tree), static_cast<Structure<2>*>(&quadtree)}) {
+      const Box<2> here = Box<2>::around(boxes[id].center(), Vec<2>(1));
+      EXPECT_EQ(overlap_query<2>(*one, here, box_of).counts.boxes_compared, 0u);
+    }
+  }
+  const Box<2> all{Vec<2>(-1), Vec<2>(65)};
+  EXPECT_EQ(overlap_query<2>(tree, all, box_of).counts.boxes_compared, 200u);
 }
 
 // A row of unit boxes at x = 10, 20, ... in a quadtree of cells.

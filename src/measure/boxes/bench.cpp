@@ -164,9 +164,9 @@ class StageBench {
     const auto& [setting, bodies] = found->second;
     if (setting.second == 0) return setting;
     const double growth = static_cast<double>(stage_.bodies()) / static_cast<double>(bodies);
-    const double children = who.name == "kd_tree" ? 1 : stage_.dimension();
     start = setting;
-    start.second += static_cast<int>(std::lround(std::log2(growth) / children));
+    start.second += static_cast<int>(
+        std::lround(std::log2(growth) / halved_axes(who.name, stage_.dimension())));
     return who.has(start) ? start : setting;
   }
 

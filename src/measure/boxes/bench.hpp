@@ -47,6 +47,9 @@ struct BoxContestant {
 // Ours: each kind but those whose parts a designer gives (bsp), `auto` first where there is one.
 std::vector<BoxContestant> own_box_contestants();
 
+// How many axes a level of the tree of that name halves.
+int halved_axes(const std::string& tree, int dimension);
+
 // The libraries whose modules are there; a line in `missing` for each other.
 std::vector<BoxContestant> peer_box_contestants(std::vector<std::string>& missing);
 

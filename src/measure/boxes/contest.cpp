@@ -92,27 +92,35 @@ class OwnOracle : public Oracle<D> {
 
   void build(Boxes<D> boxes) override { broad_phase_.build(boxes); }
   void along(const Ray<D>& ray, std::vector<BodyId>& ids) override {
-    hits_ = raycast_all(broad_phase_.dynamic(), ray, {}, {}, {}, std::move(hits_));
-    for (const RayHit& hit : hits_.hits) ids.push_back(hit.id);
+    inside(ray, ids);
   }
   bool first(const Ray<D>& ray, std::vector<BodyId>& ids) override {
     const NearestHit nearest = raycast_nearest(broad_phase_.dynamic(), ray);
     if (nearest.hit) ids.push_back(nearest.hit->id);
+    counts_ += nearest.counts;
     return true;
   }
   void within(const Box<D>& box, std::vector<BodyId>& ids) override { inside(box, ids); }
   void within(const Ball<D>& ball, std::vector<BodyId>& ids) override { inside(ball, ids); }
+  bool nearest(const Vec<D>& point, std::vector<BodyId>& ids) override {
+    const NearestBody nearest = nearest_body(broad_phase_.dynamic(), point);
+    ids.push_back(nearest.body.value().id);
+    counts_ += nearest.counts;
+    return true;
+  }
+  std::optional<QueryCounts> counts() const override { return counts_; }
 
  private:
   template <class Volume>
   void inside(const Volume& volume, std::vector<BodyId>& ids) {
     found_ = overlap_query(broad_phase_.dynamic(), volume, {}, {}, std::move(found_));
     ids.insert(ids.end(), found_.ids.begin(), found_.ids.end());
+    counts_ += found_.counts;
   }
 
   BroadPhase<D> broad_phase_;
-  AllHits hits_;
   Found found_;
+  QueryCounts counts_;
 };
 
 // One that is asked, whoever it is. It is built before the first step.
@@ -128,6 +136,7 @@ class Asked : public BoxRun {
   }
 
   void step(std::size_t) override {
+    before_ = oracle_->counts();
     found_.clear();
     for (std::uint32_t i = 0; i < kQuestions; ++i) {
       ids_.clear();
@@ -137,9 +146,26 @@ class Asked : public BoxRun {
     }
   }
   const std::vector<Pair>& found() const override { return found_; }
+  // Of a question, in the mean.
+  BoxCounts counts() const override {
+    const std::optional<QueryCounts> now = oracle_->counts();
+    if (!now || !before_) return {};
+    const auto mean = [](std::uint64_t from, std::uint64_t to) {
+      return static_cast<double>(to - from) / static_cast<double>(kQuestions);
+    };
+    return {.pair_tests = mean(before_->objects_tested, now->objects_tested),
+            .box_tests = mean(before_->boxes_compared, now->boxes_compared),
+            .nodes_visited = mean(before_->nodes_visited, now->nodes_visited),
+            .nodes = {},
+            .entries = {}};
+  }
 
  private:
   void ask(std::size_t i) {
+    if (task_ == BoxTask::nearest) {
+      oracle_->nearest(questions_.balls[i].center, ids_);
+      return;
+    }
     if (task_ == BoxTask::rays) return oracle_->along(questions_.rays[i], ids_);
     if (task_ == BoxTask::boxes) return oracle_->within(questions_.boxes[i], ids_);
     if (task_ == BoxTask::balls) return oracle_->within(questions_.balls[i], ids_);
@@ -159,6 +185,7 @@ class Asked : public BoxRun {
   Boxes<D> boxes_;
   const Questions<D>& questions_;
   std::unique_ptr<Oracle<D>> oracle_;
+  std::optional<QueryCounts> before_;
   std::vector<BodyId> ids_;
   std::vector<Pair> found_;
 };
@@ -177,23 +204,25 @@ std::unique_ptr<BoxRun> own_run(StructureKind kind, const BoxStage& stage, const
   config.bounds = updates_in<D>(stage).bounds;
   if (traits.has(Setting::levels)) config.levels = 1u << s.first;
   if (traits.has(Setting::margin)) config.margin = kMargins[static_cast<std::size_t>(s.first)];
-  if (traits.splits) {
-    config.capacity = 1u << s.first;
-    config.max_depth = static_cast<std::uint32_t>(s.second);
-  }
+  config.capacity = 1u << s.first;
+  config.max_depth = static_cast<std::uint32_t>(s.second);
+  if (traits.has(Setting::planes))
+    config.planes =
+        median_planes<D>(updates_in<D>(stage).frames[0], config.capacity, config.max_depth);
   if (stage.task == BoxTask::pairs) return std::make_unique<OwnPairs<D>>(stage, config);
   return std::make_unique<Asked<D>>(stage, std::make_unique<OwnOracle<D>>(config));
 }
 
 BoxContestant own_contestant(StructureKind kind) {
   const StructureTraits traits = traits_of(kind);
+  const bool splits = traits.splits || traits.has(Setting::planes);  // these at the medians
   BoxContestant who{.name = std::string(to_string(kind))};
   who.can = [=](const BoxStage& stage) { return is_possible(kind, stage.dimension()); };
   // Leaves of 16 that are about as large as their bodies' shares of the world.
   // Of a grid 2^first levels; of an aabb_tree one of the margins.
-  who.likely = [=, is_kd = who.name == "kd_tree"](const BoxStage& stage) -> BoxSetting {
-    if (!traits.splits) return {};
-    const double children = is_kd ? 2 : std::pow(2.0, stage.dimension());
+  who.likely = [=, name = who.name](const BoxStage& stage) -> BoxSetting {
+    if (!splits) return {};
+    const double children = std::pow(2.0, halved_axes(name, stage.dimension()));
     const double leaves = std::max(1.0, static_cast<double>(stage.bodies()) / 8);
     return {4, std::clamp(static_cast<int>(std::lround(std::log(leaves) / std::log(children))), 1,
                           kMostDepth)};
@@ -202,14 +231,14 @@ BoxContestant own_contestant(StructureKind kind) {
     if (traits.has(Setting::levels)) return s.first >= 0 && s.first <= 3 && s.second == 0;
     if (traits.has(Setting::margin))
       return s.first >= 0 && s.first < static_cast<int>(kMargins.size()) && s.second == 0;
-    if (!traits.splits) return s == BoxSetting{};
+    if (!splits) return s == BoxSetting{};
     return s.first >= 1 && s.first <= 9 && s.second >= 1 && s.second <= kMostDepth;
   };
   who.words = [=](const BoxSetting& s) -> std::string {
     if (traits.has(Setting::levels)) return counted(1 << s.first, "level");
     if (traits.has(Setting::margin))
       return fmt::format("margin {:g}", kMargins[static_cast<std::size_t>(s.first)]);
-    return traits.splits ? fmt::format("capacity {}, depth limit {}", 1 << s.first, s.second) : "";
+    return splits ? fmt::format("capacity {}, depth limit {}", 1 << s.first, s.second) : "";
   };
   who.start = [=](const BoxStage& stage, const BoxSetting& s) {
     return stage.dimension() == 2 ? own_run<2>(kind, stage, s) : own_run<3>(kind, stage, s);
@@ -232,6 +261,7 @@ BoxContestant peer_contestant(BoxPeer told) {
   who.can = [peer](const BoxStage& stage) {
     const bool flat = stage.dimension() == 2;
     if (stage.task == BoxTask::pairs) return flat ? bool(peer->pairs_2d) : bool(peer->pairs_3d);
+    if (stage.task == BoxTask::nearest && !peer->finds_nearest) return false;
     return flat ? bool(peer->oracle_2d) : bool(peer->oracle_3d);
   };
   who.likely = [](const BoxStage&) { return BoxSetting{}; };
@@ -257,13 +287,16 @@ constexpr PeerModule kBoxModules[] = {
 
 }  // namespace
 
+int halved_axes(const std::string& tree, int dimension) {
+  return tree == "kd_tree" || tree == "bsp" ? 1 : dimension;
+}
+
 std::vector<BoxContestant> own_box_contestants() {
   std::vector<BoxContestant> all;
   const auto automatic = structure_named("auto");
   if (automatic) all.push_back(own_contestant(*automatic));
   for (const StructureKind kind : known_structures())
-    if (!traits_of(kind).has(Setting::planes) && kind != automatic)
-      all.push_back(own_contestant(kind));
+    if (kind != automatic) all.push_back(own_contestant(kind));
   return all;
 }
 
@@ -335,7 +368,13 @@ void BoxTruth::answer(const BoxStage& stage) {
   for (std::uint32_t i = 0; i < kQuestions; ++i) {
     stop_if_asked();
     std::optional<RayHit> best;
+    std::optional<Neighbour> nearest;
     for (const Proxy<D>& body : boxes) {
+      if (stage.task == BoxTask::nearest) {
+        const Neighbour one{body.id, square_of(gaps<D>(q.balls[i].center, body.box))};
+        if (!nearest || Neighbour::before(one, *nearest)) nearest = one;
+        continue;
+      }
       const auto span = span_in(q.rays[i], body.box);
       const bool is_met = stage.task == BoxTask::boxes   ? overlap(q.boxes[i], body.box)
                           : stage.task == BoxTask::balls ? overlap(q.balls[i], body.box)
@@ -347,6 +386,7 @@ void BoxTruth::answer(const BoxStage& stage) {
         best = hit;
     }
     if (best) truth_.push_back({i, best->id});
+    if (nearest) truth_.push_back({i, nearest->id});
   }
 }
 

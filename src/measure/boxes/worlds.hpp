@@ -36,6 +36,7 @@ enum class BoxTask {
   first_hits,  // the first of them
   boxes,       // all bodies that reach into a box
   balls,       // or into a ball
+  nearest,     // the body that is nearest to a point
 };
 
 struct BoxWorkload {
@@ -63,7 +64,7 @@ template <int D>
 struct Questions {
   std::vector<Ray<D>> rays;
   std::vector<Box<D>> boxes;
-  std::vector<Ball<D>> balls;
+  std::vector<Ball<D>> balls;  // and their centres, to which a body is nearest
 };
 
 // A world that all contestants get: one workload with so many bodies.

@@ -88,6 +88,7 @@ template <int D>
 class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
  public:
   static constexpr Zones kZones = Zones::rounded_rim;
+  static constexpr bool kFindsLeaves = true;
   static constexpr std::uint32_t kMostLevels = 16;
   static constexpr double kMostCells = 0x1p31;  // of a closed level: they are numbered
 
@@ -206,6 +207,47 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
     return tests;
   }
 
+  // --- asked by rows, see query_walk.hpp ---
+
+  bool has_rows() const { return true; }
+  template <template <int> class Volume, class Limit, class Soon, class F>
+  WalkCounts each_met(const VolumeProbe<D, Volume>& probe, Limit& limit, Soon& soon, F& f) const {
+    hold();
+    WalkCounts counts;
+    thread_local std::vector<std::pair<std::uint32_t, std::uint32_t>> runs;
+    runs.clear();
+    table_.each_near(probe.around(), [&](std::uint32_t from, std::uint32_t to) {
+      runs.push_back({from, to});
+      table_.table().fetch(from);
+    });
+    const auto looks = look(probe, limit, soon, f, counts);
+    for (const auto& [from, to] : runs) looks(from, to);
+    return counts;
+  }
+  template <bool kOrdered, class Limit, class Soon, class F>
+  WalkCounts each_met(const RayProbe<D, kOrdered>& probe, Limit& limit, Soon& soon, F& f) const {
+    hold();
+    WalkCounts counts;
+    table_.each_along(probe, limit, look(probe, limit, soon, f, counts));
+    return counts;
+  }
+  // What lies within a cube around the point, and if the nearest of it, or nothing, lies farther
+  // away than the cube reaches, within a larger one.
+  template <class Limit, class Soon, class F>
+  WalkCounts each_met(const PointProbe<D>& probe, Limit& limit, Soon& soon, F& f) const {
+    hold();
+    WalkCounts counts;
+    for (double reach = rasters_[0].side(); !items_.empty();) {
+      table_.each_near({probe.point() - reach, probe.point() + reach},
+                       look(probe, limit, soon, f, counts));
+      if (limit() <= reach * reach || reach == kInfinity) break;
+      constexpr double kFar = 1e150;
+      reach = limit() < kFar ? std::sqrt(limit()) * (1 + 1e-15) : 2 * reach;
+      if (!(reach < kFar)) reach = kInfinity;
+    }
+    return counts;
+  }
+
   // Of each level, the finest first: the array that its cells, or the buckets of an open grid, are
   // numbered in, as rows of so many; a solid grid's slices follow one another.
   Arrangement arrangement() const override {
@@ -243,6 +285,23 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
   }
 
  private:
+  // A run of places, a block after the other, as the probe comes to them.
+  template <class Probe, class Limit, class Soon, class F>
+  auto look(const Probe& probe, Limit& limit, Soon& soon, F& f, WalkCounts& counts) const {
+    return [&, back = probe.high_first(0, 0)](std::uint32_t from, std::uint32_t to) {
+      const auto name = [&](std::uint32_t place) { return items_[place].id; };
+      const auto told = [&](std::uint32_t place, bool is_sure) { f(name(place), is_sure); };
+      const auto told_soon = [&](std::uint32_t place) { soon(name(place)); };
+      ++counts.visited;
+      counts.compared += to - from;
+      for (std::uint32_t i = from; i < to; i += kAabbBlock) {
+        const std::uint32_t count = std::min(kAabbBlock, to - i);
+        const std::uint32_t first = back ? to - (i - from) - count : i;
+        each_in_row(table_.table().row(first), count, probe, limit, told_soon, told);
+      }
+    };
+  }
+
   std::span<const GridRaster<D>> rasters() const {
     return std::span(rasters_).first(config_.levels);
   }

@@ -76,6 +76,13 @@ class GridRaster {
     return cell;
   }
 
+  // Where the cells from this one on begin; without end at the rim, beyond which its cells reach.
+  double begin(std::int64_t cell, int axis) const {
+    const auto k = static_cast<double>(cell);
+    if (k <= first_[axis] || k > last_[axis]) return k > last_[axis] ? kInfinity : -kInfinity;
+    return bounds_.lo[axis] + k * side_;
+  }
+
   // Of a closed grid: on an axis, and in all; at most 2^52, rounded.
   std::uint64_t cells(int axis) const { return static_cast<std::uint64_t>(last_[axis]) + 1; }
   double cells() const {
@@ -253,6 +260,34 @@ class GridTable : CountsAllocations {
     if (first_large_ < table_.size()) f(first_large_, static_cast<std::uint32_t>(table_.size()));
   }
 
+  // The same of those whose bodies a ray may meet before `limit()`: of each row of cells, about as
+  // the ray comes to them, one run, from the first cell in which the ray is within the row to the
+  // last. These are the cells that Amanatides and Woo ("A Fast Voxel Traversal Algorithm for Ray
+  // Tracing", 1987) walk through one by one, and those beside them from which bodies reach in.
+  template <bool kOrdered, class Limit, class F>
+  void each_along(const RayProbe<D, kOrdered>& probe, Limit& limit, F&& f) const {
+    for (const Level& level : levels_) {
+      if (level.count == 0) continue;
+      const Box<D> all{level.corners.lo, level.corners.hi + Vec<D>(level.widest)};
+      const auto part = probe.in_box(all);
+      if (!part) continue;
+      double rows = 1;
+      Vec<D> slack;
+      for (int i = 0; i < D; ++i) {
+        slack[i] = 0x1p-48 * std::max({std::abs(all.lo[i]), std::abs(all.hi[i]),
+                                       std::abs(probe.origin()[i]), level.raster.side()});
+        const auto [from, to] = cells_of(level, probe, *part, i, slack[i]);
+        if (i > 0) rows *= static_cast<double>(to - from + 1);
+      }
+      // So far through a folded world that it would meet most slots again and again.
+      if (rows < static_cast<double>(level.slots) && is_finite(slack))
+        rows_along<D - 1>(level, probe, *part, slack, 0, limit, f);
+      else
+        f(level.first, level.first + level.count);
+    }
+    if (first_large_ < table_.size()) f(first_large_, static_cast<std::uint32_t>(table_.size()));
+  }
+
   const GridLevel<D>& level(std::size_t level) const { return levels_[level]; }
   const BoxTable<D>& table() const { return table_; }
   std::uint64_t allocations() const { return allocations_; }
@@ -369,6 +404,48 @@ class GridTable : CountsAllocations {
     for (std::int64_t z = depth; z <= depth_to; ++z)
       for (std::int64_t y = from[1]; y <= to[1]; ++y)
         row_runs(level, level.row(y, z), from[0], to[0], f);
+  }
+
+  // On an axis, the cells whose bodies the part of a ray may meet, counted from the base.
+  template <class Probe>
+  static std::pair<std::int64_t, std::int64_t> cells_of(const Level& level, const Probe& probe,
+                                                        const RaySpan& part, int axis,
+                                                        double slack) {
+    const auto a = static_cast<std::size_t>(axis);
+    const auto [least, most] = std::minmax({probe.at(part.from, axis), probe.at(part.to, axis)});
+    const std::int64_t from = level.raster.at(least - slack, axis) - level.reach;
+    const std::int64_t to = std::min(level.raster.at(most + slack, axis), level.last[a]);
+    return {std::max<std::int64_t>(from - level.base[a], 0), to - level.base[a]};
+  }
+
+  // `row` is the first slot of those with the cells that were chosen on the axes above.
+  template <int axis, class Probe, class Limit, class F>
+  void rows_along(const Level& level, const Probe& probe, const RaySpan& part, const Vec<D>& slack,
+                  std::uint32_t row, Limit& limit, F& f) const {
+    constexpr std::size_t a{axis};
+    const auto [from, to] = cells_of(level, probe, part, axis, slack[axis]);
+    if (from > to) return;
+    if constexpr (axis == 0) {
+      const std::int64_t last = std::min(to, from + level.fold[0] - 1);  // all slots, each once
+      row_runs(level, level.first_slot + row * static_cast<std::uint32_t>(level.fold[0]), from,
+               last, f);
+    } else {
+      const bool down = probe.high_first(axis, 0);
+      for (std::int64_t i = from; i <= to; ++i) {
+        const std::int64_t cell = down ? to - (i - from) : i;
+        const std::int64_t at = cell + level.base[a];
+        auto its = probe.beside(part, axis, level.raster.begin(at, axis) - slack[axis], true);
+        if (its)
+          its = probe.beside(*its, axis,
+                             level.raster.begin(at + level.reach + 1, axis) + slack[axis], false);
+        if (!its) continue;
+        if (probe.entry(*its) > limit()) return;
+        const auto fold = static_cast<std::uint32_t>(level.fold[a]);
+        rows_along<axis - 1>(level, probe, *its, slack,
+                             row * fold + static_cast<std::uint32_t>(level.fold_of(cell, a)), limit,
+                             f);
+      }
+    }
   }
 
   // The cells x0 to x1 of a row, fewer than there are slots; two runs where they wrap.

@@ -195,7 +195,7 @@ void AabbTree<D>::grow_all() {
   nodes_.assign(2, Node{});
   free_.clear();
   blocks_.clear();
-  listed_ = false;
+  changed();
   cost_ = 0;
   if (leaves_.empty()) return;
   if (nodes_.capacity() < 2 * leaves_.size()) {
@@ -219,7 +219,6 @@ void AabbTree<D>::make(std::span<const Item<D>> items) {
   leaves_.clear();
   for (const Item<D>& item : items) append(leaves_, Node::leaf(item, margin_));
   grow_all();
-  list();
   splits_ = items.empty() ? 0 : items.size() - 1;
 }
 
@@ -269,20 +268,16 @@ bool AabbTree<D>::update(std::span<const Item<D>> items, const EventWatch& watch
   }
   box_tests_ = items.size();
   reinserted_ = refitted_ = 0;
-  if (out == 0) {
-    if (!listed_) list();
-    return true;
-  }
+  if (out == 0) return true;
   // To insert one costs some hundred times as much as to mend a node.
   constexpr std::size_t kFew = 64;
   constexpr double kMuchWorse = 1.3;
   const bool automatic = following_ == Following::automatic;
-  listed_ = false;
   if (following_ == Following::reinsert || (automatic && kFew * out < items.size()))
     take_out_and_put_back(items, watch);
   else if (!(mend_all(kRoot, items) <= kMuchWorse * cost_) && automatic)
     build_of_leaves();
-  list();
+  changed();
   return true;
 }
 
@@ -367,26 +362,17 @@ std::uint32_t AabbTree<D>::put_into(BoxTable<D>& table, NodeHandle at, std::uint
 }
 
 template <int D>
-void AabbTree<D>::list() {
-  const std::size_t places = table_.places();
-  table_.resize(bodies());
-  const auto own = [](const Node& leaf) { return leaf.box(); };
-  if (bodies() > 0) put_into(table_, kRoot, 0, own);
-  allocations_ += table_.places() != places;
-  listed_ = true;
-}
-
-template <int D>
 std::uint64_t AabbTree<D>::find_pairs(std::span<const Item<D>> exact, FoundPairs& found) {
-  if (!listed_) list();
-  if (margin_ > 0 && bodies() > 0) {
-    const std::size_t places = exact_.places();
-    exact_.resize(bodies());
+  const BoxTable<D>& table = table_;
+  if ((!listed_ || margin_ > 0) && bodies() > 0) {
+    const std::size_t places = table_.places();
+    table_.resize(bodies());
+    const auto own = [](const Node& leaf) { return leaf.box(); };
     const auto true_box = [&](const Node& leaf) -> const Box<D>& { return exact[leaf.link].box; };
-    put_into(exact_, kRoot, 0, true_box);
-    allocations_ += exact_.places() != places;
+    margin_ > 0 ? put_into(table_, kRoot, 0, true_box) : put_into(table_, kRoot, 0, own);
+    allocations_ += table_.places() != places;
+    listed_ = true;
   }
-  const BoxTable<D>& table = margin_ > 0 ? exact_ : table_;
   RunScanner<D> runs(table, table, exact, found);
   if (bodies() > 0) pair_within({kRoot, 0}, table, runs);
   runs.finish();
@@ -394,22 +380,21 @@ std::uint64_t AabbTree<D>::find_pairs(std::span<const Item<D>> exact, FoundPairs
 }
 
 template <int D>
-void AabbTree<D>::pair_within(const AabbSpot& at, const BoxTable<D>& table,
-                              RunScanner<D>& runs) const {
+void AabbTree<D>::pair_within(const Spot& at, const BoxTable<D>& table, RunScanner<D>& runs) const {
   const Node& node = nodes_[at.node];
   if (node.bodies() <= kAabbBlock) {
     const std::uint32_t end = at.first + node.bodies();
     for (std::uint32_t i = at.first; i < end; ++i) runs.add(i, i + 1, end);
     return;
   }
-  const AabbSpot one = child(at, 0), two = child(at, 1);
+  const Spot one = child(at, 0), two = child(at, 1);
   pair_within(one, table, runs);
   pair_within(two, table, runs);
   pair_between(one, two, table, runs);
 }
 
 template <int D>
-void AabbTree<D>::pair_between(const AabbSpot& of_a, const AabbSpot& of_b, const BoxTable<D>& table,
+void AabbTree<D>::pair_between(const Spot& of_a, const Spot& of_b, const BoxTable<D>& table,
                                RunScanner<D>& runs) const {
   const Node &a = nodes_[of_a.node], &b = nodes_[of_b.node];
   if (!a.reaches(b)) return;

@@ -27,7 +27,7 @@
 #pragma once
 
 #include "spatial/structure_of.hpp"
-#include "spatial/trees/aabb_walk.hpp"
+#include "spatial/trees/aabb_rows.hpp"
 
 namespace lantern::spatial {
 
@@ -53,7 +53,7 @@ class AabbTree final : public StructureOf<AabbTree<D>, D>, CountsAllocations {
   template <class Observer>
   void add(const Item<D>& item, Observer&& observer) {
     require_places(bodies() + 1);
-    listed_ = false;
+    changed();
     put(Node::leaf(item, margin_), observer);
   }
 
@@ -71,7 +71,7 @@ class AabbTree final : public StructureOf<AabbTree<D>, D>, CountsAllocations {
   void clear() override {
     nodes_.assign(2, Node{});
     free_.clear();
-    listed_ = false;
+    changed();
     cost_ = 0;
     box_tests_ = splits_ = reinserted_ = refitted_ = 0;
   }
@@ -85,19 +85,16 @@ class AabbTree final : public StructureOf<AabbTree<D>, D>, CountsAllocations {
 
   // Those whose enlarged boxes the box overlaps, each once.
   std::uint64_t near(const Box<D>& box, std::vector<BodyId>& ids) const override {
-    const std::size_t before = ids.size();
-    const WalkCounts walk = each_near(box, [&](BodyId id, bool) { ids.push_back(id); });
-    return walk.visited + walk.skipped + walk.compared - (ids.size() - before);
+    return bodies() == 0 ? 1 : collect(kRoot, Node::leaf({0, box}, 0), ids);
   }
 
-  // See aabb_walk.hpp.
-  template <class F>
-  WalkCounts each_near(const Box<D>& box, F&& f) const {
-    return spatial::each_near<D>(way(), box, f);
-  }
-  template <class Limit, class F>
-  WalkCounts each_along(const Ray<D>& ray, Limit&& limit, F&& f) const {
-    return spatial::each_along<D>(way(), ray, limit, f);
+  // See query_walk.hpp. With a margin the boxes are not the bodies' own: none of them is sure.
+  bool has_rows() const { return rows_.is_due(); }
+  template <class Probe, class Limit, class Soon, class F>
+  WalkCounts each_met(const Probe& probe, Limit& limit, Soon& soon, F& f) const {
+    const AabbRows<D>& rows = rows_.made([&](AabbRows<D>& made) { made.make(nodes_, kRoot); });
+    auto told = [&](BodyId id, bool is_sure) { f(id, is_sure && margin_ == 0); };
+    return rows.each_met(probe, limit, soon, told);
   }
 
   // Compared are those bodies whose enlarged boxes overlap: the tree is walked against itself, and
@@ -134,6 +131,11 @@ class AabbTree final : public StructureOf<AabbTree<D>, D>, CountsAllocations {
  private:
   static constexpr NodeHandle kRoot = 1;  // at its children begin the pairs of siblings: 2, 4, ...
 
+  // A node, and the place of its first body among all.
+  struct Spot {
+    NodeHandle node = 0;
+    std::uint32_t first = 0;
+  };
   // The way from the root to a node.
   struct Way {
     std::array<NodeHandle, Node::kTallest + 1> nodes;
@@ -146,7 +148,10 @@ class AabbTree final : public StructureOf<AabbTree<D>, D>, CountsAllocations {
   // What others see of a place: no gaps from 0 on.
   static NodeHandle handle_of(NodeHandle place) { return place - 1; }
 
-  AabbWay<D> way() const { return {nodes_, kRoot, table_, listed_ ? kAabbBlock : 0, margin_ == 0}; }
+  void changed() {
+    rows_.forget();
+    listed_ = false;
+  }
 
   // --- inserting ---
 
@@ -281,11 +286,10 @@ class AabbTree final : public StructureOf<AabbTree<D>, D>, CountsAllocations {
   double mend_all(NodeHandle at, std::span<const Item<D>> items);
   template <class BoxOf>
   std::uint32_t put_into(BoxTable<D>& table, NodeHandle at, std::uint32_t place, BoxOf& box_of);
-  void list();
-  void pair_within(const AabbSpot& at, const BoxTable<D>& table, RunScanner<D>& runs) const;
-  void pair_between(const AabbSpot& of_a, const AabbSpot& of_b, const BoxTable<D>& table,
+  void pair_within(const Spot& at, const BoxTable<D>& table, RunScanner<D>& runs) const;
+  void pair_between(const Spot& of_a, const Spot& of_b, const BoxTable<D>& table,
                     RunScanner<D>& runs) const;
-  AabbSpot child(const AabbSpot& at, NodeHandle which) const {
+  Spot child(const Spot& at, NodeHandle which) const {
     const NodeHandle first = nodes_[at.node].link;
     return {first + which, at.first + (which == 0 ? 0 : nodes_[first].bodies())};
   }
@@ -329,6 +333,16 @@ class AabbTree final : public StructureOf<AabbTree<D>, D>, CountsAllocations {
     visit_from(node.link + 1 - first, view.id, 1 - first, depth + 1, tour, f);
   }
 
+  // How many tests it took, but those that led to a body.
+  std::uint64_t collect(NodeHandle at, const Node& asked, std::vector<BodyId>& ids) const {
+    const Node& node = nodes_[at];
+    if (!node.reaches(asked)) return 1;
+    if (!node.is_leaf())
+      return 1 + collect(node.link, asked, ids) + collect(node.link + 1, asked, ids);
+    ids.push_back(node.link);
+    return 0;
+  }
+
   // What is beyond the range of float ends where double ends.
   static Box<D> finite(const Box<D>& box) {
     constexpr double kMost = std::numeric_limits<double>::max();
@@ -354,8 +368,9 @@ class AabbTree final : public StructureOf<AabbTree<D>, D>, CountsAllocations {
   std::uint64_t splits_ = 0;
   std::uint64_t reinserted_ = 0, refitted_ = 0;  // when it followed them last
 
-  BoxTable<D> table_;    // leaves, from the first to the last, so that a branch is one run of it
-  bool listed_ = false;  // the leaves stand there
+  mutable MadeWhenAsked<AabbRows<D>> rows_;
+  BoxTable<D> table_;    // of pairs: a branch is one run of it; with a margin of true boxes
+  bool listed_ = false;  // the leaves' own stand there
 
   struct Block {
     NodeHandle node = 0;
@@ -368,7 +383,6 @@ class AabbTree final : public StructureOf<AabbTree<D>, D>, CountsAllocations {
   std::vector<Node> leaves_;      // of a tree that is being built
   std::vector<NodeHandle> free_;  // pairs of places that nobody uses
   std::vector<BodyId> left_;      // bodies that are out of the tree
-  BoxTable<D> exact_;             // as table_, with boxes that are not enlarged
 };
 
 extern template class AabbTree<2>;

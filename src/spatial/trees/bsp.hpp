@@ -39,12 +39,16 @@ class Bsp final : public StructureOf<Bsp<D>, D> {
   // Stores the item in every leaf that its box reaches.
   template <class Observer>
   void add(const Item<D>& item, Observer&& observer) {
-    put(0, item, observer);
+    items_.push_back(item);
+    leaf_boxes_.forget();
+    put(0, static_cast<std::uint32_t>(items_.size() - 1), observer);
   }
 
   // The planes stay.
   void clear() override {
     contents_.clear();
+    items_.clear();
+    leaf_boxes_.forget();
     for (Node& node : nodes_) node.contents = {};
     entries_ = box_tests_ = 0;
   }
@@ -56,6 +60,41 @@ class Bsp final : public StructureOf<Bsp<D>, D> {
 
   std::uint64_t near(const Box<D>& box, std::vector<BodyId>& ids) const override {
     return collect(0, box, ids);
+  }
+
+  // --- asked by rows, see query_walk.hpp ---
+
+  using Place = NodeHandle;
+  template <class Probe, class Limit, class Soon, class F>
+  WalkCounts each_met(const Probe& probe, Limit& limit, Soon& soon, F& f) const {
+    return walk_rows<D>(*this, probe, limit, soon, f);
+  }
+  bool has_rows() const { return leaf_boxes_.is_due(); }
+  const LeafBoxes<D>& boxes() const {
+    return leaf_boxes_.made([&](LeafBoxes<D>& boxes) {
+      boxes.resize(contents_.places());
+      for (const Node& node : nodes_) {
+        const LeafRun leaf{node.contents.first, node.contents.count};
+        for (std::uint32_t i = 0; i < leaf.count; ++i) {
+          const Item<D>& item = items_[contents_.values(node.contents)[i]];
+          boxes.set(leaf, i, item.id, item.box);
+        }
+      }
+    });
+  }
+  Place root() const { return 0; }
+  std::optional<LeafRun> leaf_run(Place at) const {
+    const Node& node = nodes_[at];
+    if (!node.is_leaf()) return std::nullopt;
+    return LeafRun{node.contents.first, node.contents.count};
+  }
+  template <class Probe, class F>
+  void open(Place at, const Probe& probe, const typename Probe::Part& part, F&& f) const {
+    const Node& node = nodes_[at];
+    const Plane<D>& plane = tested_[node.plane];
+    const NodeHandle first = probe.front_first(plane) ? 1 : 0;
+    for (const NodeHandle child : {first, 1 - first})
+      f(node.first_child + child, probe.beside(part, plane, child == 1));
   }
 
   // `box_tests` counts tests against a plane.
@@ -102,8 +141,9 @@ class Bsp final : public StructureOf<Bsp<D>, D> {
 
   // The item reaches this node.
   template <class Observer>
-  void put(NodeHandle handle, const Item<D>& item, Observer& observer) {
+  void put(NodeHandle handle, std::uint32_t number, Observer& observer) {
     stop_if_asked();
+    const Item<D>& item = items_[number];
     observer(Event{Event::Kind::test, handle, item.id, 0, 0});
     Node& node = nodes_[handle];
     if (node.is_leaf()) {
@@ -112,23 +152,27 @@ class Bsp final : public StructureOf<Bsp<D>, D> {
             "body {}: with it the BSP's leaves hold more than {} entries; "
             "use fewer planes or bodies",
             item.id, most_entries_);
-      contents_.append(node.contents, item.id);
+      contents_.append(node.contents, number);
       ++entries_;
       observer(Event{Event::Kind::store, handle, item.id, node.contents.count, 0});
       return;
     }
     const Reach sides = reach(item.box, tested_[node.plane]);
     ++box_tests_;
-    put_or_miss(node.first_child, sides.back, item, observer);
-    put_or_miss(node.first_child + 1, sides.front, item, observer);
+    put_or_miss(node.first_child, sides.back, number, observer);
+    put_or_miss(node.first_child + 1, sides.front, number, observer);
   }
 
   template <class Observer>
-  void put_or_miss(NodeHandle handle, bool reached, const Item<D>& item, Observer& observer) {
+  void put_or_miss(NodeHandle handle, bool reached, std::uint32_t number, Observer& observer) {
     if (reached)
-      put(handle, item, observer);
+      put(handle, number, observer);
     else
-      observer(Event{Event::Kind::miss, handle, item.id, 0, 0});
+      observer(Event{Event::Kind::miss, handle, items_[number].id, 0, 0});
+  }
+
+  void add_ids(const Node& node, std::vector<BodyId>& ids) const {
+    for (const std::uint32_t item : contents_.values(node.contents)) ids.push_back(items_[item].id);
   }
 
   template <class F>
@@ -137,7 +181,10 @@ class Bsp final : public StructureOf<Bsp<D>, D> {
     const Node& node = nodes_[handle];
     NodeView<D> view = tour.view(handle, parent, node.slot, node.depth, node.is_leaf(), bounds_);
     if (!view.leaf) view.plane = &planes_[node.plane].plane;
-    view.bodies = tour.ascending(contents_.values(node.contents));
+    tour.ids.clear();
+    add_ids(node, tour.ids);
+    std::ranges::sort(tour.ids);
+    view.bodies = tour.ids;
     if (!f(std::as_const(view)) || view.leaf) return;
     double along = 0;  // a ray along the plane's normal comes from behind
     for (int i = 0; i < D; ++i) along += tested_[node.plane].normal[i] * tour.toward[i];
@@ -150,8 +197,7 @@ class Bsp final : public StructureOf<Bsp<D>, D> {
   std::uint64_t collect(NodeHandle handle, const Box<D>& box, std::vector<BodyId>& ids) const {
     const Node& node = nodes_[handle];
     if (node.is_leaf()) {
-      const auto values = contents_.values(node.contents);
-      ids.insert(ids.end(), values.begin(), values.end());
+      add_ids(node, ids);
       return 0;
     }
     const Reach sides = reach(box, tested_[node.plane]);
@@ -167,7 +213,9 @@ class Bsp final : public StructureOf<Bsp<D>, D> {
   std::vector<Node> nodes_;
   Box<D> bounds_;
   std::uint64_t most_entries_;
-  LeafArray contents_;
+  std::vector<Item<D>> items_;
+  LeafArray contents_;                              // numbers of items
+  mutable MadeWhenAsked<LeafBoxes<D>> leaf_boxes_;  // by the places of contents_
   std::uint64_t entries_ = 0;
   std::uint64_t deepest_ = 0;
   std::uint64_t box_tests_ = 0;

@@ -182,6 +182,7 @@ class KdTree final : public StructureOf<KdTree<D>, D>, CountsAllocations {
     most_nodes_before_ = std::max(most_nodes_before_, nodes_.size());
     nodes_.clear();
     items_.clear();
+    leaf_boxes_.forget();
     stored_.clear();
     work_.clear();
     deepest_ = box_tests_ = 0;
@@ -202,8 +203,8 @@ class KdTree final : public StructureOf<KdTree<D>, D>, CountsAllocations {
   // box. An object that was decisive for a box does not fit after any move outward; then, "if that
   // object moves in any way, the tree must be rebuilt". False for a body that is not there.
   bool fits(const Item<D>& moved) const override {
-    const auto stored = std::ranges::lower_bound(items_, moved.id, {}, &Item<D>::id);
-    if (stored == items_.end() || stored->id != moved.id || !is_valid(moved.box)) return false;
+    const Item<D>* stored = stored_item(moved.id);
+    if (stored == nullptr || !is_valid(moved.box)) return false;
     return fits_below(0, stored->box, moved.box);
   }
 
@@ -215,6 +216,37 @@ class KdTree final : public StructureOf<KdTree<D>, D>, CountsAllocations {
   // The leaves whose fitted boxes the box overlaps.
   std::uint64_t near(const Box<D>& box, std::vector<BodyId>& ids) const override {
     return collect(0, box, ids);
+  }
+
+  // --- asked by rows, see query_walk.hpp ---
+
+  using Place = NodeHandle;
+  template <class Probe, class Limit, class Soon, class F>
+  WalkCounts each_met(const Probe& probe, Limit& limit, Soon& soon, F& f) const {
+    return walk_rows<D>(*this, probe, limit, soon, f);
+  }
+  bool has_rows() const { return leaf_boxes_.is_due(); }
+  const LeafBoxes<D>& boxes() const {
+    return leaf_boxes_.made([&](LeafBoxes<D>& boxes) {
+      boxes.resize(stored_.size());
+      for (const Node& node : nodes_)
+        for (std::uint32_t i = 0; i < node.count; ++i) {
+          const Item<D>& item = *stored_item(stored_[node.first + i]);
+          boxes.set({node.first, node.count}, i, item.id, item.box);
+        }
+    });
+  }
+  Place root() const { return 0; }
+  std::optional<LeafRun> leaf_run(Place at) const {
+    const Node& node = nodes_[at];
+    return node.is_leaf() ? std::optional(LeafRun{node.first, node.count}) : std::nullopt;
+  }
+  template <class Probe, class F>
+  void open(Place at, const Probe& probe, const typename Probe::Part&, F&& f) const {
+    const Node& node = nodes_[at];
+    const NodeHandle first = probe.high_first(node.axis, node.plane) ? 1 : 0;
+    for (const NodeHandle child : {node.first_child + first, node.first_child + 1 - first})
+      f(child, probe.in_box(nodes_[child].box));
   }
 
   // `box_tests` counts comparisons of a body with a plane.
@@ -250,6 +282,13 @@ class KdTree final : public StructureOf<KdTree<D>, D>, CountsAllocations {
     Box<D> cell{Vec<D>(-std::numeric_limits<double>::infinity()),
                 Vec<D>(std::numeric_limits<double>::infinity())};
   };
+
+  // Null if it is not there. Items stand in the order of ids, often at the places of their ids.
+  const Item<D>* stored_item(BodyId id) const {
+    if (id < items_.size() && items_[id].id == id) return &items_[id];
+    const auto found = std::ranges::lower_bound(items_, id, {}, &Item<D>::id);
+    return found == items_.end() || found->id != id ? nullptr : &*found;
+  }
 
   // --- building ---
 
@@ -365,9 +404,10 @@ class KdTree final : public StructureOf<KdTree<D>, D>, CountsAllocations {
   }
 
   StructureConfig<D> config_;
-  std::vector<Item<D>> items_;       // by id
-  std::vector<Node> nodes_;          // the root first, siblings side by side
-  std::vector<BodyId> stored_;       // of all leaves, each ascending
+  std::vector<Item<D>> items_;                      // by id
+  std::vector<Node> nodes_;                         // the root first, siblings side by side
+  std::vector<BodyId> stored_;                      // of all leaves, each ascending
+  mutable MadeWhenAsked<LeafBoxes<D>> leaf_boxes_;  // by the places of stored_
   std::vector<std::uint32_t> work_;  // items of the nodes that are being made, the deepest last
   KdCuts<D> cuts_;
   std::size_t most_nodes_before_ = 0;

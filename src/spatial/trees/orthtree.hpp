@@ -54,6 +54,7 @@ class Orthtree final : public StructureOf<Orthtree<D>, D>, CountsAllocations {
   template <class Observer>
   void add(const Item<D>& item, Observer&& observer) {
     append(items_, item);
+    leaf_boxes_.forget();
     ++box_tests_;
     put(Spot{0, 0, config_.bounds}, static_cast<std::uint32_t>(items_.size() - 1), observer);
   }
@@ -78,6 +79,7 @@ class Orthtree final : public StructureOf<Orthtree<D>, D>, CountsAllocations {
   void clear() override {
     most_nodes_before_ = std::max(most_nodes_before_, nodes_.size());
     items_.clear();
+    leaf_boxes_.forget();
     nodes_.clear();
     families_.clear();
     common_parts_.clear();
@@ -95,6 +97,62 @@ class Orthtree final : public StructureOf<Orthtree<D>, D>, CountsAllocations {
 
   std::uint64_t near(const Box<D>& box, std::vector<BodyId>& ids) const override {
     return collect(Spot{0, 0, config_.bounds}, box, ids);
+  }
+
+  // --- asked by rows, see query_walk.hpp ---
+
+  // A node and what was derived for it on the way down.
+  struct Place {
+    NodeHandle node = 0;
+    std::uint32_t depth = 0;
+    Box<D> bounds;
+  };
+
+  template <class Probe, class Limit, class Soon, class F>
+  WalkCounts each_met(const Probe& probe, Limit& limit, Soon& soon, F& f) const {
+    return walk_rows<D>(*this, probe, limit, soon, f);
+  }
+  bool has_rows() const { return leaf_boxes_.is_due(); }
+  const LeafBoxes<D>& boxes() const {
+    return leaf_boxes_.made([&](LeafBoxes<D>& boxes) {
+      boxes.resize(contents_.places());
+      for (const Node& node : nodes_) {
+        if (!node.is_leaf()) continue;
+        const LeafRun leaf{node.contents.first, node.contents.count};
+        for (std::uint32_t i = 0; i < leaf.count; ++i) {
+          const Item<D>& item = items_[contents_.values(node.contents)[i]];
+          boxes.set(leaf, i, item.id, item.box);
+        }
+      }
+    });
+  }
+  Place root() const { return {0, 0, config_.bounds}; }
+  std::optional<LeafRun> leaf_run(const Place& at) const {
+    const Node& node = nodes_[at.node];
+    if (!node.is_leaf()) return std::nullopt;
+    return LeafRun{node.contents.first, node.contents.count};
+  }
+  // Children reach outward without end at the rim: only the middles cut.
+  template <class Probe, class F>
+  void open(const Place& at, const Probe& probe, const typename Probe::Part& part, F&& f) const {
+    const Vec<D> mid = Halves::middle(at.bounds);
+    std::optional<typename Probe::Part> side[D][2];
+    std::uint32_t first = 0;
+    for (int i = 0; i < D; ++i) {
+      for (const bool high : {false, true}) side[i][high] = probe.beside(part, i, mid[i], high);
+      if (Halves::is_high(0, i) != probe.high_first(i, mid[i])) first |= 1u << i;
+    }
+    for (std::uint32_t i = 0; i < kChildren; ++i) {
+      const std::uint32_t slot = i ^ first;
+      const NodeHandle child = child_of(at.node, slot);
+      if (child == kNone) continue;
+      auto common = side[0][Halves::is_high(slot, 0)];
+      for (int axis = 1; axis < D && common; ++axis) {
+        const auto& other = side[axis][Halves::is_high(slot, axis)];
+        common = other ? Probe::common(*common, *other) : std::nullopt;
+      }
+      f(child_spot(at, mid, child, slot), common);
+    }
   }
 
   Counters counters() const override {
@@ -121,13 +179,7 @@ class Orthtree final : public StructureOf<Orthtree<D>, D>, CountsAllocations {
   static constexpr std::uint32_t kInner = kNone;
   using Family = std::array<NodeHandle, kChildren>;  // kNone where no child was made
 
-  // A node and what was derived for it on the way down.
-  struct Spot {
-    NodeHandle node = 0;
-    std::uint32_t depth = 0;
-    Box<D> bounds;
-  };
-
+  using Spot = Place;
   struct Way {
     std::uint32_t first_slot;  // of each family; the others follow as they follow slot 0
     Tour<D>& tour;
@@ -372,6 +424,7 @@ class Orthtree final : public StructureOf<Orthtree<D>, D>, CountsAllocations {
   std::vector<Family> families_;      // of the inner nodes
   std::vector<Box<D>> common_parts_;  // of leaves that the no-progress stop keeps whole
   LeafArray contents_;
+  mutable MadeWhenAsked<LeafBoxes<D>> leaf_boxes_;  // by the places of contents_
   std::vector<std::uint32_t> work_;    // while building at once: items of the nodes on the way down
   std::vector<std::uint8_t> reached_;  // and which children each of them reaches
   std::size_t most_nodes_before_ = 0;  // of all trees that stood here before the last clear
