@@ -13,7 +13,6 @@
 #include "base/work.hpp"
 #include "draw/draw_list.hpp"
 #include "draw/theme.hpp"
-#include "render/context.hpp"
 #include "render/image.hpp"
 #include "render/png.hpp"
 #include "render/renderer.hpp"
@@ -97,15 +96,10 @@ class Pipeline {
     bool transparent = false;
   };
 
-  // Counts the context, and each frame drawn and encoded, in `work`, which must outlive this.
-  // Belongs to the calling thread, like the context.
-  Pipeline(std::unique_ptr<Context> context, Config config, Work& work)
-      : config_(std::move(config)),
-        work_(work),
-        renderer_(std::move(context), config_.width, config_.height),
-        pool_(config_, work) {
-    ++work_.graphics_contexts;
-  }
+  // The renderer draws pictures of this size, perhaps for others before. Counts each frame drawn
+  // and encoded in `work`. Both must outlive this, which belongs to the renderer's thread.
+  Pipeline(Renderer& renderer, Config config, Work& work)
+      : config_(std::move(config)), work_(work), renderer_(renderer), pool_(config_, work) {}
 
   // Draws at once; the file appears later. Waits while too many pictures are under way. An error of
   // an earlier file is thrown here or by finish(), as it was; after it nothing more is written.
@@ -124,7 +118,7 @@ class Pipeline {
  private:
   Config config_;
   Work& work_;
-  Renderer renderer_;
+  Renderer& renderer_;
   EncodePool pool_;
 };
 

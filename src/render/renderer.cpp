@@ -306,6 +306,10 @@ Renderer::Renderer(std::unique_ptr<Context> context, int width, int height) {
 
 Renderer::~Renderer() = default;
 
+bool Renderer::is_for(int width, int height) const {
+  return state_->width == width && state_->height == height;
+}
+
 Drawn Renderer::draw(const DrawList& list, const Theme& theme, bool transparent) {
   stop_if_asked();
   State& s = *state_;

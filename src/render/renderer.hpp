@@ -24,6 +24,8 @@ class Renderer {
   Renderer(std::unique_ptr<Context> context, int width, int height);
   ~Renderer();
 
+  bool is_for(int width, int height) const;
+
   // The page fills the image. `transparent` leaves out the paper: alpha is 0 where nothing is
   // drawn. Only what differs from the picture before is painted and read, which changes no pixel.
   Drawn draw(const DrawList& list, const Theme& theme, bool transparent);

@@ -137,7 +137,8 @@ class Bench {
     c.effort = effort;
     c.threads = config_.threads;
     Work work;
-    Pipeline pipeline(Context::create(config_.backend), c, work);
+    Renderer renderer(Context::create(config_.backend), c.width, c.height);
+    Pipeline pipeline(renderer, c, work);
     // Shaders are compiled with the first frames: that is measured as the time to start. The last
     // frame is what stands before the first.
     for (const std::size_t i : {std::size_t{0}, lists_.size() - 1})

@@ -63,6 +63,13 @@ TEST(LeaveOut, SvgNeedsNoGraphicsContext) {
   EXPECT_EQ(work["graphics_contexts"], 0);
 }
 
+TEST(LeaveOut, ScenariosOfOneCommandShareTheirGraphics) {
+  const json work = work_of("render " + scenario("ghost_quadtree") + " " + scenario("buckets") +
+                            " --size 320x180 -o " + fresh_folder("leave-out-shared").string());
+  EXPECT_EQ(work["frames_drawn"], 8 + 4);
+  EXPECT_EQ(work["graphics_contexts"], 1);
+}
+
 // The dynamic loader tells each library that it opens.
 bool loads_any(const std::string& words, std::initializer_list<const char*> libraries) {
   const Outcome o = shell("LD_DEBUG=files " LANTERN_BINARY " " + words);

@@ -56,6 +56,14 @@ TEST_F(SameBytes, WithEgl) {
   expect_same(reference(), rendered("same-egl", "", "--backend egl"), "EGL");
 }
 
+TEST_F(SameBytes, AfterAnotherScenarioAndItsAtlas) {
+  const fs::path out = fresh_folder("same-after");
+  const Outcome o = shell("lantern render " + scenario("kdtree_atlas") + " " + kScenario +
+                          " --size 640x360 -o " + out.string());
+  EXPECT_EQ(o.code, 0) << o.err;
+  expect_same(reference(), files_of(out), "another scenario before it");
+}
+
 TEST_F(SameBytes, WithManyThreads) {
   expect_same(reference(), rendered("same-j", "", "-j 4"), "-j 4");
   expect_same(reference(), rendered("same-lp", "export LP_NUM_THREADS=2;", ""), "LP_NUM_THREADS=2");

@@ -58,14 +58,13 @@ TEST(Pipeline, FilesAreThoseOfOneThread) {
   for (int threads = 1; threads <= 4; ++threads) {
     const fs::path folder = fresh_folder("pipeline");
     Work work;
-    Pipeline pipeline(Context::create(Backend::automatic), config(threads), work);
+    Pipeline pipeline(renderer, config(threads), work);
     for (int i = 0; i < kFrames; ++i)
       pipeline.submit(sample_scene(i / 2), texts(i), file(folder, i));
     pipeline.finish();
     for (int i = 0; i < kFrames; ++i)
       ASSERT_TRUE(read_file(file(folder, i), 1 << 24) == expected[static_cast<std::size_t>(i)])
           << "frame " << i << " of " << threads << " threads";
-    EXPECT_EQ(work.graphics_contexts, 1u);
     EXPECT_EQ(work.frames_drawn, 24u);
     EXPECT_EQ(work.frames_encoded, 12u) << "every second picture equals the one before";
   }
@@ -74,7 +73,8 @@ TEST(Pipeline, FilesAreThoseOfOneThread) {
 TEST(Pipeline, WhatDoesNotChangeIsNeitherDrawnNorEncoded) {
   const fs::path folder = fresh_folder("pipeline");
   Work work;
-  Pipeline pipeline(Context::create(Backend::automatic), config(2), work);
+  Renderer renderer(Context::create(Backend::automatic), 320, 180);
+  Pipeline pipeline(renderer, config(2), work);
   for (int i = 0; i < 5; ++i) pipeline.submit(sample_scene(), texts(i), file(folder, i));
   pipeline.finish();
   EXPECT_EQ(work.frames_drawn, 5u);
@@ -106,7 +106,8 @@ TEST(Pipeline, TellsOfEachFileOnceAndOneAtATime) {
     --inside;
   };
   Work work;
-  Pipeline pipeline(Context::create(Backend::automatic), c, work);
+  Renderer renderer(Context::create(Backend::automatic), 320, 180);
+  Pipeline pipeline(renderer, c, work);
   for (int i = 0; i < 30; ++i) pipeline.submit(sample_scene(i), texts(i), file(folder, i));
   pipeline.finish();
   EXPECT_EQ(written.size(), 30u);
@@ -117,10 +118,10 @@ TEST(Pipeline, MakesDoWithTheThreadsThereAre) {
   const fs::path folder = fresh_folder("few-threads");
   Work work;
   for (const int possible : {0, 1, 3}) {
-    auto context = Context::create(Backend::automatic);  // and the backend's own threads
+    Renderer renderer(Context::create(Backend::automatic), 320, 180);  // and its backend's threads
     threads_left = possible;
     try {
-      Pipeline pipeline(std::move(context), config(8), work);
+      Pipeline pipeline(renderer, config(8), work);
       threads_left = 1'000'000;
       for (int i = 0; i < 9; ++i) pipeline.submit(sample_scene(i), texts(i), file(folder, i));
       pipeline.finish();
@@ -149,7 +150,8 @@ bool gives_up(Pipeline& pipeline, const Folder& folder) {
 TEST(Pipeline, StopsWhenTheFolderVanishes) {
   const fs::path folder = fresh_folder("vanishing");
   Work work;
-  Pipeline pipeline(Context::create(Backend::automatic), config(3), work);
+  Renderer renderer(Context::create(Backend::automatic), 320, 180);
+  Pipeline pipeline(renderer, config(3), work);
   pipeline.submit(sample_scene(), texts(0), file(folder, 0));
   pipeline.finish();
   const Folder held(folder);
@@ -167,7 +169,8 @@ TEST(Pipeline, StopsWhenTheDiskIsFull) {
   const rlimit tight{1000, old.rlim_max};
   const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
   Work work;
-  Pipeline pipeline(Context::create(Backend::automatic), config(2), work);
+  Renderer renderer(Context::create(Backend::automatic), 320, 180);
+  Pipeline pipeline(renderer, config(2), work);
   ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &tight), 0);
   const bool stopped = gives_up(pipeline, Folder(folder));
   ::setrlimit(RLIMIT_FSIZE, &old);
@@ -184,7 +187,8 @@ TEST(Pipeline, RethrowsAnyErrorAsItWas) {
   Pipeline::Config c = config(2);
   c.written = [](const fs::path&) { throw Mine("mine"); };
   Work work;
-  Pipeline pipeline(Context::create(Backend::automatic), c, work);
+  Renderer renderer(Context::create(Backend::automatic), 320, 180);
+  Pipeline pipeline(renderer, c, work);
   EXPECT_THROW(
       {
         pipeline.submit(sample_scene(), texts(0), file(folder, 0));
@@ -197,7 +201,8 @@ TEST(Pipeline, GivesUpWhatIsNotBegunWithoutFinish) {
   const fs::path folder = fresh_folder("pipeline");
   Work work;
   {
-    Pipeline pipeline(Context::create(Backend::automatic), config(1), work);
+    Renderer renderer(Context::create(Backend::automatic), 320, 180);
+    Pipeline pipeline(renderer, config(1), work);
     for (int i = 0; i < 4; ++i) pipeline.submit(sample_scene(i), texts(i), file(folder, i));
   }
   for (const auto& entry : fs::directory_iterator(folder))

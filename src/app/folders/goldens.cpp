@@ -85,9 +85,8 @@ class GoldenSink : public StagedSink {
     if (!goldens_.selection.takes(frame)) return;
     const RenderJob& job = goldens_.job;
     const DrawList list = job.page_of(frame, staging, goldens_.work);
-    if (!renderer_)
-      renderer_ = job.make_renderer(job.picture.width, job.picture.height, goldens_.work);
-    renderer_->draw(list, job.picture.theme, false, image_);
+    job.renderer(job.picture.width, job.picture.height, goldens_.work)
+        .draw(list, job.picture.theme, false, image_);
     ++goldens_.work.frames_drawn;
     take(frame, image_, to_json(frame));
   }
@@ -122,7 +121,6 @@ class GoldenSink : public StagedSink {
   std::uint32_t count_ = 0;       // frames of the run so far, chosen or not
 
  private:
-  std::unique_ptr<Renderer> renderer_;  // made when there is something to draw
   Image image_;
 };
 

@@ -93,10 +93,9 @@ class FilmSink : public FileSink {
       throw UsageError("{}: more than {} pictures; choose fewer frames, or a lower --fps",
                        of_.scenario.name, InBetweens::kMostPictures);
     as_asked([&] {
-      if (!renderer_)
-        renderer_ = of_.job.make_renderer(settings_.width, settings_.height, of_.work);
+      Renderer& renderer = of_.job.renderer(settings_.width, settings_.height, of_.work);
       if (!film_) begin_film(of, moment);
-      renderer_->draw(list, of_.job.picture.theme, settings_.transparent, film_->blank());
+      renderer.draw(list, of_.job.picture.theme, settings_.transparent, film_->blank());
       ++of_.work.frames_drawn;
       film_->show(moment - begun_);
     });
@@ -123,7 +122,6 @@ class FilmSink : public FileSink {
   const bool is_clips_;
   FrameWalk walk_;
   FilmClock clock_;
-  std::unique_ptr<Renderer> renderer_;
   std::optional<Film> film_;    // that is being made,
   std::filesystem::path file_;  // of this name,
   std::uint64_t begun_ = 0;     // begun at this moment

@@ -155,7 +155,7 @@ class SheetSink : public FileSink {
           "a sheet of {} x {} pixels is more than {}; ask for fewer dots "
           "(--dpi), or make it a .pdf",
           width, height, Renderer::kMostPixels);
-    renderer_ = of_.job.make_renderer(width, height, of_.work);
+    renderer_ = &of_.job.renderer(width, height, of_.work);
   }
   // The panels alone: what is said of them stands on the sheet.
   publish::SheetPicture bare_picture(const Frame& frame, const Staging& staging) const {
@@ -209,7 +209,7 @@ class SheetSink : public FileSink {
   Vec<2> paper_;  // millimetres
   publish::SheetLayout layout_;
   std::optional<publish::PdfDocument> document_;  // one of these two
-  std::unique_ptr<Renderer> renderer_;
+  Renderer* renderer_ = nullptr;
   Image image_;
   std::uint64_t pages_ = 0, page_ = 0, in_document_ = 0;
   // Of the page that is being filled.

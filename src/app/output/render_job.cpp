@@ -197,17 +197,18 @@ Manifest RenderJob::manifest(const Scenario& scenario, Pace pace) const {
   return m;
 }
 
-std::unique_ptr<Pipeline> RenderJob::make_pipeline(Work& work) const {
-  return as_asked(
-      [&] { return std::make_unique<Pipeline>(Context::create(backend), picture, work); });
+Renderer& RenderJob::renderer(int width, int height, Work& work) const {
+  if (renderer_ && renderer_->is_for(width, height)) return *renderer_;
+  renderer_.reset();
+  as_asked(
+      [&] { renderer_ = std::make_unique<Renderer>(Context::create(backend), width, height); });
+  ++work.graphics_contexts;
+  return *renderer_;
 }
 
-std::unique_ptr<Renderer> RenderJob::make_renderer(int width, int height, Work& work) const {
-  return as_asked([&] {
-    auto renderer = std::make_unique<Renderer>(Context::create(backend), width, height);
-    ++work.graphics_contexts;
-    return renderer;
-  });
+std::unique_ptr<Pipeline> RenderJob::make_pipeline(Work& work) const {
+  Renderer& graphics = renderer(picture.width, picture.height, work);
+  return as_asked([&] { return std::make_unique<Pipeline>(graphics, picture, work); });
 }
 
 std::vector<PngText> texts_of(const Frame& frame) {
@@ -226,7 +227,7 @@ std::string picture_of(const RenderJob& job, const Pipeline::Config& as, const F
         to_svg(list, as.theme, as.transparent, as.width, as.height, svg_words(job, frame, from)),
         from);
   Image image;
-  job.make_renderer(as.width, as.height, work)->draw(list, as.theme, as.transparent, image);
+  job.renderer(as.width, as.height, work).draw(list, as.theme, as.transparent, image);
   ++work.frames_drawn;
   ++work.frames_encoded;
   return sealed(FileKind::png, encode_png(image, as.effort, texts_of(frame), as.pixels_per_metre),

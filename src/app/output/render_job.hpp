@@ -119,20 +119,27 @@ struct RenderJob {
   // The frame as a page, with what the command line switches on and off.
   DrawList page_of(const Frame& frame, const Staging& staging, Work& work) const;
 
-  // Graphics for the job's pictures, or for some of this size. Throws BackendError, and UsageError
-  // for pictures that are too large.
+  // Graphics for pictures of this size, until another size is asked for: all scenarios of a job
+  // share them, since to compile the shaders takes as long as to draw some frames. Counted in
+  // `work` when they are started. Throws BackendError, and UsageError for pictures that are too
+  // large.
+  Renderer& renderer(int width, int height, Work& work) const;
+  // From the job's own pictures to files.
   std::unique_ptr<Pipeline> make_pipeline(Work& work) const;
-  std::unique_ptr<Renderer> make_renderer(int width, int height, Work& work) const;
 
   // Of a folder that holds no frame yet.
   Manifest manifest(const Scenario& scenario, Pace pace) const;
+
+ private:
+  // One at a time: its context is current from when it is made until another one is.
+  mutable std::unique_ptr<Renderer> renderer_;
 };
 
 // What a PNG says of its frame.
 std::vector<PngText> texts_of(const Frame& frame);
 
 // A whole file, sealed, in the job's format; `as` tells size and style, which the job's own
-// pictures take from job.picture. For PNG it starts graphics and ends them.
+// pictures take from job.picture.
 std::string picture_of(const RenderJob& job, const Pipeline::Config& as, const Frame& frame,
                        const DrawList& list, const MadeFrom& from, Work& work);
 

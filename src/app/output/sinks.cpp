@@ -212,6 +212,7 @@ class FolderSink : public StagedSink {
   void close(const DirectorReport& report) override {
     of_.selection.require_some();
     if (pipeline_) pipeline_->finish();
+    pipeline_.reset();                        // before its graphics make way for those of an atlas
     if (!folder_ && !part_.is_all()) return;  // none of the frames is of this part
     list_frames();
     if (wants_atlas()) write_atlas(*last_);
