@@ -159,9 +159,10 @@ class BandPacker {
   int same_as_above(int x) const {
     const std::uint32_t* above = at_ - width_;
     int end = x;
-    for (; end + 16 <= width_; end += 16) {
+    constexpr int kAtOnce = 32;  // so many that a compiler makes vectors of them
+    for (; end + kAtOnce <= width_; end += kAtOnce) {
       std::uint32_t differs = 0;
-      for (int i = end; i < end + 16; ++i) differs |= at_[i] ^ above[i];
+      for (int i = 0; i < kAtOnce; ++i) differs |= at_[end + i] ^ above[end + i];
       if (differs != 0) break;
     }
     while (end < width_ && at_[end] == above[end]) ++end;
@@ -185,21 +186,22 @@ class BandPacker {
       best = {1, single.distance};
   }
 
-  // What follows the place, a pixel's number + 1, as far as it is what follows x.
+  // What follows the place, as far as it is what follows x.
   Match match(std::uint32_t place, int x) const {
     if (place == 0) return {};
-    const auto from = static_cast<int>(place - 1);
-    const int row = from / width_, column = from % width_;
-    const int distance = (row_ - row) * stride_ + channels_ * (x - column);
+    const int rows = row_ - static_cast<int>((place - 1) >> kColumnBits);
+    const auto column = static_cast<int>((place - 1) & ((1u << kColumnBits) - 1));
+    const int distance = rows * stride_ + channels_ * (x - column);
     if (distance > kMostDistance) return {};
+    const std::uint32_t* from = at_ - static_cast<std::ptrdiff_t>(rows) * width_ + column;
     const int most = width_ - std::max(x, column);
     int pixels = 0;
-    while (pixels < most && pixels_[from + pixels] == at_[x + pixels]) ++pixels;
+    while (pixels < most && from[pixels] == at_[x + pixels]) ++pixels;
     return {pixels, distance};
   }
 
   void remember(int x) {
-    const auto place = static_cast<std::uint32_t>(row_ * width_ + x + 1);
+    const auto place = static_cast<std::uint32_t>((row_ << kColumnBits | x) + 1);
     if (x + 1 < width_) pairs_[hash_of_pair(x)] = place;
     singles_[hash_of_single(x)] = place;
   }
@@ -232,7 +234,8 @@ class BandPacker {
     low_ = (low_ + static_cast<std::uint64_t>(sum_)) % kModulus;
   }
 
-  static constexpr int kShort = 32;  // pixels: longer repetitions are of no use to later ones
+  static constexpr int kColumnBits = 20;  // of a place, which is a row and a column, + 1
+  static constexpr int kShort = 32;       // pixels: longer repetitions are of no use to later ones
 
   int width_, channels_, stride_;  // bytes a row
   const std::uint32_t* pixels_;
