@@ -14,8 +14,8 @@ namespace lantern::render {
 // the same, the pixels are. It keeps a hash of 64 bits of them, not the quads.
 class Damage {
  public:
-  // In pixels. A multiple of the rows that are packed together (render/png.hpp) is cheapest.
-  static constexpr int kTileWidth = 64, kTileHeight = 32;
+  // In pixels. Smaller ones leave out more of what is the same, but there are more to know.
+  static constexpr int kTileWidth = 32, kTileHeight = 16;
 
   Damage(int width, int height);
 

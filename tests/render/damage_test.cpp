@@ -120,12 +120,12 @@ TEST(Damage, FindsWhatDiffersAndNothingElse) {
   EXPECT_TRUE(damage.is_all());
   EXPECT_TRUE(damage.find(quads, 7).empty());
   quads[1].instance.fill[0] = 3;
-  EXPECT_EQ(damage.find(quads, 7), (std::vector<PixelRect>{{64, 96, 128, 128}})) << "its tile";
+  EXPECT_EQ(damage.find(quads, 7), (std::vector<PixelRect>{{96, 96, 128, 112}})) << "its tile";
   EXPECT_EQ(damage.find(quads, 8), std::vector{all}) << "another ground";
   damage.forget();
   EXPECT_EQ(damage.find(quads, 8), std::vector{all});
   quads.push_back(quad({5, 5, 15, 15}, 4));
-  EXPECT_EQ(damage.find(quads, 8), (std::vector<PixelRect>{{0, 0, 64, 32}}));
+  EXPECT_EQ(damage.find(quads, 8), (std::vector<PixelRect>{{0, 0, 32, 16}}));
   std::swap(quads[0], quads[2]);
   EXPECT_EQ(damage.find(quads, 8).size(), 1u) << "what lies upon what";
   std::swap(quads[1], quads[2]);
