@@ -278,17 +278,16 @@ RunResult run_scenario(const Scenario& scenario, Pace pace, FrameSink& sink, Wor
   Progress progress(scenario.name, extent, work, memory_budget(), [&] { return sink.waiting(); });
   Trials trials([&] { return progress.long_left(); }, work);
   RunWatch watch(scenario, shows_a_body, &trials);
-  std::uint64_t frames = 0;
   RunResult result;
   result.report = direct(
       scenario, pace, work,
       [&](const Frame& frame) {
         stop_if_asked();
         sink.frame(frame);
-        progress.done(++frames);
+        progress.done(frame.index + std::uint64_t{1});
         return true;
       },
-      &watch);
+      &watch, sink.wants());
   sink.finish(result.report);
   result.warnings = warnings_of_file(scenario);
   add_needs(scenario, result.warnings);

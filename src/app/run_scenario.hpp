@@ -21,8 +21,9 @@ namespace lantern::app {
 class FrameSink {
  public:
   virtual ~FrameSink() = default;
-  // Every frame of the run, in order.
+  // Every frame of the run that it looks at, in order.
   virtual void frame(const Frame& /*frame*/) {}
+  virtual Wanted wants() const { return Wanted::all; }
   // After the last one. What is to be whole stands whole from here on.
   virtual void finish(const DirectorReport& /*report*/) {}
   // How many of the frames that it was given it has still to deal with; from any thread.

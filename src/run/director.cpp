@@ -48,9 +48,9 @@ void ScriptRun::witness(const Event& event) {
   if (frames.stopped()) return;
   using Kind = Event::Kind;
   if (event.kind == Kind::test) frames.touched.passed.insert(event.node);
-  if (!frames.by_event() || !frames.wanted(event_name(event.kind))) return;
   const StructureSpec& structure = engine().structure();
   if (event.kind == Kind::make_child && structure.eager_children) return;
+  if (!frames.emits(event_name(event.kind))) return;
   Touched now = frames.touched;
   (event.kind == Kind::miss ? now.passed : now.lit).insert(event.node);
   const std::string text =
@@ -109,13 +109,14 @@ void ScriptRun::play(const Step& step, std::uint32_t index) {
 }
 
 DirectorReport direct(const Scenario& scenario, Pace pace, Work& work,
-                      const std::function<bool(const Frame&)>& sink, RunWatch* watch) {
+                      const std::function<bool(const Frame&)>& sink, RunWatch* watch,
+                      Wanted wants) {
   if (!scenario.sides.empty()) return direct_sides(scenario, pace, work, sink, watch);
   const std::function<bool(const Frame&)> watched = [&](const Frame& frame) {
     watch->see(frame);
     return sink(frame);
   };
-  ScriptRun run(scenario, pace, work, watch ? watched : sink, watch);
+  ScriptRun run(scenario, pace, work, watch ? watched : sink, watch, wants);
   std::uint32_t index = 0;
   for (const Step& step : scenario.steps) {
     run.play(step, index++);

@@ -20,10 +20,17 @@ struct DirectorReport {
 
 class RunWatch;
 
+// Which frames are made for the sink. Each lists all that is there, so that one for every event of
+// an insertion is work with the square of the bodies. Whoever looks at outcomes alone spares those
+// of events, unless a note may stand on them: they are counted, and what is expected is verified as
+// ever, but what an outcome lights as new is new since the last one. Of sides all are made.
+enum class Wanted { all, outcomes };
+
 // Calls `sink` with each frame in order; it returns false to end the run early. The frames depend
 // on the scenario and the pace only, whether or not somebody watches. Throws ScenarioError, at the
 // step's place, when the engine refuses what the step asks for.
 DirectorReport direct(const Scenario& scenario, Pace pace, Work& work,
-                      const std::function<bool(const Frame&)>& sink, RunWatch* watch = nullptr);
+                      const std::function<bool(const Frame&)>& sink, RunWatch* watch = nullptr,
+                      Wanted wants = Wanted::all);
 
 }  // namespace lantern::run

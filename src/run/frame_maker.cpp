@@ -73,11 +73,12 @@ std::string why_not_noted(const NoteSpec& note, const Frame& frame) {
 std::span<const CountDoc> answer_counts() { return kAnswerCounts; }
 
 FrameMaker::FrameMaker(const Scenario& scenario, Pace pace, const Stage& stage,
-                       const std::function<bool(const Frame&)>& sink)
+                       const std::function<bool(const Frame&)>& sink, Wanted wants)
     : scenario_(scenario),
       pace_(pace),
       stage_(stage),
       sink_(sink),
+      wants_(wants),
       headline_(scenario.headline),
       comparison_(empty_comparison(scenario)),
       looks_(scenario) {
@@ -128,6 +129,15 @@ bool FrameMaker::wanted(std::string_view event) const {
   return events.empty() || std::ranges::find(events, event) != events.end();
 }
 
+bool FrameMaker::emits(std::string_view event) {
+  if (stopped_ || !by_event() || !wanted(event)) return false;
+  if (wants_ == Wanted::all || !step_->notes.empty()) return true;
+  stop_if_asked();
+  if (stage_.engine) tell_faults();
+  next_index();
+  return false;
+}
+
 void FrameMaker::note_refused(const std::string& name) {
   refused_names_ += (refused_names_.empty() ? "" : ", ") + name;
 }
@@ -165,7 +175,7 @@ Frame FrameMaker::picture(const Touched& now, std::string_view event, bool midst
   looks_.show(frame);
   frame.headline = headline_;
   if (stage_.engine) stage_.engine->picture(now, swept ? &*swept : nullptr, frame);
-  if (stage_.engine) tell_faults(frame);
+  if (stage_.engine) tell_faults();
   if (stage_.engine) narrow.add_to(frame, *stage_.engine);
   // Speeds that numbers still hold may have squares that they do not.
   for (const auto& [name, number] : frame.measures)
@@ -223,11 +233,11 @@ void FrameMaker::add_collisions(Frame& frame) const {
 }
 
 // A wrong tree is drawn as it is, and its run fails; each fault is told where it is first seen.
-void FrameMaker::tell_faults(const Frame& frame) {
+void FrameMaker::tell_faults() {
   constexpr std::size_t kMost = 8;
   for (const std::string& fault : stage_.engine->structure_faults())
     if (faults_.size() < kMost && faults_.insert(fault).second)
-      fail(fmt::format("{} (frame {}, time {:.6g} s)", fault, frame.index, frame.time));
+      fail(fmt::format("{} (frame {}, time {:.6g} s)", fault, report_.frames, stage_.time));
 }
 
 // One point a moment: the last that was so.
@@ -276,13 +286,18 @@ void FrameMaker::emit(const Touched& now, std::string_view event, std::string ca
   give(std::move(frame), true);
 }
 
-void FrameMaker::give(Frame frame, bool midst) {
-  if (stopped_) return;
+// That of a frame which is given, or counted.
+std::uint32_t FrameMaker::next_index() {
   if (report_.frames == kMostFrames)
     throw ScenarioError(diagnose(scenario_, step_->where,
                                  fmt::format("more than {} frames", kMostFrames),
                                  "run for a shorter time, or choose fewer events"));
-  frame.index = report_.frames++;
+  return report_.frames++;
+}
+
+void FrameMaker::give(Frame frame, bool midst) {
+  if (stopped_) return;
+  frame.index = next_index();
   if (stage_.engine) {
     const WorldWork& now = stage_.engine->world_work();
     if (now.steps > last_work_.steps) frame.since_last_frame = work_between(last_work_, now);

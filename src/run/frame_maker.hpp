@@ -9,9 +9,9 @@ namespace lantern::run {
 
 class FrameMaker {
  public:
-  // Gives each frame to `sink`, until it returns false.
+  // Gives each frame that is looked at to `sink`, until it returns false.
   FrameMaker(const Scenario& scenario, Pace pace, const Stage& stage,
-             const std::function<bool(const Frame&)>& sink);
+             const std::function<bool(const Frame&)>& sink, Wanted wants);
 
   // What follows belongs to this step.
   void begin(const Step& step, std::uint32_t index);
@@ -21,6 +21,8 @@ class FrameMaker {
   bool by_event() const { return step_->pace.value_or(pace_) == Pace::event; }
   // In event pace: did the step ask for frames of this event?
   bool wanted(std::string_view event) const;
+  // Is a frame of this event to be emitted, now? One that nobody looks at is counted instead.
+  bool emits(std::string_view event);
   bool stopped() const { return stopped_; }
 
   // What the step is about, for all frames to come of it.
@@ -64,7 +66,8 @@ class FrameMaker {
   void begin_code();
   void light_code(std::string_view event);
   void add_collisions(Frame& frame) const;
-  void tell_faults(const Frame& frame);
+  std::uint32_t next_index();
+  void tell_faults();
   void tell_splits(Frame& frame);
   void add_notes(Frame& frame);
   void require_notes(const Frame& frame);
@@ -85,6 +88,7 @@ class FrameMaker {
   Pace pace_;
   const Stage& stage_;
   const std::function<bool(const Frame&)>& sink_;
+  Wanted wants_;
   std::optional<Plotter> plotter_;
   std::optional<FrameTrace> trace_;      // if a panel shows it
   double trace_begun_ = 0;               // when its part began

@@ -8,8 +8,9 @@ namespace lantern::run {
 
 struct ScriptRun {
   ScriptRun(const Scenario& of, Pace pace, Work& work,
-            const std::function<bool(const Frame&)>& sink, RunWatch* watched_by)
-      : scenario(of), stage(of, work), frames(of, pace, stage, sink), watch(watched_by) {}
+            const std::function<bool(const Frame&)>& sink, RunWatch* watched_by,
+            Wanted wants = Wanted::all)
+      : scenario(of), stage(of, work), frames(of, pace, stage, sink, wants), watch(watched_by) {}
 
   const Scenario& scenario;
   Stage stage;

@@ -120,7 +120,7 @@ void replay(const Finding& whole, ScriptRun& run) {
     const bool is_test = event.kind == Kind::test;
     const std::string_view name =
         is_test ? (hit ? "hit" : "miss") : (event.kind == Kind::visit ? "visit" : "skip");
-    if (!frames.wanted(name)) continue;
+    if (!frames.emits(name)) continue;
     frames.show_finding(running.so_far());
     Touched now = running.touched();
     if (event.kind != Kind::skip && !of_static) now.lit.insert(event.node);
@@ -146,8 +146,7 @@ std::string own_name(const ScriptRun& run, std::size_t body) {
 // What the verbs of a level and of an atlas do: `compile`, `locate`, `order` and `see`; `pack`,
 // `ask_room` and `draw`.
 void show(const LevelMoment& moment, FrameMaker& frames) {
-  if (!frames.stopped() && frames.by_event() && frames.wanted(moment.event))
-    frames.emit({}, moment.event, moment.text);
+  if (frames.emits(moment.event)) frames.emit({}, moment.event, moment.text);
 }
 
 void witness(const AtlasEvent& event, ScriptRun& run) {
@@ -157,7 +156,7 @@ void witness(const AtlasEvent& event, ScriptRun& run) {
   (event.kind == Kind::cut || event.kind == Kind::store ? frames.touched.lit
                                                         : frames.touched.passed)
       .insert(event.node);
-  if (!frames.by_event() || !frames.wanted(event_name(event.kind))) return;
+  if (!frames.emits(event_name(event.kind))) return;
   Touched now = frames.touched;
   now.lit = {event.node};
   const FrameTexture& texture = run.stage.atlas->texture(event.texture);
@@ -205,7 +204,7 @@ constexpr const char* kDrawEvent = "draw";
 // In event pace: one frame about this element, and, in an atlas, about the leaf it comes from.
 void tell_draw(const char* event, std::size_t texture, bool from_atlas, const std::string& text,
                ScriptRun& run) {
-  if (!run.frames.by_event() || !run.frames.wanted(event)) return;
+  if (!run.frames.emits(event)) return;
   Touched now;
   if (from_atlas) now.lit.insert(run.stage.atlas->leaf_of(texture).value());
   run.frames.emit(now, event, text);
@@ -257,15 +256,15 @@ void act(const TestShapes&, ScriptRun& run) {
 
 void act(const Separate& of, ScriptRun& run) {
   const FrameSeparation whole = run.engine().separate(of.a, of.b);
-  if (run.frames.by_event() && run.frames.wanted("axis"))
-    for (std::size_t n = 1; n <= whole.axes.size() && !run.frames.stopped(); ++n) {
-      FrameSeparation so_far = whole;
-      so_far.axes.resize(n);
-      so_far.answer.reset();
-      const std::string text = axis_text(so_far, own_name(run, of.a), own_name(run, of.b));
-      run.frames.narrow.show(std::move(so_far));
-      run.frames.emit({}, "axis", text);
-    }
+  for (std::size_t n = 1; n <= whole.axes.size(); ++n) {
+    if (!run.frames.emits("axis")) continue;
+    FrameSeparation so_far = whole;
+    so_far.axes.resize(n);
+    so_far.answer.reset();
+    const std::string text = axis_text(so_far, own_name(run, of.a), own_name(run, of.b));
+    run.frames.narrow.show(std::move(so_far));
+    run.frames.emit({}, "axis", text);
+  }
   run.frames.narrow.show(whole);
   run.frames.settle("separate");
 }
@@ -274,7 +273,7 @@ void act(const SearchDistance& of, ScriptRun& run) {
   const FrameSearch whole = run.engine().search(of.a, of.b);
   const auto show = [&](std::size_t steps, bool taken) {
     const std::string_view event = taken ? "simplex" : "support";
-    if (!run.frames.wanted(event) || run.frames.stopped()) return;
+    if (!run.frames.emits(event)) return;
     FrameSearch so_far = whole;
     so_far.steps.resize(steps);
     so_far.taken = taken;
@@ -283,7 +282,7 @@ void act(const SearchDistance& of, ScriptRun& run) {
     run.frames.narrow.show(std::move(so_far));
     run.frames.emit({}, event, text);
   };
-  for (std::size_t n = 1; run.frames.by_event() && n <= whole.steps.size(); ++n) {
+  for (std::size_t n = 1; n <= whole.steps.size(); ++n) {
     show(n, false);
     if (!whole.steps[n - 1].ends) show(n, true);
   }

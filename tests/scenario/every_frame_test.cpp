@@ -250,6 +250,18 @@ TEST_P(EveryFrame, TellsTheTruthKeepsItsPromisesAndIsTheSameOnASecondRun) {
   EXPECT_EQ(i, first.size());
 }
 
+TEST_P(EveryFrame, IsCountedAndVerifiedThoughNobodyLooksAtEvents) {
+  const auto report = [&](Wanted wants) {
+    Work work;
+    const auto nobody = [](const Frame&) { return true; };
+    return direct(scenario_, std::get<1>(GetParam()), work, nobody, nullptr, wants);
+  };
+  const DirectorReport all = report(Wanted::all), outcomes = report(Wanted::outcomes);
+  EXPECT_EQ(outcomes.frames, all.frames);
+  EXPECT_EQ(outcomes.expectations, all.expectations);
+  EXPECT_EQ(outcomes.unmet.count(), all.unmet.count());
+}
+
 // Crowds are not inserted event by event: each of the many frames would list all of their pairs.
 // Named here, for ctest starts this program once for each test: loading every scenario first to
 // count its bodies was most of the time of most tests.

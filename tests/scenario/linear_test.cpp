@@ -198,6 +198,26 @@ TEST(Linear, WithEvents) {
   });
 }
 
+// A frame for each event would list all bodies as often as there are events. The cells of a grid
+// suit the bodies there are, so that it is made anew for each one that enters watched.
+TEST(Linear, WithEventsThatNobodyLooksAt) {
+  const auto bytes_of = [](StructureKind kind, int dimension, int bodies) {
+    const Scenario scenario = good(text_of({kind, dimension, "", "", "pace = \"event\""}, bodies));
+    Work work;
+    const std::uint64_t before = counted_memory::bytes;
+    const auto nobody = [](const Frame& frame) { return frame.event != "insert"; };  // its end
+    direct(scenario, Pace::step, work, nobody, nullptr, Wanted::outcomes);
+    return static_cast<double>(counted_memory::bytes - before);
+  };
+  expect_all_linear([&](StructureKind kind, int dimension) {
+    if (kind == StructureKind::grid || kind == StructureKind::automatic) return;
+    const int bodies = bodies_for(kind);
+    EXPECT_LE(bytes_of(kind, dimension, 2 * bodies),
+              kMostGrowth * bytes_of(kind, dimension, bodies) + kSlackBytes)
+        << to_string(kind) << " in " << dimension << "D";
+  });
+}
+
 TEST(Linear, OfBodiesThatAreTiedTogether) {
   for (const char* link : {"[[spring]]\nalong = \"b\"\nstiffness = 5\n",
                            "[[joint]]\nkind = \"distance\"\nalong = \"b\"\n"})

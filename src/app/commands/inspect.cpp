@@ -39,6 +39,11 @@ Options check_options(CheckOptions& o) {
           json_option(o.json)};
 }
 
+// What is expected is verified on the outcomes of steps.
+struct Nobody : FrameSink {
+  Wanted wants() const override { return Wanted::outcomes; }
+};
+
 struct Verdict {
   std::string file;
   std::string name;  // empty if it could not be read
@@ -54,7 +59,7 @@ Verdict check_one(const std::string& file, const CheckOptions& options, Work& wo
   try {
     const Scenario scenario = load_scenario(scenario_file(file));
     verdict.name = scenario.name;
-    FrameSink nobody;
+    Nobody nobody;
     verdict.result = run_scenario(scenario, pace_of(options.pace, scenario), nobody, work);
     verdict.code = tell(verdict.result, options.strict);
     verdict.problems = unmet_of(verdict.result);
