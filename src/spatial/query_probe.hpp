@@ -17,9 +17,8 @@
 #include <limits>
 #include <type_traits>
 
-#include "geometry/not_finite.hpp"
 #include "spatial/box_row.hpp"
-#include "spatial/query.hpp"
+#include "spatial/query_state.hpp"
 
 namespace lantern::spatial {
 

@@ -13,6 +13,7 @@
 #include <gtest/gtest.h>
 
 #include "spatial/broad_phase.hpp"
+#include "spatial/query.hpp"
 #include "spatial/structure_trial.hpp"
 #include "spatial/trees/orthtree.hpp"
 #include "spatial/worlds.hpp"

@@ -3,8 +3,7 @@
 //
 //            [a b c]                 Each leaf holds one body, each inner node the smallest box
 //           /       \                around its two children. Boxes of siblings may overlap: a
-//           query
-//        [a b]      [c]              may have to look into both.
+//        [a b]      [c]              query may have to look into both.
 //        |   |
 //       [a] [b]
 //
@@ -40,6 +39,8 @@ class AabbTree final : public StructureOf<AabbTree<D>, D>, CountsAllocations {
   static constexpr bool kHoldsOnce = true;
   // A tree that insertions have made higher is built anew.
   static constexpr std::uint32_t kHighest = 100;
+  // Their rows have fewer places than a word can tell.
+  static constexpr std::uint32_t kMostInRows = 1 << 24;
 
   // Throws Refused for a margin that is negative or not finite.
   explicit AabbTree(const StructureConfig<D>& config = {})
@@ -89,7 +90,7 @@ class AabbTree final : public StructureOf<AabbTree<D>, D>, CountsAllocations {
   }
 
   // See query_walk.hpp. With a margin the boxes are not the bodies' own: none of them is sure.
-  bool has_rows() const { return rows_.is_due(); }
+  bool has_rows() const { return bodies() <= kMostInRows && rows_.is_due(); }
   template <class Probe, class Limit, class Soon, class F>
   WalkCounts each_met(const Probe& probe, Limit& limit, Soon& soon, F& f) const {
     const AabbRows<D>& rows = rows_.made([&](AabbRows<D>& made) { made.make(nodes_, kRoot); });

@@ -13,6 +13,7 @@
 // sort takes over. The order does not depend on which of the two made it.
 #pragma once
 
+#include "base/merge_sort.hpp"
 #include "geometry/shape.hpp"
 #include "spatial/structure_of.hpp"
 
