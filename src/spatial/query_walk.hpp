@@ -196,7 +196,7 @@ class MadeWhenAsked {
 //   boxes()                          of all leaves
 //   root()
 //   leaf_run(place)                  of a leaf its bodies, of an inner node nothing
-//   open(place, probe, part, f)     f(child, its part, if it has one) for each child of an inner
+//   open(place, probe, part, f)      f(child, its part, if it has one) for each child of an inner
 //                                    node, about in the order in which they are met
 template <int D, class Tree, class Probe, class Limit, class Soon, class F>
 class RowWalk {

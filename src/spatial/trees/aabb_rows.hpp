@@ -92,8 +92,7 @@ struct alignas(D == 3 ? 16 : 8) AabbNode {
 // An AABB tree in rows: a row holds the boxes of up to kAabbBlock nodes that lie one or more levels
 // below its own, and is looked at by a few instructions; the lowest rows hold bodies (Dammertz,
 // Hanika, Keller: "Shallow Bounding Volume Hierarchies for Fast SIMD Ray Tracing of Incoherent
-// Rays", 2008). Of a million bodies six rows lie one below the other, where the tree has thirty
-// nodes.
+// Rays", 2008). A row that is full stands for four levels of the tree and more.
 template <int D>
 class AabbRows {
  public:
