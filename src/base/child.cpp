@@ -137,6 +137,7 @@ Child::~Child() {
 }
 
 void Child::end() noexcept {
+  const std::lock_guard lock(waiting_);
   if (process_ < 0) return;
   ::kill(-process_, SIGKILL);
   ::kill(process_, SIGKILL);  // should it have no group yet
@@ -171,17 +172,24 @@ bool Child::write(std::string_view bytes) {
   return bytes.empty();
 }
 
+// A number that was waited for may be another process's, and -1 is every process: end() must see
+// neither.
+bool Child::has_ended() {
+  const std::lock_guard lock(waiting_);
+  const pid_t ended = ::waitpid(process_, &status_, WNOHANG);
+  if (ended == 0 || (ended < 0 && errno == EINTR)) return false;
+  process_ = -1;
+  return true;
+}
+
 int Child::finish() {
   close_once(input_);
   while (process_ >= 0) {
     stop_if_asked();
     listen();
-    const pid_t ended = ::waitpid(process_, &status_, WNOHANG);
-    if (ended == 0) {
+    if (!has_ended()) {
       pollfd words{words_, POLLIN, 0};
       ::poll(&words, 1, words_ >= 0 ? kHearing : 1);
-    } else if (ended > 0 || errno != EINTR) {
-      process_ = -1;
     }
   }
   listen();

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <initializer_list>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -39,8 +40,8 @@ class Child {
   // often as it is called. Throws Stopped.
   int finish();
 
-  // Ends it, and whatever it has started, at once. Not beside finish(), but beside write(), which
-  // then gives false.
+  // Ends it, and whatever it has started, at once. From any thread, also beside write(), which then
+  // gives false, and beside finish().
   void end() noexcept;
 
   // The end of what it said on standard error, so far.
@@ -48,8 +49,10 @@ class Child {
 
  private:
   void listen();
+  bool has_ended();
 
   pid_t process_ = -1;  // none once it was waited for
+  std::mutex waiting_;  // while it is waited for, or ended
   int input_ = -1, words_ = -1;
   int status_ = 0;  // once it was
   std::string said_;

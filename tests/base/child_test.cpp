@@ -71,6 +71,18 @@ TEST(Child, EndsWithItsOwner) {
   ::close(ends[0]);
 }
 
+// Whoever waits for it may have just been told that it is gone: nobody else must be ended for it.
+TEST(Child, IsEndedWhileItIsWaitedFor) {
+  Child witness(shell_words("sleep 100"));
+  for (int round = 0; round < 200; ++round) {
+    Child child(shell_words("exit 0"));
+    std::thread waits([&] { child.finish(); });
+    for (int i = 0; i < 200; ++i) child.end();
+    waits.join();
+  }
+  EXPECT_TRUE(witness.write("still here"));
+}
+
 TEST(Child, ThatDoesNotReadDoesNotKeepAWishToStopWaiting) {
   Child child(shell_words("sleep 100"));
   std::thread later([] {
