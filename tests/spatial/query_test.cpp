@@ -385,6 +385,23 @@ TEST(Query, OfAGridOnlyTheCellsThatAreReachedAreLookedAt) {
   EXPECT_EQ(told, (33 + 32) + (2 + 1) + (10 + 9u));
 }
 
+// Upper faces that are not the sums of lower ones and sizes, as they are rounded.
+TEST(Query, ARayAlongTheUppermostFaceOfAGridMeetsIt) {
+  Random random(1);
+  std::uint64_t rounded = 0;
+  for (int round = 0; round < 4000; ++round) {
+    const double lo = -random.between(0.1, 3), hi = random.between(0.001, 0.2);
+    rounded += lo + (hi - lo) < hi;
+    const Box<2> box{{1, lo}, {4, hi}};
+    Grid<2> grid({.bounds = {Vec<2>(-64.0), Vec<2>(64.0)}});
+    grid.insert({7, box});
+    const auto box_of = [&](BodyId) { return box; };
+    EXPECT_EQ(overlap_query<2>(grid, Ray<2>{{0, hi}, {1, 0}, 9}, box_of).ids.size(), 1u);
+    EXPECT_EQ(overlap_query<2>(grid, Ray<2>{{0, lo}, {1, 0}, 9}, box_of).ids.size(), 1u);
+  }
+  EXPECT_GT(rounded, 100u);
+}
+
 // Who asks once after each change does not pay for rows of all bodies.
 TEST(Query, AskedOnceAfterEachInsertionNothingIsMadeOfAll) {
   Random random(4);

@@ -268,16 +268,20 @@ class GridTable : CountsAllocations {
   void each_along(const RayProbe<D, kOrdered>& probe, Limit& limit, F&& f) const {
     for (const Level& level : levels_) {
       if (level.count == 0) continue;
-      const Box<D> all{level.corners.lo, level.corners.hi + Vec<D>(level.widest)};
-      const auto part = probe.in_box(all);
-      if (!part) continue;
-      double rows = 1;
+      Box<D> all{level.corners.lo, level.corners.hi + Vec<D>(level.widest)};
       Vec<D> slack;
       for (int i = 0; i < D; ++i) {
         slack[i] = 0x1p-48 * std::max({std::abs(all.lo[i]), std::abs(all.hi[i]),
                                        std::abs(probe.origin()[i]), level.raster.side()});
+        all.lo[i] -= slack[i];  // sums are rounded
+        all.hi[i] += slack[i];
+      }
+      const auto part = probe.in_box(all);
+      if (!part) continue;
+      double rows = 1;
+      for (int i = 1; i < D; ++i) {
         const auto [from, to] = cells_of(level, probe, *part, i, slack[i]);
-        if (i > 0) rows *= static_cast<double>(to - from + 1);
+        rows *= static_cast<double>(to - from + 1);
       }
       // So far through a folded world that it would meet most slots again and again.
       if (rows < static_cast<double>(level.slots) && is_finite(slack))
