@@ -277,10 +277,9 @@ std::vector<std::string> caption_lines(const std::string& caption, double width,
 }  // namespace
 
 std::vector<std::string> counter_texts(const Frame& frame) {
-  std::vector<std::string> texts;
-  for (const Counter& counter : counters_of(frame))
-    texts.push_back(fmt::format("{} {}", counter.number, counter.noun));
-  return texts;
+  return mapped(counters_of(frame), [](const Counter& counter) {
+    return fmt::format("{} {}", counter.number, counter.noun);
+  });
 }
 
 double draw_footer(const Frame& frame, double margin, DrawList& list, Labels& labels) {

@@ -54,8 +54,7 @@ void count_free(const Frame& frame, const Box<2>& panel, Free& free) {
   const View2D map(flat(frame.bounds), panel);
   const std::vector<Stand> stands = stands_of(frame, map);
   const Box<2> room = shrunk(map.picture(), 5);
-  std::vector<Box<2>> covered;
-  for (const Stand& stand : stands) covered.push_back(stand.box);
+  const std::vector<Box<2>> covered = mapped(stands, &Stand::box);
   for (const Stand& stand : stands) {
     const FrameBody& body = *stand.bodies.front();
     if (stand.bodies.size() > 1 || !shows_name(frame, body)) continue;

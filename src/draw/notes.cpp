@@ -102,9 +102,8 @@ class Clutter {
     return cost;
   }
   double crossed(const Vec<2>& from, const Vec<2>& to) const {
-    double cost = 0;
-    for (const Box<2>& label : labels_) cost += cut_line(from, to, label) ? 400 : 0;
-    return cost;
+    return sum_of<double>(labels_,
+                          [&](const Box<2>& label) { return cut_line(from, to, label) ? 400 : 0; });
   }
 
  private:

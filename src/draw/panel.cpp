@@ -62,8 +62,7 @@ std::vector<Box<2>> side_by_side(const Frame& frame, const std::vector<Panel>& p
 
 // A tree needs rows, so it gets somewhat more height than the others; strips get little.
 std::vector<Box<2>> stacked(const std::vector<Panel>& panels, const Box<2>& area) {
-  std::vector<double> weights;
-  for (const Panel panel : panels) weights.push_back(view_of(panel).weight);
+  auto weights = mapped(panels, [&](const Panel panel) { return view_of(panel).weight; });
   const double all = std::accumulate(weights.begin(), weights.end(), 0.0);
   const double room = area.size().y - kPanelGap * (static_cast<double>(panels.size()) - 1);
   double least = 0;

@@ -106,9 +106,7 @@ class Drawing {
   Box<2> scaled() const { return paper_.place.scaled(); }
 
   std::vector<Vec<2>> on_page(const std::vector<Vec<2>>& values) const {
-    std::vector<Vec<2>> points;
-    for (const Vec<2>& value : values) points.push_back(at(value));
-    return points;
+    return mapped(values, [&](const Vec<2>& value) { return at(value); });
   }
   // Of each series, not farther out than a few panels: beyond, only the direction matters.
   std::vector<PlacedSeries> place_series() const {

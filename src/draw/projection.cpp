@@ -205,9 +205,8 @@ std::optional<Vec<2>> View3D::seen(const Vec<3>& p) const {
 }
 
 Outline View3D::polygon(const std::vector<Vec<3>>& corners) const {
-  Outline outline;
-  for (const Vec<3>& p : clipped(corners, forward_, glm::dot(forward_, eye_) + near_))
-    outline.push_back(to_page(p));
+  Outline outline = mapped(clipped(corners, forward_, glm::dot(forward_, eye_) + near_),
+                           [&](const Vec<3>& p) { return to_page(p); });
   if (outline.size() < 3) outline.clear();
   return outline;
 }

@@ -73,9 +73,7 @@ std::uint32_t UnionTree::leaves() const {
 }
 
 std::uint32_t UnionTree::rows() const {
-  std::uint32_t rows = 0;
-  for (const UnionNode& n : nodes) rows = std::max(rows, n.node.depth + 1);
-  return rows;
+  return greatest_of<std::uint32_t>(0, nodes, [](const UnionNode& n) { return n.node.depth + 1; });
 }
 
 const UnionNode* UnionTree::find(std::string_view way) const {
@@ -84,9 +82,7 @@ const UnionNode* UnionTree::find(std::string_view way) const {
 }
 
 std::vector<const Frame*> Staging::each_of(std::span<const Frame> frames) {
-  std::vector<const Frame*> each;
-  for (const Frame& frame : frames) each.push_back(&frame);
-  return each;
+  return mapped(frames, [](const Frame& frame) { return &frame; });
 }
 
 Staging::Staging(std::vector<const Frame*> frames, const AxisRanges& axes)
@@ -147,11 +143,7 @@ const Staging& Staging::largest_side() const {
   return *largest;
 }
 
-std::uint32_t Staging::leaves() const {
-  std::uint32_t sum = 0;
-  for (const UnionTree& tree : trees_) sum += tree.leaves();
-  return sum;
-}
+std::uint32_t Staging::leaves() const { return sum_of<std::uint32_t>(trees_, &UnionTree::leaves); }
 
 std::int64_t Staging::most(const std::string& count) const {
   const auto found = most_.find(count);

@@ -25,8 +25,7 @@ class Easel {
         list_(list) {}
 
   void polygon(const std::vector<Vec<2>>& corners) {
-    std::vector<Vec<2>> points;
-    for (const Vec<2>& corner : corners) points.push_back(at(corner));
+    std::vector<Vec<2>> points = mapped(corners, [&](const Vec<2>& corner) { return at(corner); });
     list_.polygon(std::move(points), mark_);
   }
   void line(const Vec<2>& from, const Vec<2>& to, double width, double dash = 0) {

@@ -172,8 +172,7 @@ Unmet unmet_turn(const Expectation& e, const Frame&, Places& places) {
 }
 
 std::vector<const Expectation*> all_of(const Step& step) {
-  std::vector<const Expectation*> all;
-  for (const Expectation& e : step.expect) all.push_back(&e);
+  auto all = mapped(step.expect, [](const Expectation& e) { return &e; });
   for (const Expectation& e : step.always) all.push_back(&e);
   return all;
 }
@@ -264,9 +263,8 @@ std::vector<std::string> proofs_of(const Scenario& scenario, std::size_t step) {
 
 std::vector<Unmet> unmet(const std::vector<Expectation>& expectations, const Frame& frame) {
   Places places(frame);
-  std::vector<Unmet> all;
-  for (const Expectation& e : expectations) all.push_back(row_of(e).check(e, frame, places));
-  return all;
+  return mapped(expectations,
+                [&](const Expectation& e) { return row_of(e).check(e, frame, places); });
 }
 
 }  // namespace lantern::frame

@@ -41,8 +41,7 @@ class Stress : public Experiment {
   // The cases named, in the order of the table; without names all that are not slow, with --full
   // all.
   void prepare() override {
-    std::vector<std::string_view> known;
-    for (const StressCase& one : stress_cases()) known.push_back(one.name);
+    std::vector<std::string_view> known = mapped(stress_cases(), &StressCase::name);
     for (const std::string& name : names_)
       if (std::ranges::find(known, name) == known.end()) {
         const std::string hint = suggestion(name, known);

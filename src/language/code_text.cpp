@@ -4,6 +4,7 @@
 #include <array>
 #include <utility>
 
+#include "base/ranges.hpp"
 #include "lecture/source.hpp"
 
 namespace lantern::language {
@@ -154,11 +155,7 @@ std::optional<CodeText> code_of(std::string_view function) {
   return std::nullopt;
 }
 
-std::vector<std::string> code_functions() {
-  std::vector<std::string> names;
-  for (const CodeText& code : all_functions()) names.push_back(code.function);
-  return names;
-}
+std::vector<std::string> code_functions() { return mapped(all_functions(), &CodeText::function); }
 
 std::vector<std::uint32_t> CodeText::lit() const {
   std::vector<std::uint32_t> numbers;

@@ -239,8 +239,7 @@ const CountDoc* find_count(std::string_view name) {
 }
 
 std::vector<std::string_view> names_of_counts() {
-  std::vector<std::string_view> names;
-  for (const CountDoc& doc : counts()) names.push_back(doc.name);
+  std::vector<std::string_view> names = mapped(counts(), &CountDoc::name);
   for (const CountDoc& doc : measures()) names.push_back(doc.name);
   return names;
 }

@@ -124,10 +124,6 @@ void add_panel(PanelKind kind) {
   kinds().push_back(std::move(kind));
 }
 
-std::vector<std::string_view> names(Panel) {
-  std::vector<std::string_view> all;
-  for (const PanelKind& kind : kinds()) all.push_back(kind.name);
-  return all;
-}
+std::vector<std::string_view> names(Panel) { return mapped(kinds(), &PanelKind::name); }
 
 }  // namespace lantern::language

@@ -102,8 +102,7 @@ Scenario finished(Draft& draft) {
 // A panel that one side has is on the page of all.
 void share_panels(std::vector<std::unique_ptr<Draft>>& drafts) {
   if (!drafts[0]->scenario.panels.empty()) return;  // as the file wishes
-  std::vector<const Draft*> all;
-  for (const auto& draft : drafts) all.push_back(draft.get());
+  const auto all = mapped<const Draft*>(drafts, [](const auto& draft) { return draft.get(); });
   const std::vector<Panel> shared = derived_panels(all);
   for (const auto& draft : drafts) draft->scenario.panels = shared;
 }
@@ -112,8 +111,7 @@ void share_panels(std::vector<std::unique_ptr<Draft>>& drafts) {
 Scenario parse_sides(const TomlTable& table, std::string_view text, const std::string& path,
                      Problems& problems) {
   const std::vector<SideFile> files = files_of_sides(table, problems);
-  std::vector<std::string> names;
-  for (const SideFile& side : files) names.push_back(side.name);
+  std::vector<std::string> names = mapped(files, &SideFile::name);
   std::vector<std::unique_ptr<Draft>> drafts;
   std::vector<std::pair<std::string, const Problems*>> readings;
   for (const SideFile& side : files) {

@@ -146,8 +146,7 @@ class SidesReader {
       side.title = reader.get<std::string>("title").value_or(side.name);
     });
     check_parts();
-    std::vector<std::string> names;
-    for (const SideFile& side : sides) names.push_back(side.name);
+    const std::vector<std::string> names = mapped(sides, &SideFile::name);
     for (SideFile& side : sides)
       side.file = SideWriter(file_, names, side.name).written(side.table);
     return sides;

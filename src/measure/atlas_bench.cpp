@@ -257,11 +257,7 @@ std::vector<AtlasPeer> atlas_contestants(const AtlasBenchConfig& config,
 // The sets of textures that atlases are measured with, and those of a user's own file.
 
 const std::vector<std::string_view>& texture_set_names() {
-  static const std::vector<std::string_view> names = [] {
-    std::vector<std::string_view> all;
-    for (const SetDoc& doc : kSets) all.push_back(doc.name);
-    return all;
-  }();
+  static const std::vector<std::string_view> names = mapped(kSets, &SetDoc::name);
   return names;
 }
 
@@ -341,9 +337,8 @@ void bench_atlases(AtlasBenchResult& result, const AtlasBenchWatch& watch) {
   std::size_t stage = 0;
   for (const TextureSet& set : sets_of(config)) {
     watch(stage++, set);
-    std::vector<Entry> entries;
-    for (const AtlasPeer& contestant : contestants)
-      entries.push_back(entered(contestant, set, config));
+    std::vector<Entry> entries = mapped(
+        contestants, [&](const AtlasPeer& contestant) { return entered(contestant, set, config); });
     for (int round = 0; round < config.rounds; ++round)
       for (Entry& e : entries) take_turn(e, set, config);
     for (Entry& e : entries) {

@@ -198,8 +198,8 @@ std::vector<Row> Plan::run(std::span<const Job> jobs, const std::function<void(d
 }
 
 std::vector<std::string_view> problem_names() {
-  std::vector<std::string_view> names;
-  for (const auto& [name, text] : problem::files()) names.push_back(name);
+  auto names =
+      mapped(problem::files(), [](const auto& file) { return std::string_view(file.first); });
   std::ranges::sort(names);
   return names;
 }

@@ -264,8 +264,7 @@ void keep_asked_for(std::vector<T>& all, const std::vector<std::string>& names,
       continue;
     for (const std::string& line : missing)
       if (line.starts_with(name + ":")) throw Refused(line);
-    std::vector<std::string> there;
-    for (const T& one : all) there.push_back(name_of(one));
+    std::vector<std::string> there = mapped(all, [&](const T& one) { return name_of(one); });
     throw Refused(with_suggestion(fmt::format("there is no contestant '{}'", name), name,
                                   std::vector<std::string_view>(there.begin(), there.end()),
                                   there.size()));

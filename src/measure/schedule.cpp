@@ -109,9 +109,8 @@ std::uint64_t Schedule::steps_in_part(const Leg& leg, double h) const {
 }
 
 std::uint64_t Schedule::steps(double h) const {
-  std::uint64_t n = 0;
-  for (const Leg& leg : legs) n += leg.looks * steps_in_part(leg, h);
-  return n;
+  return sum_of<std::uint64_t>(legs,
+                               [&](const Leg& leg) { return leg.looks * steps_in_part(leg, h); });
 }
 
 }  // namespace lantern::measure

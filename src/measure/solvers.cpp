@@ -382,10 +382,9 @@ std::vector<std::unique_ptr<Solver>> load_peers(
   std::vector<PeerModule> modules;
   for (const PeerModule& module : kModules)
     if (wanted(module.name)) modules.push_back(module);
-  std::vector<std::unique_ptr<Solver>> solvers;
-  for (Peer& peer : peers_of<Peer>(modules, "lantern_peers", missing))
-    solvers.push_back(std::make_unique<PeerSolver>(std::move(peer)));
-  return solvers;
+  return mapped<std::unique_ptr<Solver>>(
+      peers_of<Peer>(modules, "lantern_peers", missing),
+      [](Peer& peer) { return std::make_unique<PeerSolver>(std::move(peer)); });
 }
 
 }  // namespace lantern::measure

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/check.hpp"
+#include "base/ranges.hpp"
 
 namespace lantern::physics {
 
@@ -80,9 +81,7 @@ class MethodList {
     return static_cast<Enumeration>(method - methods_.begin());
   }
   std::vector<std::string_view> names() const {
-    std::vector<std::string_view> all;
-    for (const Method* method : methods_) all.push_back(method->name);
-    return all;
+    return mapped(methods_, [](const Method* method) { return method->name; });
   }
   Enumeration add(const Method& method) {
     methods_.push_back(&method);

@@ -176,8 +176,7 @@ class StepBench : public ExperimentOf<StepBenchResult> {
             name);
       c.piles.push_back(*pile);
     }
-    std::vector<std::string_view> kinds;
-    for (const StructureKind kind : kStructureKinds) kinds.push_back(to_string(kind));
+    const auto kinds = mapped(kStructureKinds, [](StructureKind kind) { return to_string(kind); });
     const auto kind = structure_named(broad_phase_);
     if (!kind || *kind == StructureKind::none)
       throw Refused(with_suggestion(fmt::format("there is no broad phase '{}'", broad_phase_),

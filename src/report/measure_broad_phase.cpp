@@ -89,10 +89,9 @@ class BroadPhases : public ExperimentOf<BroadPhaseResult> {
   }
   std::string unit() const override { return "rows"; }
   std::size_t stages() const override {
-    std::size_t all = 0;
-    for (const BoxScene& scene : result_.config.scenes)
-      all += broad_phase_rows(scene, result_.config);
-    return all;
+    return sum_of<std::size_t>(result_.config.scenes, [&](const BoxScene& scene) {
+      return broad_phase_rows(scene, result_.config);
+    });
   }
   void run(const std::function<void(const std::string&)>& tell) override {
     std::size_t done = 0;

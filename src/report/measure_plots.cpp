@@ -223,8 +223,7 @@ Plot cost_plot(const ProblemRows& problem, const Cost& cost, const Looks& looks,
       plot.guides.push_back({plot.guides.empty() ? "scatters below" : "",
                              {{*end, c.floor->largest}, {4 * *end, c.floor->largest}}});
   }
-  double reference = 0;
-  for (const Row& row : problem.rows) reference = std::max(reference, row.reference_error);
+  const auto reference = greatest_of<double>(0, problem.rows, &Row::reference_error);
   if (reference > kRounding && most > 0)
     plot.guides.push_back({"the reference's own error", {{least, reference}, {most, reference}}});
   const bool whole = has_whole_errors(problem);

@@ -98,8 +98,7 @@ std::optional<Range> range_of(std::span<const MethodRows> methods, double error,
   const std::vector<Standing> others(beaten.begin(), beaten.end());
   lead.erase(beaten.begin(), beaten.end());
   if (any_open(others) || (lead.size() > 1 && any_open(lead))) return std::nullopt;
-  std::vector<std::string> names;
-  for (const Standing& one : lead) names.push_back(one.name);
+  std::vector<std::string> names = mapped(lead, &Standing::name);
   std::ranges::sort(names);
   const bool ahead = !others.empty() && std::ranges::all_of(lead, [&](const Standing& one) {
     return std::ranges::all_of(others, [&](const Standing& o) { return is_quicker(one, o); });
@@ -198,8 +197,7 @@ std::string who_is_quickest(const ProblemRows& problem) {
   while (ranges.size() > 3)  // one line: the widest
     ranges.erase(
         std::ranges::min_element(ranges, {}, [](const Range& r) { return r.from - r.to; }));
-  std::vector<std::string> clauses;
-  for (const Range& range : ranges) clauses.push_back(clause_of(range, whole));
+  const auto clauses = mapped(ranges, [&](const Range& range) { return clause_of(range, whole); });
   return fmt::format("At given steps, {}: {}.",
                      whole ? "by the cheapest run" : "read between neighbouring runs",
                      fmt::join(clauses, "; "));

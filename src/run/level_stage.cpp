@@ -300,8 +300,7 @@ void LevelStage::dim_bodies(const NodeOfSector& nodes, Frame& frame) const {
 void LevelStage::picture_counts(const LevelBsp& level, bool holds_bodies, Frame& frame) const {
   const LevelCounters c = level.counters();
   if (!frame.count("nodes")) {  // of the bodies' tree, if there is one
-    std::uint64_t leaves = 0;
-    for (const FrameNode& node : frame.nodes) leaves += node.leaf;
+    const auto leaves = sum_of<std::uint64_t>(frame.nodes, &FrameNode::leaf);
     frame.add_count("nodes", c.nodes);
     frame.add_count("leaves", leaves);
     frame.add_count("depth", c.depth);

@@ -19,15 +19,12 @@ double begin_of(const FrameBody& body, int axis) {
 
 // In the order of the sweep.
 std::vector<BodyId> in_order(const Frame& frame) {
-  std::vector<const FrameBody*> bodies;
-  for (const FrameBody& body : frame.bodies) bodies.push_back(&body);
+  auto bodies = mapped(frame.bodies, [](const FrameBody& body) { return &body; });
   const int axis = frame.get<FrameStructure>().sweep_axis;
   std::ranges::sort(bodies, {}, [&](const FrameBody* body) {
     return std::pair(begin_of(*body, axis), body->id);
   });
-  std::vector<BodyId> order;
-  for (const FrameBody* body : bodies) order.push_back(body->id);
-  return order;
+  return mapped(bodies, [](const FrameBody* body) { return body->id; });
 }
 
 // With what of those that begin later, and before it ends, it was compared.

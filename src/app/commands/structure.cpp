@@ -44,8 +44,7 @@ std::vector<StructureKind> structures_called(const std::vector<std::string>& nam
     return !is_possible(kind, 2) || traits_of(kind).has(Setting::planes);
   });
   if (names.empty()) return kinds;
-  std::vector<std::string_view> known;
-  for (const StructureKind kind : kinds) known.push_back(to_string(kind));
+  const auto known = mapped(kinds, [](const StructureKind kind) { return to_string(kind); });
   std::vector<StructureKind> chosen;
   for (const std::string& name : names) {
     const auto kind = structure_named(name);

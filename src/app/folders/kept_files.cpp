@@ -218,9 +218,7 @@ std::vector<JsonMembers> JsonMembers::objects(const char* member) const {
 }
 
 std::vector<std::string> JsonMembers::names() const {
-  std::vector<std::string> names;
-  for (const auto& [name, value] : json_->items()) names.push_back(name);
-  return names;
+  return mapped(json_->items(), [](const auto& item) { return item.key(); });
 }
 
 void require_as_written(std::string_view file, std::string_view written) {

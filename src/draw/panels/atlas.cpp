@@ -218,9 +218,8 @@ class AtlasView : PanelPicture {
   // The atlas's own scale if all textures have room in the strip, else half of it or less. All of
   // them are asked, packed or not, so that the scale holds for the whole sequence.
   void choose_strip_scale() {
-    double widest = 1;
-    for (const FrameTexture& t : frame_.get<FrameTextures>().textures)
-      widest = std::max(widest, double(t.width));
+    const auto widest = greatest_of<double>(1, frame_.get<FrameTextures>().textures,
+                                            [](const FrameTexture& t) { return double(t.width); });
     const Vec<2> room = strip_.size() - Vec<2>(0, kAtlasHeading);
     const auto has_room = [&](double scale) {
       double x = 0, y = 0, row = 0;

@@ -168,9 +168,7 @@ class DifferenceView : PanelPicture {
   }
 
   Outline shape() const {
-    Outline points;
-    for (const Vec<2>& p : difference_.corners) points.push_back(to_page(p));
-    return points;
+    return mapped(difference_.corners, [&](const Vec<2>& p) { return to_page(p); });
   }
 
   // Outside of the shape.

@@ -94,8 +94,7 @@ class IslandGraph : PanelPicture {
     for (const Frame* frame : staging.frames())
       for (const FrameBody& body : frame->bodies)
         if (!body.is_static) halves.try_emplace(body.id, half_width(body, frame->dimension));
-    std::vector<double> sorted;
-    for (const auto& entry : halves) sorted.push_back(entry.second);
+    std::vector<double> sorted = mapped(halves, [](const auto& entry) { return entry.second; });
     if (sorted.empty()) return kLeastNodeRadius;
     std::ranges::sort(sorted);
     const double scale = view_->scale_at(frame_.bounds.center());

@@ -49,8 +49,7 @@ void draw_sparkline(const Frame& frame, const Staging& staging, const Box<2>& pl
                     Labels& labels) {
   const FrameTrace& trace = frame.get<FrameTrace>();
   if (trace.points.empty()) return;
-  double highest = 0;
-  for (const Vec<2>& p : trace.points) highest = std::max(highest, p.y);
+  const auto highest = greatest_of<double>(0, trace.points, [](const Vec<2>& p) { return p.y; });
   const Vec<2> now = trace.points.back();
   const AxisRanges& axes = staging.axes();
   const double most =

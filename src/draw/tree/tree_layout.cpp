@@ -207,9 +207,7 @@ std::vector<FrameNode> nodes_of(const UnionTree& tree) {
 }
 
 std::vector<std::string> all_ways(const UnionTree& tree) {
-  std::vector<std::string> ways;
-  for (const UnionNode& node : tree.nodes) ways.push_back(node.way);
-  return ways;
+  return mapped(tree.nodes, &UnionNode::way);
 }
 
 // The largest scale at which on every frame all that is lit can be seen.

@@ -157,9 +157,7 @@ class SeparationMarks {
   }
 
   double reach(const Vec<2>& way) const {
-    double most = -1e300;
-    for (const Vec<2>& p : outline_) most = std::max(most, glm::dot(p, way));
-    return most;
+    return greatest_of<double>(-1e300, outline_, [&](const Vec<2>& p) { return glm::dot(p, way); });
   }
   // The point of the axis, or so far beside it.
   Vec<2> on_axis(double along, double beside = 0) const {

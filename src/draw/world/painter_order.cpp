@@ -182,8 +182,7 @@ std::optional<std::pair<double, double>> inside_of(const Outline& outline, const
 
 void paint(std::vector<Piece> pieces, const View3D& view, DrawList& list) {
   const std::size_t n = pieces.size();
-  std::vector<Box<2>> boxes;
-  for (const Piece& piece : pieces) boxes.push_back(box_of(piece.outline));
+  const auto boxes = mapped(pieces, [&](const Piece& piece) { return box_of(piece.outline); });
   std::vector<std::vector<std::size_t>> later(n);  // who waits for whom
   std::vector<std::size_t> waits(n);
   std::vector<std::vector<std::pair<double, double>>> over(n);  // of lines that yield

@@ -198,8 +198,7 @@ void name_bodies(const World2D& w) {
   constexpr std::size_t kMostNamed = 35;
   constexpr double kWidestName = 240;
   const NameSides& sides = name_sides(w.staging, w.map.panel());
-  std::vector<const Stand*> order;
-  for (const Stand& stand : w.stands) order.push_back(&stand);
+  std::vector<const Stand*> order = mapped(w.stands, [](const Stand& stand) { return &stand; });
   std::ranges::stable_partition(order, [](const Stand* s) { return is_lit(*s); });
   std::size_t named = 0;
   for (const Stand* stand : order) {

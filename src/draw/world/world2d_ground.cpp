@@ -17,10 +17,9 @@ const Vec<2> kRimOutside{20, 20};   // for ground that lies beyond the bounds
 
 // How far the polygon reaches behind the surface.
 double depth_behind(const std::vector<Vec<2>>& polygon, const Plane<2>& surface) {
-  double depth = 0;
-  for (const Vec<2>& p : polygon)
-    depth = std::max(depth, surface.offset - surface.normal.x * p.x - surface.normal.y * p.y);
-  return depth;
+  return greatest_of<double>(0, polygon, [&](const Vec<2>& p) {
+    return surface.offset - surface.normal.x * p.x - surface.normal.y * p.y;
+  });
 }
 
 // The two half edges of a turned box, from its centre, on the page.
@@ -199,8 +198,7 @@ void draw_broad_boxes(const World2D& w) {
 
 void draw_land(const World2D& w) {
   for (const Polygon& land : w.frame.get<FrameLand>().land) {
-    std::vector<Vec<2>> coast;
-    for (const Vec<2>& corner : land) coast.push_back(w.map.to_page(corner));
+    auto coast = mapped(land, [&](const Vec<2>& corner) { return w.map.to_page(corner); });
     coast = cut_to(std::move(coast), w.map.picture());
     if (coast.size() >= 3)
       w.list.polygon(std::move(coast), sector_role(1), {Role::cell_line_3, 1.4});

@@ -45,8 +45,7 @@ struct PlateCounts {
 
 void count_plates(const Frame& frame, const Box<2>& panel, std::vector<PlateCounts>& counts) {
   const View2D map(flat(frame.bounds), panel, frame.view);
-  std::vector<Box<2>> covered;
-  for (const Stand& stand : stands_of(frame, map)) covered.push_back(stand.box);
+  const std::vector<Box<2>> covered = mapped(stands_of(frame, map), &Stand::box);
   const Box<2> room = shrunk(map.picture(), 6);
   for (std::uint32_t i = 0; i < frame.nodes.size(); ++i) {
     if (!has_plate(frame.nodes[i])) continue;
@@ -152,10 +151,8 @@ void label_unmade(const World2D& w) {
 }  // namespace
 
 Polygon page_region(const FrameNode& node, const View2D& map) {
-  Polygon region;
-  for (const Vec<2>& corner : node.region.empty() ? polygon_of(flat(node.box)) : node.region)
-    region.push_back(map.in_reach(map.to_page(corner)));
-  return region;
+  return mapped(node.region.empty() ? polygon_of(flat(node.box)) : node.region,
+                [&](const Vec<2>& corner) { return map.in_reach(map.to_page(corner)); });
 }
 
 std::optional<std::pair<Vec<2>, Vec<2>>> dividing_line(const FrameNode& node) {

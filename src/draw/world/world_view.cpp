@@ -141,8 +141,7 @@ bool shows(const View3D& view, const FrameBody& body) {
       std::ranges::count_if(corners, [&](const Vec<3>& p) { return view.in_front(p); });
   if (in_front == 0 || view.lost(body.position)) return false;
   if (in_front < std::ssize(corners)) return true;  // the eye is beside it, or in it
-  Outline outline;
-  for (const Vec<3>& corner : corners) outline.push_back(view.to_page(corner));
+  Outline outline = mapped(corners, [&](const Vec<3>& corner) { return view.to_page(corner); });
   return overlap(box_of(outline), view.panel());
 }
 
@@ -225,8 +224,7 @@ void draw_world3d(const Frame& frame, const Staging& staging, const Box<2>& pane
   mark_rulers(frame, marks, labels);
   if (!crowd) depict_bodies(frame, list);
   note(left_out, panel, labels);
-  std::vector<Box<2>> covered;
-  for (const Body3D& body : bodies) covered.push_back(body.box);
+  std::vector<Box<2>> covered = mapped(bodies, &Body3D::box);
   write_depths(frame, view, covered, labels);
   name_world3d(frame, staging, bodies, view, list, labels);
   write_heights(bodies, view, list, labels);

@@ -44,8 +44,7 @@ void TableReader::check_unknown(const TomlEntry& e) {
   const std::string in = doc_.name.empty() ? "" : " in " + called_;
   problems_.add(e.where, fmt::format("unknown key {}{}", in_quotes(e.key), in),
                 [&key = e.key, &here = doc_] {
-                  std::vector<std::string_view> known;
-                  for (const KeyDoc& k : here.keys) known.push_back(k.key);
+                  const std::vector<std::string_view> known = mapped(here.keys, &KeyDoc::key);
                   const std::string one =  // "bodies" of [[body]]
                       key.ends_with("ies") ? key.substr(0, key.size() - 3) + "y" : key;
                   const auto near = nearest_name(one, known);
@@ -126,9 +125,8 @@ std::vector<const TomlValue*> TableReader::tables(std::string_view key) const {
   const TomlValue* value = good(key);
   if (!value) return {};
   if (!is_list(key)) return {value};
-  std::vector<const TomlValue*> found;
-  for (const TomlValue& element : std::get<TomlArray>(value->data)) found.push_back(&element);
-  return found;
+  return mapped(std::get<TomlArray>(value->data),
+                [](const TomlValue& element) { return &element; });
 }
 
 }  // namespace lantern::language

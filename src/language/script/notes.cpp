@@ -83,8 +83,7 @@ class NoteReader {
         table_.bad_value("count", fmt::format("'{}' is not counted here: {}", note.name, why));
       return why.empty();
     }
-    std::vector<std::string_view> known;
-    for (const CountDoc& count : known_counts()) known.push_back(count.name);
+    const std::vector<std::string_view> known = mapped(known_counts(), &CountDoc::name);
     table_.bad_value("count", fmt::format("there is no count {}", in_quotes(note.name)),
                      nearest(note.name, known));
     return false;

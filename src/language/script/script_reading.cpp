@@ -264,9 +264,7 @@ std::span<const VerbDoc> known_verbs() {
 
 std::span<const TableDoc> language_verbs() {
   static const std::vector<TableDoc> tables = [] {
-    std::vector<TableDoc> all;
-    for (const VerbDoc& verb : known_verbs()) all.push_back(verb.table);
-    return all;
+    return mapped(known_verbs(), &VerbDoc::table);
   }();
   return tables;
 }

@@ -208,8 +208,8 @@ class MapReader {
         draft_.notice(Warning::letters, draft_.position(where),
                       fmt::format("the letter '{}' stands nowhere in the map", letter),
                       "put it there, or take it out of the legend");
-    std::vector<std::string_view> known;
-    for (const auto& [letter, kind] : legend_) known.push_back(letter);
+    const auto known =
+        mapped(legend_, [](const auto& entry) { return std::string_view(entry.first); });
     for (const auto& [letter, place] : unknown)
       draft_.problems.add(
           place.first,

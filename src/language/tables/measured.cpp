@@ -176,9 +176,7 @@ std::optional<Method> method_named(std::string_view name) {
 }
 
 std::vector<std::string_view> method_names() {
-  std::vector<std::string_view> names;
-  for (const Method& method : known()) names.push_back(method.name);
-  return names;
+  return mapped<std::string_view>(known(), &Method::name);
 }
 
 Scenario moved_by(Scenario scenario, const Method& method, double h) {

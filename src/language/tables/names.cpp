@@ -235,9 +235,7 @@ const TomlTable* Prototypes::find(const std::string& name) const {
 }
 
 std::vector<std::string_view> Prototypes::names() const {
-  std::vector<std::string_view> all;
-  for (const auto& [name, keys] : keys_) all.push_back(name);
-  return all;
+  return mapped(keys_, [](const auto& entry) { return std::string_view(entry.first); });
 }
 
 TableDoc prototype_table() {

@@ -155,18 +155,12 @@ std::vector<LinkSpec> from_above(const Scenario& scenario) {
   return chain;
 }
 
-std::vector<std::size_t> lower_ends(const std::vector<LinkSpec>& links) {
-  std::vector<std::size_t> bodies;
-  for (const LinkSpec& link : links) bodies.push_back(link.a);
-  return bodies;
-}
-
 // A chain that hangs straight down from a fixed point. No link should grow, and the pull in each is
 // the weight of all below it.
 class HangingChain : public ErrorMetric {
  public:
   explicit HangingChain(const Scenario& scenario)
-      : links_(from_above(scenario)), bodies_(lower_ends(links_)), burdens_(scenario, bodies_) {
+      : links_(from_above(scenario)), burdens_(scenario, bodies_) {
     const Vec<3>& g = scenario.world.gravity;
     for (const std::size_t i : moving_bodies(scenario)) require_at_rest(scenario, i);
     const std::vector<BodyState> states = first_states(scenario);
@@ -200,7 +194,7 @@ class HangingChain : public ErrorMetric {
   }
 
   std::vector<LinkSpec> links_;  // from above
-  std::vector<std::size_t> bodies_;
+  std::vector<std::size_t> bodies_ = mapped(links_, &LinkSpec::a);
   Burdens burdens_;
   double length_ = 0;
   Worst& stretch_ =
