@@ -124,7 +124,7 @@ int run_and_report(const Callable& run) noexcept {
     write_stderr(out_of_memory);  // and needs none
     write_answer_without_memory();
     return kFailed;
-  } catch (const std::filesystem::filesystem_error& e) {
+  } catch (const fs::filesystem_error& e) {
     complain(
         fmt::format("cannot look at '{}': {}", printable(e.path1().string()), e.code().message()));
     return kFailed;

@@ -15,8 +15,6 @@
 
 namespace lantern::app {
 
-namespace fs = std::filesystem;
-
 namespace {
 
 MadeFrom page_from(std::string_view report, std::string_view page) {

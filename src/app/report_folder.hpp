@@ -33,7 +33,7 @@ class ReportFolder {
   ReportFolder& operator=(ReportFolder&&) = delete;  // nor any other copy or move
 
   bool wanted() const { return !path_.empty(); }
-  const std::filesystem::path& path() const { return path_; }
+  const fs::path& path() const { return path_; }
 
   // What an earlier run has left there; nothing if there is no such file. Throws IoError.
   std::optional<std::string> earlier(std::string_view name, std::size_t most_bytes) const;
@@ -51,12 +51,12 @@ class ReportFolder {
  private:
   void remove_old_pages();
 
-  std::filesystem::path path_;
+  fs::path path_;
   std::optional<Folder> folder_;
   std::string report_;
   std::optional<FolderLock> lock_;
   bool begun_ = false;
-  std::vector<std::filesystem::path> made_;  // folders, the innermost first
+  std::vector<fs::path> made_;  // folders, the innermost first
 };
 
 }  // namespace lantern::app

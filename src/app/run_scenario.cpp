@@ -26,8 +26,6 @@
 
 namespace lantern::app {
 
-namespace fs = std::filesystem;
-
 namespace {
 
 constexpr const char* kInstalled = "lantern/scenarios";  // below share/

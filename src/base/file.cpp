@@ -26,9 +26,9 @@ namespace {
 
 constexpr std::string_view kTemporary = ".lantern-part-";
 
-std::string shown(const std::filesystem::path& path) { return printable(path.string()); }
+std::string shown(const fs::path& path) { return printable(path.string()); }
 
-[[noreturn]] void fail(const char* what, const std::filesystem::path& path, int code) {
+[[noreturn]] void fail(const char* what, const fs::path& path, int code) {
   throw IoError("cannot {} '{}': {}", what, shown(path), std::strerror(code));
 }
 
@@ -47,8 +47,8 @@ class Descriptor {
 };
 
 // What was opened to be read from `path`: all of it, or its first bytes.
-std::string read_opened(const Descriptor& file, const std::filesystem::path& path,
-                        std::size_t most_bytes, bool all = true) {
+std::string read_opened(const Descriptor& file, const fs::path& path, std::size_t most_bytes,
+                        bool all = true) {
   if (file.number() < 0) fail("read", path, errno);
   struct stat status {};
   if (::fstat(file.number(), &status) != 0) fail("read", path, errno);
@@ -80,23 +80,23 @@ const char* entry(const std::string& name) {
   return name.c_str();
 }
 
-int open_folder(const std::filesystem::path& path) {
+int open_folder(const fs::path& path) {
   return ::open(path.empty() ? "." : path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
 }
 
 }  // namespace
 
-std::string read_file(const std::filesystem::path& path, std::size_t most_bytes) {
+std::string read_file(const fs::path& path, std::size_t most_bytes) {
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   return read_opened(file, path, most_bytes);
 }
 
-std::string read_input(const std::filesystem::path& path, std::size_t most_bytes) {
+std::string read_input(const fs::path& path, std::size_t most_bytes) {
   add_input(path);
   return read_file(path, most_bytes);
 }
 
-Folder::Folder(int descriptor, std::filesystem::path path)
+Folder::Folder(int descriptor, fs::path path)
     : descriptor_(new int(descriptor),
                   [](const int* number) {
                     ::close(*number);
@@ -104,17 +104,17 @@ Folder::Folder(int descriptor, std::filesystem::path path)
                   }),
       path_(std::move(path)) {}
 
-Folder::Folder(const std::filesystem::path& path) : Folder(open_folder(path), path) {
+Folder::Folder(const fs::path& path) : Folder(open_folder(path), path) {
   if (descriptor() < 0) fail("open", path, errno);
 }
 
-Folder Folder::made(const std::filesystem::path& path) {
+Folder Folder::made(const fs::path& path) {
   make_folder(path);
   return Folder(path);
 }
 
 // That it is missing is told of the file.
-Folder Folder::of_file(const std::filesystem::path& file) {
+Folder Folder::of_file(const fs::path& file) {
   const bool has_name = file.has_filename() && file.filename() != "." && file.filename() != "..";
   if (!has_name) fail("write", file, EISDIR);
   const int number = open_folder(file.parent_path());
@@ -130,8 +130,7 @@ std::optional<Folder> Folder::find(std::string_view name) const {
   if (errno == ENOENT) return std::nullopt;
   if (errno == ENOTDIR || errno == ELOOP)
     throw IoError("'{}' is {}", shown(path(name)),
-                  std::filesystem::is_symlink(path(name)) ? "a link; links are not followed here"
-                                                          : "no folder");
+                  fs::is_symlink(path(name)) ? "a link; links are not followed here" : "no folder");
   fail("open", path(name), errno);
 }
 
@@ -214,19 +213,19 @@ void Folder::settle() const {
   ::sync();  // more than is wanted, where one file system alone cannot be asked for
 }
 
-void make_folder(const std::filesystem::path& folder) {
+void make_folder(const fs::path& folder) {
   std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || !std::filesystem::is_directory(folder, error))
+  fs::create_directories(folder, error);
+  if (error || !fs::is_directory(folder, error))
     throw IoError("cannot make the folder '{}': {}", shown(folder),
                   error ? error.message() : "something else has this name");
 }
 
-std::filesystem::path folder_of(const std::filesystem::path& file) {
+fs::path folder_of(const fs::path& file) {
   return file.has_parent_path() ? file.parent_path() : ".";
 }
 
-FilePlace::FilePlace(const std::filesystem::path& path, int)
+FilePlace::FilePlace(const fs::path& path, int)
     : folder(Folder::of_file(path)), name(path.filename().string()) {}
 
 void require_writable(const FilePlace& place) {
@@ -259,8 +258,8 @@ void PartFile::open_spare() {
   temporary_ = spare_;
 }
 
-std::filesystem::path PartFile::temporary() const {
-  return temporary_.empty() ? std::filesystem::path() : place_.folder.path(temporary_);
+fs::path PartFile::temporary() const {
+  return temporary_.empty() ? fs::path() : place_.folder.path(temporary_);
 }
 
 void PartFile::fail_to_write() const { fail("write", place_.path(), errno); }

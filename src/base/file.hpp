@@ -15,13 +15,15 @@
 
 namespace lantern {
 
+namespace fs = std::filesystem;
+
 // The bytes of a regular file. Throws IoError if it cannot be read, is a folder or a device, is
 // larger than `most_bytes` (found from its size, before it is read), or is what standard output or
 // standard error is written to: nothing is written there any more.
-std::string read_file(const std::filesystem::path& path, std::size_t most_bytes);
+std::string read_file(const fs::path& path, std::size_t most_bytes);
 
 // The same of a file that the user gives to be read: an input of this run from then on.
-std::string read_input(const std::filesystem::path& path, std::size_t most_bytes);
+std::string read_input(const fs::path& path, std::size_t most_bytes);
 
 // A folder that is held open. Whatever happens to its path meanwhile, and whatever names somebody
 // else has chosen: nothing is read, written or removed but what is right in it. Names are those of
@@ -31,9 +33,9 @@ class Folder {
  public:
   // That of a path which the user named, "." if it is empty; links on the way are the user's own.
   // Throws IoError naming path and reason, as the calls below do.
-  explicit Folder(const std::filesystem::path& path);
+  explicit Folder(const fs::path& path);
   // The same, made with its parents where it is missing.
-  static Folder made(const std::filesystem::path& path);
+  static Folder made(const fs::path& path);
 
   // The folder of this name in it, made where it is missing.
   Folder inside(std::string_view name) const;
@@ -41,8 +43,8 @@ class Folder {
   std::optional<Folder> find(std::string_view name) const;
 
   // How it was named, and an entry of it: for messages.
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path path(std::string_view name) const { return path_ / name; }
+  const fs::path& path() const { return path_; }
+  fs::path path(std::string_view name) const { return path_ / name; }
   int descriptor() const { return *descriptor_; }
 
   bool is(const Folder& other) const;          // the same one, under whatever path
@@ -62,35 +64,35 @@ class Folder {
   void settle() const;
 
  private:
-  Folder(int descriptor, std::filesystem::path path);
+  Folder(int descriptor, fs::path path);
   friend struct FilePlace;
-  static Folder of_file(const std::filesystem::path& file);  // in which it stands
+  static Folder of_file(const fs::path& file);  // in which it stands
 
   std::shared_ptr<const int> descriptor_;
-  std::filesystem::path path_;
+  fs::path path_;
 };
 
 // Makes the folder and its parents. Throws IoError naming path and reason.
-void make_folder(const std::filesystem::path& folder);
+void make_folder(const fs::path& folder);
 
 // The folder in a file's path; "." if there is none.
-std::filesystem::path folder_of(const std::filesystem::path& file);
+fs::path folder_of(const fs::path& file);
 
 // Where a file stands, or shall stand: the name of an entry of a folder, or a path that the user
 // names, whose folder must be there. Throws IoError naming path and reason.
 struct FilePlace {
   FilePlace(Folder in, std::string_view called) : folder(std::move(in)), name(called) {}
   template <class Path>
-  requires std::is_convertible_v<Path, std::filesystem::path> FilePlace(const Path& path)
-      : FilePlace(std::filesystem::path(path), 0) {}
+  requires std::is_convertible_v<Path, fs::path> FilePlace(const Path& path)
+      : FilePlace(fs::path(path), 0) {}
 
-  std::filesystem::path path() const { return folder.path(name); }  // for messages
+  fs::path path() const { return folder.path(name); }  // for messages
 
   Folder folder;
   std::string name;
 
  private:
-  FilePlace(const std::filesystem::path& path, int);
+  FilePlace(const fs::path& path, int);
 };
 
 // Throws IoError where PartFile would: for an input of this run, and for a folder. To be asked
@@ -112,7 +114,7 @@ class PartFile {
   // For another process that is to write it: the open file, and the temporary name that it may have
   // beside; empty if it has none and vanishes with this process.
   int descriptor() const { return descriptor_; }
-  std::filesystem::path temporary() const;
+  fs::path temporary() const;
   std::uint64_t bytes() const;  // in it by now
 
  private:
@@ -151,10 +153,10 @@ class FolderLock {
 std::string read_stdin(std::size_t most_bytes);
 
 // What will be read is an input before it is.
-void add_input(const std::filesystem::path& path);
+void add_input(const fs::path& path);
 
 // Is what stands at `path` an input of this run, under whatever name? Nothing is written over it.
-bool is_input(const std::filesystem::path& path);
+bool is_input(const fs::path& path);
 
 // Is standard output written to a file that this run has read, an input or not? Nothing is written
 // there either.

@@ -26,7 +26,7 @@ bool input_was_closed = false;  // when the program began (hold_standard_streams
 
 using FileNumber = std::pair<dev_t, ino_t>;
 
-std::optional<FileNumber> number_of(const std::filesystem::path& path) {
+std::optional<FileNumber> number_of(const fs::path& path) {
   struct stat status {};
   if (::stat(path.c_str(), &status) != 0) return std::nullopt;
   return FileNumber(status.st_dev, status.st_ino);
@@ -58,7 +58,7 @@ WrittenStream error_stream{STDERR_FILENO, "standard error"};
 // name: a file that an editor has replaced meanwhile leaves its number to another one.
 class Inputs {
  public:
-  void add(const std::filesystem::path& path) {
+  void add(const fs::path& path) {
     const auto number = number_of(path);
     const std::lock_guard lock(mutex_);
     paths_.insert(path);
@@ -70,7 +70,7 @@ class Inputs {
     stdin_ = number;
   }
 
-  bool has(const std::filesystem::path& path) {
+  bool has(const fs::path& path) {
     const auto number = number_of(path);
     if (!number) return false;
     const std::lock_guard lock(mutex_);
@@ -83,8 +83,8 @@ class Inputs {
 
  private:
   std::mutex mutex_;
-  std::set<std::filesystem::path> paths_;
-  std::set<std::pair<FileNumber, std::filesystem::path>> files_;
+  std::set<fs::path> paths_;
+  std::set<std::pair<FileNumber, fs::path>> files_;
   std::optional<FileNumber> stdin_;
 };
 
@@ -120,7 +120,7 @@ bool write_all(int descriptor, std::string_view bytes) {
   return true;
 }
 
-void add_input(const std::filesystem::path& path) { inputs().add(path); }
+void add_input(const fs::path& path) { inputs().add(path); }
 
 std::string read_stdin(std::size_t most_bytes) {
   inputs().add_stdin();
@@ -146,7 +146,7 @@ std::string read_stdin(std::size_t most_bytes) {
   }
 }
 
-bool is_input(const std::filesystem::path& path) { return inputs().has(path); }
+bool is_input(const fs::path& path) { return inputs().has(path); }
 
 bool output_is_input() { return output_stream.is_read; }
 

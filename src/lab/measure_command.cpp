@@ -25,8 +25,6 @@
 namespace lantern::lab {
 namespace {
 
-namespace fs = std::filesystem;
-
 // ---- Who was asked for and is not run, and why: nobody is left out in silence
 
 using Names = std::vector<std::string>;

@@ -30,8 +30,7 @@ constexpr Place kTop{1, 1};
 
 void read_name(const TableReader& file, const std::string& path, Draft& draft) {
   if (file.has("name")) return;
-  const std::string stem =
-      path == kStandardInput ? "stdin" : std::filesystem::path(path).stem().string();
+  const std::string stem = path == kStandardInput ? "stdin" : fs::path(path).stem().string();
   draft.scenario.name = stem;
   const NamePattern& pattern = *language_table("").find("name")->pattern;
   if (matches(stem, pattern)) return;
@@ -203,8 +202,8 @@ Scenario parse_scenario(std::string_view text, const std::string& path) {
 Scenario load_scenario(const std::string& path) {
   if (path == "-") return parse_scenario(read_stdin(kMostFileBytes), std::string(kStandardInput));
   std::error_code error;
-  if (std::filesystem::is_regular_file(path, error)) {
-    const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+  if (fs::is_regular_file(path, error)) {
+    const std::uintmax_t bytes = fs::file_size(path, error);
     if (!error && bytes > kMostFileBytes) refuse_size(path, bytes);
   }
   return parse_scenario(read_input(path, kMostFileBytes), path);
@@ -215,7 +214,7 @@ Glance glance_at(const std::string& path) try {
   const std::string bytes = read_file(path, kMostFileBytes);
   const TomlTable table = read_toml(without_mark(bytes), problems);
   Glance glance;
-  glance.name = std::filesystem::path(path).stem().string();
+  glance.name = fs::path(path).stem().string();
   if (problems.any() || table.empty()) return glance;
   if (const auto* name = value_of<std::string>(table, "name")) glance.name = *name;
   glance.is_scenario = std::ranges::any_of(

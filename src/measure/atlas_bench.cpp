@@ -282,7 +282,7 @@ TextureSet texture_set(std::string_view name, std::size_t count, std::uint64_t s
   return set;
 }
 
-TextureSet read_texture_sizes(const std::filesystem::path& file) {
+TextureSet read_texture_sizes(const fs::path& file) {
   const std::string text = read_input(file, kMostSizesBytes);
   TextureSet set{file.stem().string(), sizes_in(CsvFile(file.string(), text))};
   if (set.sizes.empty())

@@ -123,8 +123,8 @@ std::string film_target(const PartFile& file) {
                                              : file.temporary().string());
 }
 
-std::vector<std::string> film_command(const std::filesystem::path& ffmpeg,
-                                      const FilmSettings& settings, const PartFile& file) {
+std::vector<std::string> film_command(const fs::path& ffmpeg, const FilmSettings& settings,
+                                      const PartFile& file) {
   std::vector<std::string> words = {ffmpeg.string()};
   for (std::string& word : film_words(settings, film_target(file)))
     words.push_back(std::move(word));
@@ -210,7 +210,7 @@ std::optional<std::string> film_problem(const FilmSettings& s) {
   return std::nullopt;
 }
 
-std::filesystem::path require_ffmpeg() {
+fs::path require_ffmpeg() {
   if (const auto found = find_program("ffmpeg")) return *found;
   throw IoError("films are made by ffmpeg, which is not on the PATH: apt-get install ffmpeg");
 }
@@ -221,7 +221,7 @@ struct Film::State {
     std::uint64_t moment = 0;
   };
 
-  State(const std::filesystem::path& ffmpeg, const FilmSettings& s, const FilePlace& where)
+  State(const fs::path& ffmpeg, const FilmSettings& s, const FilePlace& where)
       : settings(s),
         path(where.path()),
         bytes(picture_bytes(s)),
@@ -243,7 +243,7 @@ struct Film::State {
   }
 
   const FilmSettings settings;
-  const std::filesystem::path path;
+  const fs::path path;
   const std::size_t bytes;  // of a picture
   PartFile file;
   Child child;
@@ -305,8 +305,7 @@ void Film::State::give_away(const std::stop_token& stop) {
   }
 }
 
-Film::Film(const std::filesystem::path& ffmpeg, const FilmSettings& settings,
-           const FilePlace& place)
+Film::Film(const fs::path& ffmpeg, const FilmSettings& settings, const FilePlace& place)
     : state_((require_memory(picture_bytes(settings) * kImages, "pictures of a film",
                              "draw smaller ones (--size)"),
               std::make_unique<State>(ffmpeg, settings, place))) {

@@ -27,7 +27,7 @@ double usual_rate(FilmKind kind);
 std::optional<std::string> film_problem(const FilmSettings& settings);
 
 // The program that makes films. Throws IoError that names the package if the machine has none.
-std::filesystem::path require_ffmpeg();
+fs::path require_ffmpeg();
 
 // What ffmpeg is told, but for its own name: it reads pictures with their times from its standard
 // input (publish/film.cpp) and writes `file`, which is "file:" and a path. The same bytes
@@ -41,7 +41,7 @@ std::vector<std::string> film_words(const FilmSettings& settings, const std::str
 class Film {
  public:
   // `ffmpeg` as require_ffmpeg() gives it; no film_problem(). Makes no folder.
-  Film(const std::filesystem::path& ffmpeg, const FilmSettings& settings, const FilePlace& place);
+  Film(const fs::path& ffmpeg, const FilmSettings& settings, const FilePlace& place);
   // Without finish(): what stood at the place still does, and nothing else is left.
   ~Film();
 

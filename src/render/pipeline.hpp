@@ -30,7 +30,7 @@ class EncodePool {
     int threads = 1;  // at least 1
     // Called after each file is in place, by one thread at a time, in no certain order. May be
     // empty.
-    std::function<void(const std::filesystem::path&)> written;
+    std::function<void(const fs::path&)> written;
   };
 
   // Counts each image encoded in `work`, which must outlive this. The calls below belong to one

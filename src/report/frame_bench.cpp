@@ -46,8 +46,6 @@ double seconds_in_new_process(const std::function<void()>& work) {
   return seconds;
 }
 
-namespace fs = std::filesystem;
-
 // The same draw lists through cairo and its own PNG writer: what Lantern's speed is measured
 // against. Needs libcairo.so.2, which is loaded when asked for. Geometry, colours and text are
 // Lantern's own, the text as outlines.
@@ -87,9 +85,9 @@ class CairoPeer {
 
 // `config.rounds` new processes for each of the two times. Writes one file into `folder` and
 // removes it. Throws BackendError if a process fails.
-StartTimes measure_start(const DrawList& list, const std::filesystem::path& folder,
+StartTimes measure_start(const DrawList& list, const fs::path& folder,
                          const FrameBenchConfig& config, bool shaders_known) {
-  const std::filesystem::path path = folder / "first.png";
+  const fs::path path = folder / "first.png";
   const auto prepare = [&] {
     if (!shaders_known) ::setenv("MESA_SHADER_CACHE_DISABLE", "1", 1);
   };
@@ -113,7 +111,7 @@ StartTimes measure_start(const DrawList& list, const std::filesystem::path& fold
     frame_seconds.push_back(seconds_in_new_process(frame));
   }
   std::error_code ignored;
-  std::filesystem::remove(path, ignored);
+  fs::remove(path, ignored);
   return {shaders_known, quantile(bare_seconds, 0.5), quantile(frame_seconds, 0.5)};
 }
 

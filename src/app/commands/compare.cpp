@@ -35,8 +35,6 @@ Options compare_options(CompareOptions& o) {
           json_option(o.json)};
 }
 
-namespace fs = std::filesystem;
-
 struct Result {
   std::string name;
   bool equal = false;

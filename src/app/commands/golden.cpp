@@ -48,8 +48,6 @@ Options golden_options(GoldenOptions& o) {
           json_option(o.as.json)};
 }
 
-namespace fs = std::filesystem;
-
 constexpr std::size_t kMostShown = 30;  // frames whose pictures the page holds
 constexpr const char* kUsualReport = "output/golden.html";
 

@@ -172,7 +172,7 @@ int write_manual(const ManualOptions& options) {
   if (!options.folder.empty()) {
     make_folder(options.folder);
     for (const CommandPath& path : all)
-      write_file(std::filesystem::path(options.folder) / manual_file(path), manual_page(path, all));
+      write_file(fs::path(options.folder) / manual_file(path), manual_page(path, all));
     return kGood;
   }
   const std::string name = fmt::format("{}", fmt::join(options.names, " "));
@@ -199,8 +199,6 @@ int write_completions(const CompletionsOptions& options) {
 }
 
 // ---- The reference page, its pictures, and the schemas
-
-namespace fs = std::filesystem;
 
 struct ReferenceOptions {
   std::string pictures;  // folder; empty: the page is printed

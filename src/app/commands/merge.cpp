@@ -107,7 +107,7 @@ class ShardSet {
   void look_into(const std::string& path) {
     bool holds_some = false;
     std::error_code error;
-    if (std::filesystem::is_directory(path, error)) {
+    if (fs::is_directory(path, error)) {
       const Folder folder(path);
       holds_some = take(folder);
       for (const std::string& name : folder.names())
@@ -397,7 +397,7 @@ int merge_parts(const MergeOptions& options) {
   const ShardSet set(options.folders.empty() ? std::vector{options.output} : options.folders);
   std::vector<std::uint32_t> numbers;  // of those that are missing
   std::error_code none;
-  const bool is_there = std::filesystem::is_directory(options.output, none);
+  const bool is_there = fs::is_directory(options.output, none);
   for (std::uint32_t i = 0; i < set.shards.size(); ++i) {
     const FoundShard* shard = set.shards[i];
     if (shard == nullptr) numbers.push_back(i + 1);

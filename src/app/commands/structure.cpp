@@ -17,8 +17,6 @@
 namespace lantern::app {
 namespace {
 
-namespace fs = std::filesystem;
-
 struct StructureCheckOptions {
   std::vector<std::string> names;  // empty for all
   int worlds = 500;

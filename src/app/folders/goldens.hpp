@@ -61,7 +61,7 @@ struct Goldens {
   Selection& selection;
   Work& work;
   ScenarioName name;
-  std::filesystem::path output;  // DIR
+  fs::path output;               // DIR
   std::optional<Folder> folder;  // DIR/<scenario>, if it is there
   GoldenList list;               // that stands there; without frames if none does
 

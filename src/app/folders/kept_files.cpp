@@ -20,7 +20,6 @@ namespace lantern::app {
 
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
 struct Kept {

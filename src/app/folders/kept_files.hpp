@@ -33,7 +33,7 @@ bool is_foreign(const Folder& folder, const char* list);
 // run has read, or is called as what Lantern keeps: a manifest, a list of golden frames, the record
 // of a part, a measurement, a frame or its facts beside one of these, or a table or page beside a
 // measurement. Nor must it be a scenario by its name, a folder, a device or a pipe.
-void require_free(const std::filesystem::path& file);
+void require_free(const fs::path& file);
 
 // A file that is not as Lantern writes it is refused as a whole, for the first member that is
 // otherwise: "frames[3].file is \"../x\": it is \"pong_0003.png\"".

@@ -255,12 +255,12 @@ RenderOptions options_of_shard(const RenderOptions& options) {
         options.output);
   RenderOptions of_shard = options;
   const std::string folder = fmt::format("shard-{}-of-{}", shard->number, shard->of);
-  of_shard.output = (std::filesystem::path(options.output) / folder).string();
+  of_shard.output = (fs::path(options.output) / folder).string();
   return of_shard;
 }
 
 Folder output_folder(const RenderOptions& options) {
-  const std::filesystem::path path = options.output;
+  const fs::path path = options.output;
   const bool is_shard = !options.shard.empty();
   const Folder folder = is_shard ? Folder::made(path.parent_path()).inside(path.filename().string())
                                  : Folder::made(path);

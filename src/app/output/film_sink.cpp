@@ -117,14 +117,14 @@ class FilmSink : public FileSink {
     made_.rate = settings_.rate;
   }
 
-  const FilmSettings settings_;
-  const std::filesystem::path ffmpeg_;
-  const bool is_clips_;
-  FrameWalk walk_;
-  FilmClock clock_;
-  std::optional<Film> film_;    // that is being made,
-  std::filesystem::path file_;  // of this name,
-  std::uint64_t begun_ = 0;     // begun at this moment
+  const FilmSettings settings_ = film_settings(of_);
+  const fs::path ffmpeg_ = require_ffmpeg();
+  const bool is_clips_ = of_.to.is_by("step");
+  FrameWalk walk_{of_.job, of_.work};
+  FilmClock clock_{{settings_.rate, of_.job.options.hold, of_.job.options.tween}};
+  std::optional<Film> film_;  // that is being made,
+  fs::path file_;             // of this name,
+  std::uint64_t begun_ = 0;   // begun at this moment
   std::uint64_t pictures_ = 0;
 };
 

@@ -111,9 +111,9 @@ class PageSink : public FileSink {
         memory_text(static_cast<std::uint64_t>(bytes)), memory_text(kMostPageBytes), kFewer);
   }
 
-  RenderOptions options_;
-  RenderJob job_;
-  std::filesystem::path file_;
+  RenderOptions options_ = of_picture(of_.job);
+  RenderJob job_{options_};
+  fs::path file_ = of_.to.file({of_.scenario.name});
   std::optional<std::uint64_t> expected_;  // frames, at most
   publish::Lesson lesson_;
   Frame last_;  // of the one before only the time

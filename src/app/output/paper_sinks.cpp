@@ -17,8 +17,6 @@ namespace lantern::app {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 // What is printed does not move.
 void refuse_in_betweens(const Sequence& sequence) {
   if (sequence.job.in_betweens.wanted())

@@ -48,8 +48,6 @@ std::uint64_t program_hash() {
   return hash;
 }
 
-namespace fs = std::filesystem;
-
 struct Ending {
   std::string_view name;
   OutputKind kind;

@@ -205,9 +205,9 @@ class Destination {
   bool is_by(std::string_view placeholder) const;        // is_by("step")
 
   // The file for these parts; numbers have as many digits as the names of frames in a folder.
-  std::filesystem::path file(const NameParts& parts) const;
+  fs::path file(const NameParts& parts) const;
   // What of these files' folders stands before the first placeholder.
-  std::filesystem::path users_folder() const;
+  fs::path users_folder() const;
 
  private:
   std::string words_, ending_;

@@ -48,8 +48,6 @@ void StagedSink::flush() {
   bytes_ = 0;
 }
 
-namespace fs = std::filesystem;
-
 FilePlace make_place(const fs::path& file, const fs::path& users) {
   require_free(file);
   Folder folder = users == "." ? Folder("") : Folder::made(users);  // names without ./
@@ -99,7 +97,7 @@ class PictureSink : public FileSink {
 
  protected:
   void take(const Frame& frame, const Staging& staging) override {
-    const std::filesystem::path file = of_.file_of(frame);
+    const fs::path file = of_.file_of(frame);
     if (waiting_.contains(file))
       of_.refuse(
           "several frames are chosen; write {frame} in the name, or choose one with --frames or "
@@ -128,7 +126,7 @@ class PictureSink : public FileSink {
  private:
   const Manifest from_;
   std::unique_ptr<Pipeline> pipeline_;
-  std::map<std::filesystem::path, std::string> waiting_;  // whole files
+  std::map<fs::path, std::string> waiting_;  // whole files
 };
 
 // The picture of the one chosen frame.
@@ -191,13 +189,8 @@ std::string atlas_facts(const Manifest& manifest, const Frame& frame, const Draw
 class FolderSink : public StagedSink {
  public:
   FolderSink(const Sequence& sequence, const Part& part, FolderMade& made)
-      : made_(made),
-        of_(sequence),
-        job_(of_.job),
-        manifest_(job_.manifest(of_.scenario, of_.pace)),
-        part_(part),
-        walk_(job_, of_.work) {
-    made_.path = std::filesystem::path(job_.options.output) / of_.scenario.name;
+      : made_(made), of_(sequence), part_(part) {
+    made_.path = fs::path(job_.options.output) / of_.scenario.name;
   }
 
  private:

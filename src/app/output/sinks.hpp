@@ -52,7 +52,7 @@ struct Sequence {
   Selection& selection;
   Work& work;
 
-  std::filesystem::path file_of(const Frame& frame) const {
+  fs::path file_of(const Frame& frame) const {
     return to.file({scenario.name, frame.step, frame.index});
   }
   // That `why` speaks against what stands after -o.
@@ -65,7 +65,7 @@ struct Sequence {
 // one. Its run throws IoError, BackendError, and UsageError for a picture that is too large and if
 // no frame was chosen.
 struct FolderMade {
-  std::filesystem::path path;
+  fs::path path;
   std::size_t drawn = 0, kept = 0;
   std::uint64_t chosen = 0;     // of the whole run, whoever draws them
   std::size_t in_betweens = 0;  // there now
@@ -82,7 +82,7 @@ class FileSink : public StagedSink {
  public:
   struct Made {
     std::uint64_t frames = 0;                      // in the files
-    std::vector<std::filesystem::path> files;      // whole, in order
+    std::vector<fs::path> files;                   // whole, in order
     std::optional<double> seconds = std::nullopt;  // that films take in all,
     double rate = 0;                               // at so many pictures a second
   };
@@ -97,10 +97,10 @@ class FileSink : public StagedSink {
   virtual void end() = 0;
 
   // Where a file of this name goes, see make_place().
-  FilePlace place_of(const std::filesystem::path& file) const;
+  FilePlace place_of(const fs::path& file) const;
   // Makes the folder and writes the whole file, in which so many frames are. Throws IoError; what
   // stood there before then still does.
-  void write(const std::filesystem::path& file, std::string_view bytes, std::uint64_t frames);
+  void write(const fs::path& file, std::string_view bytes, std::uint64_t frames);
 
   const Sequence of_;
   Made made_;
@@ -171,6 +171,6 @@ std::unique_ptr<FileSink> make_page_sink(const Sequence& sequence);
 
 // Where a file goes that an option names, if it may be written: see require_free(). Its folder is
 // made: `users`, which the user has named, links and all; and what is below, through no link.
-FilePlace make_place(const std::filesystem::path& file, const std::filesystem::path& users);
+FilePlace make_place(const fs::path& file, const fs::path& users);
 
 }  // namespace lantern::app

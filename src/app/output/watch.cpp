@@ -16,8 +16,6 @@
 
 namespace lantern::app {
 
-namespace fs = std::filesystem;
-
 namespace {
 
 std::optional<std::uint64_t> hash_of(const std::string& file) try {
@@ -129,7 +127,7 @@ std::vector<std::string> WatchedFiles::changed() {
   return changed;
 }
 
-std::string reload_script(const std::filesystem::path& page) {
+std::string reload_script(const fs::path& page) {
   return fmt::format(kScript, script_string(version_file(page.filename().string())));
 }
 
@@ -174,7 +172,7 @@ int watch_scenarios(const RenderOptions& asked) {
   if (Destination(options.output, !options.sheet.empty()).kind() == OutputKind::standard_output)
     throw UsageError("watch draws again and again; -o - takes one picture");
   for (const std::string& file : options.files)
-    if (!std::filesystem::exists(file)) throw IoError("'{}' is not there to be watched", file);
+    if (!fs::exists(file)) throw IoError("'{}' is not there to be watched", file);
   const struct Leftovers {
     ~Leftovers() { forget_versions(); }
   } at_the_end;

@@ -31,8 +31,7 @@ class WatchedFiles {
 
  private:
   // When it was written, its size, and which file it is; nothing if there is none.
-  using Stamp =
-      std::optional<std::tuple<std::filesystem::file_time_type, std::uintmax_t, std::uint64_t>>;
+  using Stamp = std::optional<std::tuple<fs::file_time_type, std::uintmax_t, std::uint64_t>>;
   struct Watched {
     std::string file;
     Stamp looked_at, told;   // last
@@ -48,7 +47,7 @@ class WatchedFiles {
 // A <script> element for the page that will stand at `page`. From a file a page may not read
 // others, but may run a script that lies beside it: it runs PAGE.version.js twice a second, and
 // loads itself again when that tells of another version. What is after the # stays.
-std::string reload_script(const std::filesystem::path& page);
+std::string reload_script(const fs::path& page);
 
 // Is asked before the page is written. Throws UsageError if something stands at PAGE.version.js
 // that no watch has written, and IoError.
