@@ -111,9 +111,7 @@ struct Columns {
 };
 
 Columns columns_of(const std::vector<LegendEntry>& entries, double width, double size) {
-  Columns c;
-  c.sample = 2.1 * size;
-  c.line = 1.42 * size;
+  Columns c{.sample = 2.1 * size, .line = 1.42 * size};
   for (const LegendEntry& entry : entries)
     c.width = std::max(c.width, c.sample + 8 + text_width(entry.name, size, Weight::regular) + 1);
   c.width = std::min(c.width, width);

@@ -203,7 +203,7 @@ struct FrameContact {
   };
   Pair pair;
   Vec<3> normal{0.0};  // unit, from a to b
-  std::vector<Point> points;
+  std::vector<Point> points = {};
   bool begins = false;   // they did not touch a step before
   bool crushes = false;  // one of them, against a third
 

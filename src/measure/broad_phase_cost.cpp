@@ -150,10 +150,7 @@ std::vector<BroadPhaseCost> planned(const BoxScene& scene, const BroadPhaseCostC
   std::vector<BroadPhaseCost> rows;
   for (const StructureKind kind : kStructureKinds) {
     if (!is_possible(kind, scene.dimension())) continue;
-    BroadPhaseCost row;
-    row.scene = scene.name;
-    row.dimension = scene.dimension();
-    row.kind = kind;
+    BroadPhaseCost row{.scene = scene.name, .dimension = scene.dimension(), .kind = kind};
     std::visit(
         [&](const auto& boxes) {
           row.bodies = boxes.frames[0].size();

@@ -44,8 +44,8 @@ struct BroadPhaseCost {
   std::uint64_t bodies = 0;
   std::uint64_t updates = 1;
   std::uint64_t depth = 0;  // of the deepest node
-  BroadPhaseCounts counts;
-  Timing timing;  // seconds an update: build and pairs
+  BroadPhaseCounts counts = {};
+  Timing timing = {};  // seconds an update: build and pairs
 
   bool has_settings() const { return capacity != 0; }
   double entries_per_body() const {

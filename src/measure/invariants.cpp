@@ -25,11 +25,10 @@ class Model {
       if (const auto index = players_.index_of(body.id)) put(body, states[*index]);
     const std::span<const Body<D>> all(bodies);
     const Energy energy = physics::energy(all, players_.world().forces());
-    Kept kept;
-    kept.energy = energy.total();
-    kept.kinetic_energy = energy.kinetic();
-    kept.spring_energy = energy.springs;
-    kept.momentum = solid(momentum(all));
+    Kept kept{.energy = energy.total(),
+              .kinetic_energy = energy.kinetic(),
+              .spring_energy = energy.springs,
+              .momentum = solid(momentum(all))};
     if constexpr (D == 2)
       kept.angular_momentum.z = angular_momentum<D>(all);
     else

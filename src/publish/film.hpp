@@ -17,7 +17,7 @@ struct FilmSettings {
   int width = 0, height = 0;  // pixels; of an MP4 both are even
   double rate = 30;           // pictures a second
   bool transparent = false;   // an MP4 cannot be
-  std::string title;
+  std::string title = {};
 };
 
 // Pictures a second where nobody says how many.

@@ -43,11 +43,7 @@ std::vector<Choice> choices_of(const std::vector<Contestant>& contestants) {
 }
 
 PlotSeries series_of(const Choice& choice) {
-  PlotSeries series;
-  series.name = choice.name;
-  series.look = choice.ink.look;
-  series.is_peer = choice.ink.is_peer;
-  return series;
+  return {choice.name, {}, choice.ink.look, choice.ink.is_peer};
 }
 
 std::string folded(const std::string& text) {

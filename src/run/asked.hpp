@@ -139,9 +139,7 @@ Finding asked(const Question& question, const World<D>& world) {
 inline FrameAxis axis_of(const MeasuredAxis<2>& measured, const Body<2>& a, const Body<2>& b) {
   using Across = MeasuredAxis<2>::Across;
   const Vec<2> n = measured.normal;
-  FrameAxis axis;
-  axis.direction = n;
-  axis.separation = measured.separation;
+  FrameAxis axis{.direction = n, .separation = measured.separation};
   if (measured.across == Across::face_of_a) axis.across = a.id;
   if (measured.across == Across::face_of_b) axis.across = b.id;
   const auto farthest = [&](const Body<2>& body, const Vec<2>& along) {
@@ -195,9 +193,8 @@ ShapeTests tests_of_shapes(const World<D>& world) {
     const Body<D>&a = *world.find(pair.a), &b = *world.find(pair.b);
     const auto manifold = collide<D>(placed(a), placed(b), 0, trace);
     if (!manifold) continue;
-    FrameContact& contact = tests.touching.emplace_back();
-    contact.pair = pair;
-    contact.normal = solid(manifold->normal);
+    FrameContact& contact =
+        tests.touching.emplace_back(FrameContact{.pair = pair, .normal = solid(manifold->normal)});
     for (const ManifoldPoint<D>& p : manifold->points())
       contact.points.push_back({solid(p.position), p.separation, 0});
   }
@@ -209,9 +206,7 @@ ShapeTests tests_of_shapes(const World<D>& world) {
 template <int D>
 FrameSearch distance_search(const Body<D>& a, const Body<D>& b) {
   LANTERN_CHECK(D, ==, 2);
-  FrameSearch search;
-  search.a = a.id;
-  search.b = b.id;
+  FrameSearch search{.a = a.id, .b = b.id};
   if constexpr (D == 2) {
     search.answer = gjk(placed(a), placed(b), &search.steps);
     LANTERN_CHECK(search.answer.has_value(), ==, true);

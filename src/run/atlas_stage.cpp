@@ -36,13 +36,12 @@ AtlasStage::AtlasStage(const Scenario& scenario, Work& work)
   ++work.atlases_created;
   for (std::size_t i = 0; i < scenario.textures.size(); ++i) {
     const TextureSpec& t = scenario.textures[i];
-    FrameTexture texture;
-    texture.id = static_cast<std::uint32_t>(i);
-    texture.name = t.name;
-    texture.color = t.color;
-    texture.picture = t.picture;
-    texture.width = t.width;
-    texture.height = t.height;
+    FrameTexture texture{.id = static_cast<std::uint32_t>(i),
+                         .name = t.name,
+                         .color = t.color,
+                         .picture = t.picture,
+                         .width = t.width,
+                         .height = t.height};
     textures_.push_back(texture);
   }
 }

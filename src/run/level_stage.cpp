@@ -56,9 +56,7 @@ LevelStage::LevelStage(const Scenario& scenario)
       walls_(walls_of_loops(spec_.loops)) {}
 
 void LevelStage::compile(const Watch& watch) {
-  LevelConfig config;
-  config.balance_weight = spec_.balance;
-  config.cut_weight = spec_.cuts;
+  LevelConfig config{.balance_weight = spec_.balance, .cut_weight = spec_.cuts};
   if (spec_.first_wall) config.choose = LevelConfig::Choose::first_wall;
   place_.reset();
   put_away_answers();

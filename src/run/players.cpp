@@ -32,39 +32,35 @@ std::vector<BspPlane<D>> planes_of(const StructureSpec& spec) {
 template <int D>
 WorldConfig<D> config_of(const Scenario& scenario) {
   const WorldSpec& spec = scenario.world;
-  WorldConfig<D> config;
-  config.gravity = in_dimension<D>(spec.gravity);
-  config.gravitation = spec.gravitation;
-  config.integrator = spec.integrator;
-  config.rotation = spec.rotation;
-  config.contacts = spec.contacts;
-  config.sub_steps = spec.sub_steps;
-  config.wanted_error = spec.wanted_error;
-  config.iterations = spec.iterations;
-  config.impact_budget = spec.impact_budget;
-  config.may_sleep = spec.may_sleep;
-  config.broad_phase = broad_phase_of<D>(scenario.structure, in_dimension<D>(spec.bounds));
-  return config;
+  return {.gravity = in_dimension<D>(spec.gravity),
+          .gravitation = spec.gravitation,
+          .integrator = spec.integrator,
+          .rotation = spec.rotation,
+          .contacts = spec.contacts,
+          .broad_phase = broad_phase_of<D>(scenario.structure, in_dimension<D>(spec.bounds)),
+          .sub_steps = spec.sub_steps,
+          .wanted_error = spec.wanted_error,
+          .iterations = spec.iterations,
+          .may_sleep = spec.may_sleep,
+          .impact_budget = spec.impact_budget};
 }
 
 template <int D>
 Body<D> body_of(const BodySpec& spec) {
-  Body<D> body;
-  body.name = spec.name;
-  body.shape = in_dimension<D>(spec.shape);
-  body.kind = spec.kind;
-  body.position = in_dimension<D>(spec.position);
-  body.orientation = turned(Rotation<D>(), spin_about<D>(spec.axis, spec.angle));
-  body.velocity = in_dimension<D>(spec.velocity);
-  body.density = spec.density;
-  body.mass = spec.mass;
-  body.material = spec.material;
-  body.linear_drag = spec.linear_drag;
-  body.angular_drag = spec.angular_drag;
-  body.may_turn = spec.may_turn;
-  body.integrator = spec.integrator;
-  body.rotation = spec.rotation;
-  return body;
+  return {.name = spec.name,
+          .shape = in_dimension<D>(spec.shape),
+          .kind = spec.kind,
+          .position = in_dimension<D>(spec.position),
+          .orientation = turned(Rotation<D>(), spin_about<D>(spec.axis, spec.angle)),
+          .velocity = in_dimension<D>(spec.velocity),
+          .density = spec.density,
+          .mass = spec.mass,
+          .material = spec.material,
+          .linear_drag = spec.linear_drag,
+          .angular_drag = spec.angular_drag,
+          .may_turn = spec.may_turn,
+          .integrator = spec.integrator,
+          .rotation = spec.rotation};
 }
 
 }  // namespace
@@ -155,13 +151,12 @@ void Players<D>::make_link(const LinkSpec& spec, Link& link) {
     world_.add_spring({a, b, at_a, at_b, link.rest_length, spec.stiffness, spec.damping});
     return;
   }
-  Joint<D> joint;
-  joint.kind = spec.kind == LinkSpec::Kind::pin ? JointKind::pin : JointKind::distance;
-  joint.a = a;
-  joint.b = b;
-  joint.at_a = at_a;
-  joint.at_b = at_b;
-  joint.length = link.rest_length;
+  Joint<D> joint{.kind = spec.kind == LinkSpec::Kind::pin ? JointKind::pin : JointKind::distance,
+                 .a = a,
+                 .b = b,
+                 .at_a = at_a,
+                 .at_b = at_b,
+                 .length = link.rest_length};
   world_.add_joint(joint);
 }
 

@@ -49,9 +49,7 @@ constexpr CountDoc kStepMeasures[] = {
 
 template <int D>
 FrameContact frame_contact(const Contact<D>& contact, std::span<const ContactEvent> events) {
-  FrameContact c;
-  c.pair = {contact.a, contact.b};
-  c.normal = solid(contact.manifold.normal);
+  FrameContact c{.pair = {contact.a, contact.b}, .normal = solid(contact.manifold.normal)};
   // Events come in the order of their pairs, one a pair.
   const auto event = std::ranges::lower_bound(events, c.pair, {}, [](const ContactEvent& e) {
     return Pair{e.a, e.b};

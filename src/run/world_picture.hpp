@@ -38,10 +38,8 @@ inline constexpr CountDoc kWorldMeasures[] = {
 // How a body lies and moves now.
 template <int D>
 BodyState state_of(const Body<D>& body) {
-  BodyState state;
-  state.there = true;
-  state.position = solid(body.position);
-  state.velocity = solid(body.velocity);
+  BodyState state{
+      .there = true, .position = solid(body.position), .velocity = solid(body.velocity)};
   if constexpr (D == 2) {
     state.angle = body.orientation.angle;
     state.orientation = turned(Rotation<3>(), Vec<3>(0, 0, state.angle));

@@ -100,12 +100,11 @@ constexpr std::uint64_t kMostIndex = std::numeric_limits<std::uint32_t>::max();
 ListedFrame read_frame(const JsonMembers& json, const Manifest& m, std::uint32_t index) {
   json.is("file", frame_file(m.scenario, index, m.format));
   json.is("facts", frame_file(m.scenario, index, FileKind::json));
-  ListedFrame frame;
-  frame.step = static_cast<std::uint32_t>(json.whole("step", 0, kMostIndex));
-  frame.event = json.text("event");
-  frame.time = json.number("time");
-  frame.caption = json.text("caption");
-  frame.hash = json.hash("hash");
+  ListedFrame frame{.step = static_cast<std::uint32_t>(json.whole("step", 0, kMostIndex)),
+                    .event = json.text("event"),
+                    .time = json.number("time"),
+                    .caption = json.text("caption"),
+                    .hash = json.hash("hash")};
   if (!m.in_betweens.empty())
     frame.in_betweens = json.whole("in_betweens", 0, InBetweens::kMostPictures);
   return frame;

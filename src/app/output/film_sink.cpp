@@ -26,10 +26,9 @@ std::uint64_t pictures(double seconds, double rate) {
 }
 
 FilmSettings film_settings(const Sequence& s) {
-  FilmSettings film;
-  film.kind = *film_kind(s.to.ending());
-  film.width = s.job.picture.width;
-  film.height = s.job.picture.height;
+  FilmSettings film{.kind = *film_kind(s.to.ending()),
+                    .width = s.job.picture.width,
+                    .height = s.job.picture.height};
   film.rate = s.job.options.fps.value_or(usual_rate(film.kind));
   film.transparent = s.job.options.transparent;
   film.title = s.scenario.title;

@@ -295,9 +295,7 @@ BranchText text_of(const Branch& branch, const FrameNode& node, bool atlas, cons
 
 TreeStage stage_tree(const UnionTree& tree, const std::vector<TreeOfFrame>& trees, bool atlas,
                      const Box<2>& panel) {
-  TreeStage stage;
-  stage.panel = panel;
-  stage.alone = trees.size() == 1;
+  TreeStage stage{.panel = panel, .alone = trees.size() == 1};
   const Vec<2> room = panel.size();
   if (tree.complete && tree.nodes.size() <= kMostBranches) {
     const std::vector<FrameNode> nodes = nodes_of(tree);

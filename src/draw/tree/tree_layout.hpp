@@ -71,7 +71,7 @@ struct TreeStage {
   std::uint32_t rows = 1;
   bool whole = false;  // `all` holds the union's places
   bool alone = false;  // the group is one frame
-  TreeLayout all;
+  TreeLayout all = {};
 };
 
 // `trees` are the nodes of this tree on each frame of the group, `atlas` as of text_of.

@@ -56,10 +56,10 @@ struct FrameFinding {
 
 // An axis along which two bodies were measured: how far their shadows on it are apart.
 struct FrameAxis {
-  Vec<2> direction{0.0};         // unit, from the first body to the second
-  double separation = 0;         // of the shadows; below 0 they overlap
-  std::optional<BodyId> across;  // a face of this body; none: between closest points
-  std::vector<Vec<2>> face;      // its ends
+  Vec<2> direction{0.0};              // unit, from the first body to the second
+  double separation = 0;              // of the shadows; below 0 they overlap
+  std::optional<BodyId> across = {};  // a face of this body; none: between closest points
+  std::vector<Vec<2>> face = {};      // its ends
   // The points whose shadows end the bodies' shadows: the first body's least and most along the
   // axis, then the second's.
   std::array<Vec<2>, 4> ends{};
@@ -99,9 +99,9 @@ struct FrameSearch {
   static constexpr std::string_view kName = "search";
   BodyId a = 0;
   BodyId b = 0;
-  std::vector<GjkStep> steps;  // those so far
-  bool taken = true;           // the last one's point has entered the simplex
-  std::optional<GjkAnswer> answer;
+  std::vector<GjkStep> steps = {};  // those so far
+  bool taken = true;                // the last one's point has entered the simplex
+  std::optional<GjkAnswer> answer = {};
 
   static auto fields(auto& r, auto&& v) {
     return v("searches", r.steps).drawn(r.a, r.b, r.taken, r.answer);

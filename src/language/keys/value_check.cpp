@@ -274,11 +274,7 @@ class Check {
   void check_axis(const TomlValue& axis) {
     if (dimension_ == 2)
       return add(axis.where, "a 2D world has no other axis to turn about", "leave it out");
-    KeyDoc doc;
-    doc.key = "axis";
-    doc.type = KeyType::point;
-    doc.least = -kFar;
-    doc.most = kFar;
+    KeyDoc doc{.key = "axis", .type = KeyType::point, .least = -kFar, .most = kFar};
     good_ = Check(doc, dimension_, problems_)(axis) && good_;
   }
 
