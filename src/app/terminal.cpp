@@ -49,8 +49,7 @@ void keep(const Diagnostic& diagnostic) noexcept try {
 }
 
 // What there is no memory to say, or nobody to hear, is lost: the work goes on.
-template <class Make>
-void write_line(const Make& make_text) noexcept {
+void write_line(const auto& make_text) noexcept {
   try {
     const std::string text = make_text() + '\n';
     const std::lock_guard guard(writing);

@@ -80,8 +80,7 @@ int next_codepoint(std::string_view text, std::size_t& at) {
 }
 
 // Calls place(glyph, x in ems, letter) for each glyph; gives the width of the line in ems.
-template <class Place>
-double walk(std::string_view text, Weight weight, const Place& place) {
+double walk(std::string_view text, Weight weight, const auto& place) {
   const FontFace& f = face(weight);
   double x = 0;
   int last = -1, last_glyph = 0;

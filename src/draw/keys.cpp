@@ -5,8 +5,7 @@
 namespace lantern::draw {
 namespace {
 
-template <class Named>
-std::string name_or_number(const Named& named) {
+std::string name_or_number(const auto& named) {
   return named.name.empty() ? fmt::format("#{}", named.id) : named.name;
 }
 

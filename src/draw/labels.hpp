@@ -92,10 +92,8 @@ class Labels {
 
   // The first anchor where the text is free in the room, and where what it covers is accepted; null
   // if there is none.
-  template <class Accepts>
   const Anchor* free_anchor(std::string_view text, std::span<const Anchor> anchors,
-                            const TextStyle& style, const Box<2>& room,
-                            const Accepts& accepts) const {
+                            const TextStyle& style, const Box<2>& room, const auto& accepts) const {
     for (const Anchor& anchor : anchors) {
       const Box<2> box = extent(text, anchor, style);
       if (is_free(box, room) && accepts(box)) return &anchor;
@@ -104,9 +102,8 @@ class Labels {
   }
 
   // The text at the first of these; false, and nothing is drawn, if there is none.
-  template <class Accepts>
   bool try_add(std::string_view text, std::span<const Anchor> anchors, const TextStyle& style,
-               const Box<2>& room, const Box<2>& panel, const Accepts& accepts) {
+               const Box<2>& room, const Box<2>& panel, const auto& accepts) {
     const Anchor* free = free_anchor(text, anchors, style, room, accepts);
     if (free) add(text, *free, style, panel);
     return free != nullptr;

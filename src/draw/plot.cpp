@@ -246,8 +246,7 @@ class Drawing {
     return std::clamp(static_cast<int>(kMostOfEdge * area_.size().y / row_height()), 1, 8);
   }
 
-  template <class Is>
-  double edge_height(const Is& is, double air) const {
+  double edge_height(const auto& is, double air) const {
     const auto rows = std::ranges::count_if(plot_.series, [&](const PlotSeries& s) {
       return std::ranges::any_of(s.points,
                                  [&](const PlotPoint& p) { return is_drawn(p) && is(p); });

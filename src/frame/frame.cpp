@@ -34,8 +34,7 @@ void add(Hash& hash, const FrameBody& body, int dimension) {
 }
 
 // What `get` finds in the side that the name begins with.
-template <class Get>
-auto in_side(const Frame& frame, std::string_view name, const Get& get)
+auto in_side(const Frame& frame, std::string_view name, const auto& get)
     -> decltype(get(frame, name)) {
   const std::size_t dot = name.find('.');
   const Frame* side =

@@ -23,8 +23,7 @@ template bool some_step<Separate>(const Draft&);
 namespace {
 
 // A structure of which this holds stands at some time.
-template <class F>
-bool some_structure(const Draft& draft, const F& holds) {
+bool some_structure(const Draft& draft, const auto& holds) {
   return std::ranges::any_of(draft.scenario.structures(), [&](const StructureSpec* one) {
     return one->kind != StructureKind::none && holds(traits_of(one->kind));
   });

@@ -21,8 +21,7 @@ class CsvFile {
   CsvFile(std::string file, std::string_view text) : file_(std::move(file)), text_(text) {}
 
   // act(cells) for each line; those that are empty or begin with # are passed over.
-  template <class Act>
-  void each_line(const Act& act) {
+  void each_line(const auto& act) {
     for (std::string_view rest = without_mark(text_); !rest.empty();) {
       stop_if_asked();
       const std::size_t end = rest.find('\n');

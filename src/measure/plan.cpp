@@ -17,8 +17,7 @@ constexpr TimingRule kOnce{1, 0};
 const std::optional<std::string> kNoProblem = "it has no [problem]";
 
 // What is refused of a scenario gets a place in its file: its [problem], if it has one.
-template <class Act>
-auto with_place(const Scenario& scenario, const Act& act) {
+auto with_place(const Scenario& scenario, const auto& act) {
   try {
     return act();
   } catch (const Refused& refused) {

@@ -118,8 +118,7 @@ class JsonFields {
   ~JsonFields() { enter(""); }
   JsonFields& operator=(JsonFields&&) = delete;  // nor any other copy or move
 
-  template <class T>
-  void operator()(const Field& field, const T& value) {
+  void operator()(const Field& field, const auto& value) {
     if (field.name.empty()) return;
     enter(field.group);
     write(field.name, value);
@@ -142,18 +141,14 @@ class JsonFields {
   }
   void write(std::string_view name, const std::vector<Norm>& norms);
   void write(std::string_view name, const std::vector<DriftSample>& samples);
-  template <class T>
-  void write(std::string_view name, const T& value) {
-    json_.member(name, value);
-  }
+  void write(std::string_view name, const auto& value) { json_.member(name, value); }
 
   JsonWriter& json_;
   std::string_view group_;
 };
 
 // An object of all its fields.
-template <class Row>
-void write_json(const Row& row, JsonWriter& json) {
+void write_json(const auto& row, JsonWriter& json) {
   json.begin_object();
   {
     JsonFields fields(json);

@@ -149,8 +149,7 @@ class Runner {
     if (widest_skin_ == 0) now_.skins.clear();
   }
 
-  template <class Look>
-  void run(ErrorMetric& metric, Look&& look) {
+  void run(ErrorMetric& metric, auto&& look) {
     bool begun = false;
     const double looking = seconds_of_looking();
     for (const Leg& leg : schedule_.legs) {
@@ -181,8 +180,7 @@ class Runner {
   double widest_skin() const { return widest_skin_; }
 
  private:
-  template <class Look>
-  void observe(ErrorMetric& metric, Look&& look) {
+  void observe(ErrorMetric& metric, auto&& look) {
     now_.time = static_cast<double>(steps_) * h_;
     simulation_->observe(now_.states);
     now_.impacts = simulation_->impacts();

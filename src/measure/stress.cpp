@@ -44,8 +44,7 @@ class Guard {
   }
 
   // The action must be refused with both words in its message, and leave the hash as it was.
-  template <class Action>
-  void expect(const std::string& who, const std::string& field, Action&& action) {
+  void expect(const std::string& who, const std::string& field, auto&& action) {
     const std::uint64_t before = world_.hash();
     const auto why = refusal([&] { action(world_); });
     ++tried;
@@ -57,8 +56,7 @@ class Guard {
   }
 
   // A body with one field spoilt, by each of the bad values.
-  template <class Spoil>
-  void expect_body(const char* field, std::initializer_list<double> bad, Spoil&& spoil) {
+  void expect_body(const char* field, std::initializer_list<double> bad, auto&& spoil) {
     for (const double value : bad) {
       Body<D> body = make_box<D>(at<D>(5, 5));
       body.name = "ghost";
@@ -75,8 +73,7 @@ class Guard {
 };
 
 // The case for what `try_all(guard)` gives to worlds of both dimensions.
-template <class TryAll>
-StressResult refused_case(TryAll&& try_all) {
+StressResult refused_case(auto&& try_all) {
   Guard<2> flat;
   Guard<3> solid;
   try_all(flat, std::integral_constant<int, 2>());

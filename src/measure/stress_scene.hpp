@@ -174,8 +174,7 @@ bool is_finite(const World<D>& world) {
 }
 
 // Why the action was refused; nothing if it was not.
-template <class Action>
-std::optional<std::string> refusal(Action&& action) {
+std::optional<std::string> refusal(auto&& action) {
   try {
     action();
   } catch (const Refused& refused) {

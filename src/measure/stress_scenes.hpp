@@ -419,9 +419,8 @@ struct LeftOut {
 };
 
 // A case: the worst of `part(scene)` over all scenes that the law holds for, and where it was.
-template <class Part>
 StressCase law(const std::vector<LeftOut>& left_out, std::string_view name, const char* what,
-               double bound, const char* unit, Part part) {
+               double bound, const char* unit, auto part) {
   return {name, "laws", what, [=, &left_out] {
             double worst = 0;
             int tried = 0, all = 0;

@@ -132,9 +132,8 @@ double energy_of(const World<2>& world, double omega) {
 
 // A run of a case: how far the energy of the undamped spring after `steps` steps is from
 // `law(omega h)` to the power of `steps` times the first, worst over omega h; relative.
-template <class Law>
 auto keeps_law(double bound, const char* detail, Integrator method, std::vector<double> omega_hs,
-               int steps, Law law) {
+               int steps, auto law) {
   return none_above(bound, "relative", detail, [=] {
     double worst = 0;
     for (const double w : omega_hs) {
@@ -160,8 +159,7 @@ double wavering(Integrator method, double omega_h, int steps) {
 }
 
 // Over 20000 steps of each omega h: of the method's bound, as a function of omega h.
-template <class Bound>
-auto keeps_bound(const char* unit, const char* detail, Integrator method, Bound bound) {
+auto keeps_bound(const char* unit, const char* detail, Integrator method, auto bound) {
   return none_above(1.01, unit, detail, [=] {
     return worst_over({0.01, 0.1, 0.5},
                       [=](double w) { return wavering(method, w, 20000) / bound(w); });

@@ -57,8 +57,7 @@ std::size_t wrong_pairs(Make&& make, std::size_t& true_count) {
 }
 
 // Of boxes that `make(random, std::integral_constant<int, D>)` makes.
-template <class Make>
-auto pairs_case(Make make) {
+auto pairs_case(auto make) {
   return [make] {
     std::size_t count = 0;
     const auto wrong_in = [&]<int D>(std::integral_constant<int, D> dimension) {

@@ -14,8 +14,7 @@ namespace lantern::publish {
 class Numbered {
  public:
   // `make()` gives the JSON of one that is new.
-  template <class Make>
-  std::uint32_t number(std::string identity, const Make& make) {
+  std::uint32_t number(std::string identity, const auto& make) {
     const auto next = static_cast<std::uint32_t>(numbers_.size());
     const auto [it, fresh] = numbers_.try_emplace(std::move(identity), next);
     if (fresh) {

@@ -14,8 +14,7 @@ std::string script_text(std::string_view json);
 
 // `text` with each {{name}} replaced by what `value(name)` gives. What a value holds is not
 // searched.
-template <class Value>
-std::string filled(std::string_view text, const Value& value) {
+std::string filled(std::string_view text, const auto& value) {
   std::string result;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t open = text.find("{{", at);

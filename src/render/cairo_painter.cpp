@@ -19,8 +19,7 @@ class Functions {
   Functions(const char* name, const char* file) : name_(name), library_({file}) {
     if (!library_.loaded()) refuse(library_.problem());
   }
-  template <class Function>
-  void take(Function& function, const char* name) const {
+  void take(auto& function, const char* name) const {
     if (!library_.find(function, name)) refuse(fmt::format("{} has no {}", library_.name(), name));
   }
 

@@ -94,8 +94,7 @@ std::vector<Symbol> runs_of(const std::vector<std::uint8_t>& lengths) {
   return runs;
 }
 
-template <class Code>
-void put_symbol(BitWriter& bits, const Code& code, const Symbol& s) {
+void put_symbol(BitWriter& bits, const auto& code, const Symbol& s) {
   const auto i = static_cast<std::size_t>(s.symbol);
   bits.put(code.codes[i] | static_cast<std::uint32_t>(s.extra) << code.lengths[i],
            code.lengths[i] + s.extra_bits);

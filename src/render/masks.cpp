@@ -98,8 +98,7 @@ struct Envelope {
   std::vector<int> at;
   std::vector<float> from;
 
-  template <class Store>
-  void solve(int n, Store store) {
+  void solve(int n, auto store) {
     int last = -1;  // index of the envelope's last parabola
     for (int j = 0; j < n; ++j) {
       if (f[j] >= kFar) continue;

@@ -5,8 +5,7 @@
 
 namespace lantern::measure {
 
-template <class Visit>
-void each_field(const AtlasRow& row, Visit&& visit) {
+void each_field(const AtlasRow& row, auto&& visit) {
   visit_fields(visit, "set", row.set, "textures", row.textures, "contestant", row.contestant,
                "version", row.version, "status", row.status, "reason", row.reason, "width",
                row.width, "height", row.height, "fill", row.fill, "packed", row.packed, "turned",

@@ -12,8 +12,7 @@
 
 namespace lantern::report {
 
-template <class Visit>
-void each_field(const FrameRow& row, Visit&& visit) {
+void each_field(const FrameRow& row, auto&& visit) {
   visit_fields(visit, "sequence", row.sequence, "writer", row.writer, "frames", row.frames,
                "frames_per_second", row.frames_per_second, "lower_quartile", row.lower_quartile,
                "upper_quartile", row.upper_quartile, "against_cairo", row.against_cairo,
@@ -25,14 +24,12 @@ void each_field(const FrameRow& row, Visit&& visit) {
                counted(row.bands_packed), "bands_kept", counted(row.bands_kept));
 }
 
-template <class Visit>
-void each_field(const FrameMean& mean, Visit&& visit) {
+void each_field(const FrameMean& mean, auto&& visit) {
   visit_fields(visit, "writer", mean.writer, "against_cairo", mean.against_cairo, "bytes_per_file",
                mean.bytes_per_file);
 }
 
-template <class Visit>
-void each_field(const StartTimes& s, Visit&& visit) {
+void each_field(const StartTimes& s, auto&& visit) {
   visit_fields(visit, "shaders_known", s.shaders_known, "bare_context_seconds", s.bare_context,
                "first_file_seconds", s.first_file);
 }

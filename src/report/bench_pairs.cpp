@@ -4,8 +4,7 @@
 
 namespace lantern::measure {
 
-template <class Visit>
-void each_field(const BoxBenchRow& row, Visit&& visit) {
+void each_field(const BoxBenchRow& row, auto&& visit) {
   visit_fields(visit, "workload", row.workload, "dimension", row.dimension, "bodies", row.bodies,
                "contestant", row.contestant, "version", row.version, "setting", row.setting,
                "status", row.status, "reason", row.reason);

@@ -6,8 +6,7 @@
 
 namespace lantern::measure {
 
-template <class Visit>
-void each_field(const StepRow& row, Visit&& visit) {
+void each_field(const StepRow& row, auto&& visit) {
   visit_fields(visit, "pile", row.pile, "solver", row.solver, "version", row.version, "status",
                row.status, "reason", row.reason, "simulated_seconds", row.simulated);
   visit(Field("mean", "mean_ms", "step_ms"), row.mean);
@@ -25,8 +24,7 @@ void each_field(const StepRow& row, Visit&& visit) {
   }
 }
 
-template <class Visit>
-void each_field(const StepComparison& c, Visit&& visit) {
+void each_field(const StepComparison& c, auto&& visit) {
   visit_fields(visit, "pile", c.pile, "peer", c.peer, "of_its_penetration", c.of, "deepest",
                c.deepest, "peer_ms", c.peer_ms, "our_ms", c.our_ms, "by", c.by);
 }

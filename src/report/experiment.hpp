@@ -8,8 +8,7 @@
 
 namespace lantern::measure {
 
-template <class Visit>
-void each_field(const Contestant& one, Visit&& visit) {
+void each_field(const Contestant& one, auto&& visit) {
   visit_fields(visit, "name", one.name, "version", one.version, "how", one.how);
 }
 

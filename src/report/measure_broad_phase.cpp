@@ -6,8 +6,7 @@
 
 namespace lantern::measure {
 
-template <class Visit>
-void each_field(const BroadPhaseCost& row, Visit&& visit) {
+void each_field(const BroadPhaseCost& row, auto&& visit) {
   const BroadPhaseCounts& c = row.counts;
   visit_fields(visit, "scene", row.scene, "dimension", row.dimension, "structure",
                to_string(row.kind), "capacity", row.capacity, "depth_limit", row.depth_limit,

@@ -103,8 +103,7 @@ struct SharedProblem {
     return **std::ranges::find_if(of, [](const ProblemRows* rows) { return rows != nullptr; });
   }
   // act(machine, its rows) for each that has them.
-  template <class Act>
-  void each(const Act& act) const {
+  void each(const auto& act) const {
     for (std::size_t machine = 0; machine < of.size(); ++machine)
       if (of[machine]) act(machine, *of[machine]);
   }

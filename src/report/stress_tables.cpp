@@ -14,8 +14,7 @@ std::string_view verdict_of(const StressResult& result) { return result.good ? "
 
 namespace lantern::measure {
 
-template <class Visit>
-void each_field(const StressOutcome& outcome, Visit&& visit) {
+void each_field(const StressOutcome& outcome, auto&& visit) {
   const StressResult& result = outcome.result;
   visit_fields(visit, "name", outcome.of.name, "group", outcome.of.group);
   visit(Field("", "verdict"), report::verdict_of(result));

@@ -48,8 +48,7 @@ class Players {
   }
 
   // f(spec, from, to, rest length) for each spring and joint that is there; its ends in the world.
-  template <class F>
-  void for_each_link(F&& f) const {
+  void for_each_link(auto&& f) const {
     for (std::size_t i = 0; i < links_.size(); ++i) {
       if (!links_[i].there) continue;
       const auto [from, to] = ends_of(scenario_.links[i]);

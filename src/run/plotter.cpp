@@ -22,8 +22,7 @@ std::string unit_of(const std::string& name) {
 }
 
 // f(name) if all agree on it, else nothing.
-template <class F>
-std::string agreed(const std::vector<std::string>& names, const F& f) {
+std::string agreed(const std::vector<std::string>& names, const auto& f) {
   const bool all = std::ranges::all_of(names, [&](const auto& n) { return f(n) == f(names[0]); });
   return all && !names.empty() ? f(names[0]) : "";
 }

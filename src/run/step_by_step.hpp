@@ -24,8 +24,7 @@ class Brains {
         some_wander_(std::ranges::count(scenario.bodies, Brain::wander, &BodySpec::brain) > 0) {}
 
   // Sets the velocities with which the next world step begins. `id_of(index)` finds bodies.
-  template <class IdOf>
-  void steer(World<D>& world, double h, IdOf&& id_of) {
+  void steer(World<D>& world, double h, auto&& id_of) {
     velocities_.clear();
     away_.clear();
     if (some_wander_) find_ways_out(world);

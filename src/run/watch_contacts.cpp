@@ -105,8 +105,7 @@ class ContactsWatch : public Watcher {
     return *std::ranges::lower_bound(frame.bodies, id, {}, &FrameBody::id);
   }
 
-  template <class F>
-  void sweep(const Frame& frame, F&& look) {
+  void sweep(const Frame& frame, auto&& look) {
     sweep_->clear();
     for (const FrameBody& b : frame.bodies)
       if (!std::holds_alternative<HalfSpace<3>>(b.shape)) sweep_->insert({b.id, b.box});

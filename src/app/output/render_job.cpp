@@ -87,8 +87,7 @@ OutputKind kind_of(const std::string& words, const std::string& ending) {
 }
 
 // part(text, false) for what stands between placeholders, part(name, true) for each of them.
-template <class F>
-void for_each_part(std::string_view words, const F& part) {
+void for_each_part(std::string_view words, const auto& part) {
   for (std::size_t at = 0; at < words.size();) {
     const std::size_t open = std::min(words.find('{', at), words.size());
     part(words.substr(at, open - at), false);

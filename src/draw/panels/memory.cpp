@@ -133,8 +133,7 @@ class MemoryView : PanelPicture {
   }
 
   // f(first slot, count) for the pieces of a run that lie in one row each.
-  template <class F>
-  void for_each_piece(std::uint32_t first, std::uint32_t count, const F& f) const {
+  void for_each_piece(std::uint32_t first, std::uint32_t count, const auto& f) const {
     if (first >= shown_) return;
     const std::uint32_t end = first + std::min(count, shown_ - first);
     while (first < end) {

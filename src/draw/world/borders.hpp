@@ -58,8 +58,7 @@ class Borders {
  private:
   enum class Side { upper, lower, left, right };
 
-  template <class Line>
-  bool draw_each(const Line& line) {
+  bool draw_each(const auto& line) {
     join();
     std::size_t count = 0;
     while (count < pieces_.size() && count < kMost) {

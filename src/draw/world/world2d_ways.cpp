@@ -76,9 +76,8 @@ std::vector<Vec<2>> places_in(const Box<2>& cell) {
 }
 
 // Draws at the first place that is free of bodies and of labels.
-template <class Draw>
 bool at_free_place(const Box<2>& cell, double radius, const std::vector<Box<2>>& bodies,
-                   const Box<2>& room, Labels& labels, const Draw& draw) {
+                   const Box<2>& room, Labels& labels, const auto& draw) {
   for (const Vec<2>& at : places_in(cell)) {
     const Box<2> box = Box<2>::around(at, Vec<2>(radius));
     if (touches(bodies, box) || !labels.is_free(box, room) || !draw(at)) continue;

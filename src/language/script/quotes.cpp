@@ -61,8 +61,7 @@ std::string with_noun(std::int64_t n, const Parts& parts) {
   return fmt::format("{} {}s", grouped(n), *parts.one);
 }
 
-template <class F>
-void for_each_piece(std::string_view caption, F&& f) {
+void for_each_piece(std::string_view caption, auto&& f) {
   for (std::size_t at = 0; at < caption.size();) {
     const Piece piece = next_piece(caption, at);
     f(piece);

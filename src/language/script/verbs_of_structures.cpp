@@ -139,8 +139,7 @@ KeyDoc pair_key() {
 
 // Two of a flat world, of `separate` and `gjk`. The first two bodies, and problems, if they are
 // not.
-template <class V>
-void read_pair(V& verb, const TableReader& table, ScriptReading& script) {
+void read_pair(auto& verb, const TableReader& table, ScriptReading& script) {
   Draft& draft = script.draft;
   if (draft.dimension == 3)
     table.bad_value("do", "this is drawn of flat worlds only",

@@ -23,8 +23,7 @@ class DormandPrince {
   // From `time` to `end` >= time. `slope(t, y, dy)` gives the rates of change dy, of the same size.
   // Throws Refused if the step vanishes: below a billionth of the time to go, as where bodies fall
   // into each other.
-  template <class Slope>
-  void run(const Slope& slope, Real time, Real end, State& y) {
+  void run(const auto& slope, Real time, Real end, State& y) {
     if (!(end > time)) return;
     for (State& k : k_) k.resize(y.size());
     slope(time, y, k_[0]);
@@ -61,8 +60,7 @@ class DormandPrince {
 
   // Leaves the end of the step in next_ and its slope in k_[6]; gives the error, where 1 is
   // allowed.
-  template <class Slope>
-  Real attempt(const Slope& slope, Real time, Real h, const State& y) {
+  Real attempt(const auto& slope, Real time, Real h, const State& y) {
     static constexpr Real kE[7] = {Real(71) / 57600,      0,
                                    Real(-71) / 16695,     Real(71) / 1920,
                                    Real(-17253) / 339200, Real(22) / 525,

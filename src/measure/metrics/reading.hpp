@@ -126,8 +126,7 @@ Vec<3> point_of(const BodyState& state, const Vec<3>& at);
 Vec<3> far_end(const LinkSpec& link, const std::vector<BodyState>& states);
 
 // What `at` gives for the time of each of a problem's samples, in order.
-template <class At>
-auto at_samples(const ProblemSpec& problem, At&& at) {
+auto at_samples(const ProblemSpec& problem, auto&& at) {
   auto all = std::make_shared<std::vector<decltype(at(0.0L))>>();
   for (std::uint32_t n = 0; n <= problem.samples; ++n)
     all->push_back(at(static_cast<long double>(problem.seconds) * n / problem.samples));
