@@ -19,12 +19,11 @@ constexpr std::size_t kLeastSides = 2;
 constexpr std::array<std::string_view, 7> kShared = {
     "size", "min", "max", "time_step", "frame_every", "camera_eye", "camera_target"};
 
-TomlEntry* entry(TomlTable& table, std::string_view key) {
-  const auto found = std::ranges::find(table, key, &TomlEntry::key);
-  return found == table.end() ? nullptr : &*found;
-}
 const TomlEntry* entry(const TomlTable& table, std::string_view key) {
   return entry_of(table, key);
+}
+TomlEntry* entry(TomlTable& table, std::string_view key) {
+  return const_cast<TomlEntry*>(entry_of(table, key));
 }
 
 void take_out(TomlTable& table, std::string_view key) {

@@ -100,12 +100,6 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-std::string capital(std::string text) {
-  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z')
-    text[0] = static_cast<char>(text[0] - 'a' + 'A');
-  return text;
-}
-
 std::string seconds_text(double seconds) {
   if (!std::isfinite(seconds)) return "?";
   const double size = std::abs(seconds);

@@ -102,9 +102,6 @@ std::string figure(double number);
 // "a", "a and b", "a, b and c".
 std::string listed(const std::vector<std::string>& names);
 
-// With a capital at its beginning, if that is a letter of ASCII.
-std::string capital(std::string text);
-
 // Plots in a web page: what draw_plot draws, with colours by style sheet, and each series in a
 // group of its own class, so that a reader can choose what to see.
 

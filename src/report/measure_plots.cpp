@@ -2,6 +2,7 @@
 
 #include "report/document.hpp"
 #include "report/problem_rows.hpp"
+#include "run/event_text.hpp"
 
 namespace lantern::report {
 namespace {
@@ -168,7 +169,7 @@ std::pair<Plot, Plot> plots_of(const ProblemRows& problem, const Looks& looks) {
   outcome.title = timed ? "Outcome against time" : "Outcome against " + work.name;
   outcome.x_name = cost_name;
   outcome.y_name = error_words(problem);
-  price.title = timed ? "Time against step" : capital(work.name) + " against step";
+  price.title = timed ? "Time against step" : capitalised(work.name) + " against step";
   price.y_name = cost_name + "; open marks: a wrong outcome";
   outcome.empty = price.empty = "no run has a cost";
   return {outcome, price};
@@ -180,7 +181,7 @@ std::string problem_words(const ProblemRows& problem) {
   const std::size_t variant = words.find("_" + problem.variant);
   if (!problem.variant.empty() && variant != std::string::npos) words.replace(variant, 1, ", ");
   std::ranges::replace(words, '_', ' ');
-  return capital(words);
+  return capitalised(words);
 }
 
 std::string file_name(const ProblemRows& problem) {

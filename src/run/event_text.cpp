@@ -12,12 +12,6 @@ std::string place_of(const std::string& node) {
   return node == "root" ? "the root" : "node " + node;
 }
 
-// Of an ASCII letter; other scripts are left as they are.
-std::string capitalised(std::string text) {
-  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = char(text[0] - 'a' + 'A');
-  return text;
-}
-
 // What is said of events, in the order of Event::Kind: {0} is the body and {1} the node, {2} and
 // {3} the same with a capital; {4} is how many the node holds, {5} its limit, {6} the depth limit.
 constexpr const char* kTexts[] = {
@@ -47,6 +41,11 @@ constexpr const char* kAtlasTexts[] = {
     "No leaf has room for {1}: it is refused, the rest is kept."};
 
 }  // namespace
+
+std::string capitalised(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = char(text[0] - 'a' + 'A');
+  return text;
+}
 
 std::string_view event_name(Event::Kind kind) {
   static constexpr std::string_view kNames[] = {"test",   "miss",      "make_child",  "store",

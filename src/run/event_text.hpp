@@ -9,6 +9,9 @@
 
 namespace lantern::run {
 
+// With a capital at its beginning, if that is an ASCII letter; other scripts stay as they are.
+std::string capitalised(std::string text);
+
 // "test", "hand_down", ...: names for --at.
 std::string_view event_name(Event::Kind kind);
 std::string_view event_name(AtlasEvent::Kind kind);

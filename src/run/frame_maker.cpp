@@ -84,9 +84,8 @@ FrameMaker::FrameMaker(const Scenario& scenario, Pace pace, const Stage& stage,
       looks_(scenario) {
   LANTERN_CHECK(counts_are_known(), ==, true);
   if (scenario.chart) plotter_.emplace(scenario);
-  if (shows(scenario.panels, "sparkline")) {
+  if (shows(scenario.panels, "sparkline"))
     trace_ = FrameTrace{trace_name(scenario), {}, script_seconds(scenario, &part_)};
-  }
   if (shows(scenario.panels, "code"))
     for (const Step& step : scenario.steps)
       if (step.code && !code_) code_ = code_of(step.code->function);

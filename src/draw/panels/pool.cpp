@@ -232,9 +232,8 @@ class PoolView : PanelPicture {
                      lit ? Stroke{Role::lit, 2.8} : Stroke{Role::cell_line_1, 1.6});
     if (owner->reused) draw_reused(box);
     for (const std::string& text : {owner->label, short_label(owner->label)})
-      if (!text.empty() && text_width(text, kPlain) <= box.size().x - 8) {
+      if (!text.empty() && text_width(text, kPlain) <= box.size().x - 8)
         return write(text, centred({box.center().x, box.center().y + 3}, kPlain));
-      }
   }
 
   // A band along the upper edge: this place was another node's before.

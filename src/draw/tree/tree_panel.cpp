@@ -33,9 +33,8 @@ std::vector<Fact> facts_of(const Frame& frame, const Staging& staging, const Box
   const std::pair<const char*, const char*> counted[] = {
       {"nodes", "node"}, {"leaves", "leaf"}, {"entries", "entry"}};
   for (const auto& [many, one] : counted)
-    if (const auto n = frame.count(many)) {
+    if (const auto n = frame.count(many))
       facts.push_back({*n == 1 ? one : many, n, many, staging.most(many)});
-    }
   if (!frame.display.settings || !staging.tells_settings(frame) ||
       panel.size().y < kLeastForSettings)
     return facts;
@@ -86,9 +85,8 @@ int lay_out_facts(const std::vector<Fact>& facts, const Box<2>& panel, double to
 double height_of_facts(const Staging& staging, const Box<2>& panel) {
   return staging.once<double>("facts", panel, [&] {
     int lines = 0;
-    for (const Frame* frame : staging.frames()) {
+    for (const Frame* frame : staging.frames())
       lines = std::max(lines, lay_out_facts(facts_of(*frame, staging, panel), panel, 0, nullptr));
-    }
     return lines * kFactLine;
   });
 }

@@ -232,11 +232,10 @@ void rule_grid(const World2D& w) {
 
 // Leaves as buckets.
 void fill_levels(const World2D& w) {
-  for (std::uint32_t i = 0; i < w.frame.nodes.size(); ++i) {
-    const FrameNode& node = w.frame.nodes[i];
+  for (const FrameNode& node : w.frame.nodes) {
     if (node.of_static || !node.region.empty()) continue;
     if (const auto level = level_in(w.frame, node, cell_of(w, node))) {
-      const DrawList::Scope scope(w.list, node_key("world/level", w.frame.nodes, i));
+      const DrawList::Scope scope(w.list, node_key("world/level", w.frame.nodes, node));
       w.list.crisp_rect(*level, Role::rule);
     }
   }

@@ -83,10 +83,9 @@ const PlatePlaces& chosen_plates(const Staging& staging, const Box<2>& panel) {
 // A dividing line's name, on a plate that sits on the line. While something else is there it waits;
 // on a frame that stands alone it may stand elsewhere.
 void label_planes(const World2D& w) {
-  for (std::uint32_t i = 0; i < w.frame.nodes.size(); ++i) {
-    const FrameNode& node = w.frame.nodes[i];
+  for (const FrameNode& node : w.frame.nodes) {
     if (!has_plate(node)) continue;
-    const std::string key = node_key("world/plane name", w.frame.nodes, i);
+    const std::string key = node_key("world/plane name", w.frame.nodes, node);
     const DrawList::Scope scope(w.list, key);
     auto plates = plates_of(node, w.map);
     const PlatePlaces& places = chosen_plates(w.staging, w.map.panel());

@@ -312,10 +312,9 @@ TableDoc map_table() {
 }
 
 void read_map(const TableReader& file, Draft& draft) {
-  for (const TomlValue* value : file.tables("map")) {
+  for (const TomlValue* value : file.tables("map"))
     if (!file.has("world"))
       draft.problems.add(value->where, "a map needs a [world]", "add [world] with size = [64, 64]");
-  }
   for_each<MapSpec>(file, "map", draft, [&](const TableReader& table, const MapSpec& spec) {
     MapReader(table, spec, draft).read();
   });
