@@ -48,10 +48,8 @@ class Drawing {
   // Draws headings and the legend, and places the rest.
   Drawing(const Plot& plot, const Box<2>& panel, bool with_legend, DrawList& list, Labels& labels)
       : plot_(plot),
-        style_(plot),
         paper_(panel, plot.size, list, labels),
         with_legend_(with_legend),
-        halo_(plot.size),
         list_(list),
         labels_(labels) {
     halo_.tick.halo = halo_.name.halo = Role::panel;
@@ -405,13 +403,13 @@ class Drawing {
   }
 
   const Plot& plot_;
-  PlotStyle style_;
+  PlotStyle style_{plot_};
   PlotPaper paper_;
   Axis x_, y_;
   Box<2>& area_ = paper_.place.area;
   PlotRange xs_, ys_;
   bool with_legend_;
-  PlotType halo_;  // of names inside the area
+  PlotType halo_{plot_.size};  // of names inside the area
   DrawList& list_;
   Labels& labels_;
   bool all_named_ = true;

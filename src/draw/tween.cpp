@@ -103,12 +103,7 @@ const Things::value_type* origin_of(std::string_view from, const Things& things)
 class Planner {
  public:
   Planner(const DrawList& a, const DrawList& b)
-      : a_(a),
-        b_(b),
-        in_a_(things_of(a)),
-        in_b_(things_of(b)),
-        of_a_(a.shapes.size()),
-        of_b_(b.shapes.size()) {}
+      : a_(a), b_(b), of_a_(a.shapes.size()), of_b_(b.shapes.size()) {}
 
   TweenPlan made() {
     for (const auto& [key, thing] : in_b_) come(key, thing);
@@ -233,7 +228,7 @@ class Planner {
   }
 
   const DrawList &a_, &b_;
-  Things in_a_, in_b_;
+  Things in_a_ = things_of(a_), in_b_ = things_of(b_);
   std::vector<Fate> of_a_, of_b_;
 };
 

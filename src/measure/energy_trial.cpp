@@ -45,17 +45,7 @@ constexpr std::array kMethods = {Integrator::semi_implicit_euler, Integrator::ve
 template <int D>
 class SceneMaker {
  public:
-  SceneMaker(std::uint64_t seed, ContactMethod method)
-      : random_(seed),
-        slender_(has("slender", coin())),
-        spinning_(coin()),
-        heavy_(has("mass ratios", coin())),
-        still_(has("still", one_in(4))),
-        overlapping_(has("overlapping", one_in(4))),
-        jointed_(one_in(3)),
-        pushed_(has("pushed", one_in(6))),
-        world_(config(method)),
-        step_(power(1.0 / 240, 1.0 / 10)) {
+  SceneMaker(std::uint64_t seed, ContactMethod method) : random_(seed), world_(config(method)) {
     has("spinning", spinning_ && !still_);
     Vec<D> up(0.0), right(0.0);
     up.y = 1;
@@ -190,9 +180,11 @@ class SceneMaker {
 
   Random random_;
   std::string words_;  // ", slender, floor"
-  bool slender_, spinning_, heavy_, still_, overlapping_, jointed_, pushed_;
+  bool slender_ = has("slender", coin()), spinning_ = coin(), heavy_ = has("mass ratios", coin());
+  bool still_ = has("still", one_in(4)), overlapping_ = has("overlapping", one_in(4));
+  bool jointed_ = one_in(3), pushed_ = has("pushed", one_in(6));
   World<D> world_;
-  double step_;
+  double step_ = power(1.0 / 240, 1.0 / 10);
   std::vector<BodyId> placed_;
 };
 

@@ -16,8 +16,7 @@ namespace {
 
 class WorldSimulation : public Simulation {
  public:
-  explicit WorldSimulation(Scenario scenario)
-      : scenario_(std::move(scenario)), engine_(make_engine(scenario_, work_)) {
+  explicit WorldSimulation(Scenario scenario) : scenario_(std::move(scenario)) {
     if (!scenario_.problem) return;
     for (std::size_t i = 0; i < scenario_.bodies.size(); ++i) engine_->enter(i);
   }
@@ -40,7 +39,7 @@ class WorldSimulation : public Simulation {
  private:
   Scenario scenario_;
   Work work_;
-  std::unique_ptr<Engine> engine_;
+  std::unique_ptr<Engine> engine_ = make_engine(scenario_, work_);
 };
 
 bool has_forces(const Scenario& scenario) {
@@ -78,8 +77,6 @@ class PointSimulation : public Simulation {
         h_(h),
         players_(scenario),
         system_(entered(scenario), players_.world().forces(), evaluations_),
-        state_(system_.start()),
-        y_(2 * D * system_.movers().size(), 0.0),
         method_(tolerance_of(scenario, h), scale(scenario)) {}
 
   void advance(std::uint64_t steps) override {
@@ -169,8 +166,8 @@ class PointSimulation : public Simulation {
   std::uint64_t evaluations_ = 0;
   Players<D> players_;
   SmoothSystem<D> system_;
-  SmoothState<D> state_;
-  std::vector<double> y_;
+  SmoothState<D> state_ = system_.start();
+  std::vector<double> y_ = std::vector<double>(2 * D * system_.movers().size());
   DormandPrince<double> method_;
 };
 

@@ -32,12 +32,7 @@ double half_width(int dimension) { return dimension == 2 ? 50 : 6; }
 
 class PileMaker {
  public:
-  explicit PileMaker(const Pile& pile)
-      : pile_(pile),
-        half_(half_width(pile.dimension)),
-        side_(static_cast<std::size_t>(2 * half_ / kSpacing) - 1),
-        layer_(pile.dimension == 2 ? side_ : side_ * side_),
-        height_(kSpacing * static_cast<double>((pile.bodies + layer_ - 1) / layer_) + kHalfWall) {}
+  explicit PileMaker(const Pile& pile) : pile_(pile) {}
 
   std::vector<BodySpec> bodies() {
     const double out = half_ + kHalfWall;
@@ -102,9 +97,11 @@ class PileMaker {
   }
 
   const Pile& pile_;
-  double half_;
-  std::size_t side_, layer_;  // bodies in a row, and in a layer
-  double height_;             // of the bodies at the start, and half of the walls'
+  double half_ = half_width(pile_.dimension);
+  std::size_t side_ = static_cast<std::size_t>(2 * half_ / kSpacing) - 1;  // bodies in a row,
+  std::size_t layer_ = pile_.dimension == 2 ? side_ : side_ * side_;       // and in a layer
+  // Of the bodies at the start, and half of the walls'.
+  double height_ = kSpacing * double((pile_.bodies + layer_ - 1) / layer_) + kHalfWall;
   Random random_{1};
   std::vector<BodySpec> bodies_;
 };

@@ -47,11 +47,7 @@ void add_level(const Quad& quad, const PixelRect& rect, BatchList& to) {
 }  // namespace
 
 Damage::Damage(int width, int height)
-    : width_(width),
-      height_(height),
-      columns_((width + kTileWidth - 1) / kTileWidth),
-      rows_((height + kTileHeight - 1) / kTileHeight),
-      tiles_(static_cast<std::size_t>(columns_) * rows_) {}
+    : width_(width), height_(height), tiles_(static_cast<std::size_t>(columns_) * rows_) {}
 
 bool Damage::is_all() const {
   return found_.size() == 1 && found_[0] == PixelRect{0, 0, width_, height_};

@@ -33,7 +33,9 @@ class Damage {
   void mark(const Quad& quad);
   void gather();
 
-  int width_, height_, columns_, rows_;
+  int width_, height_;
+  int columns_ = (width_ + kTileWidth - 1) / kTileWidth;
+  int rows_ = (height_ + kTileHeight - 1) / kTileHeight;
   bool is_known_ = false;
   std::uint64_t ground_ = 0;
   std::vector<std::uint64_t> tiles_, before_;

@@ -168,12 +168,7 @@ const TextStyle kCellName{kCellText, Weight::semibold, Role::ink, Role::none};
 class OverviewPage {
  public:
   OverviewPage(const Measurement& measurement, const std::vector<Bar>& bars)
-      : measurement_(measurement),
-        bars_(bars),
-        bars_table_(table_of(bars)),
-        problems_(by_problem(measurement.rows)),
-        looks_(looks_of(measurement.rows)),
-        labels_(list_) {}
+      : measurement_(measurement), bars_(bars) {}
 
   DrawList draw() {
     plan();
@@ -308,14 +303,14 @@ class OverviewPage {
 
   const Measurement& measurement_;
   const std::vector<Bar>& bars_;
-  Table bars_table_;
-  std::vector<ProblemRows> problems_;
-  Looks looks_;
+  Table bars_table_ = table_of(bars_);
+  std::vector<ProblemRows> problems_ = by_problem(measurement_.rows);
+  Looks looks_ = looks_of(measurement_.rows);
   std::vector<LegendEntry> legend_;
   std::size_t columns_ = 4;
   double row_ = 0;
   DrawList list_;
-  Labels labels_;
+  Labels labels_{list_};
 };
 
 }  // namespace
@@ -388,7 +383,7 @@ DrawList draw_slide(const ProblemRows& problem, const Measurement& measurement) 
   plot.guides.clear();
   plot.slopes.clear();
   if (plot.bands.empty()) plot.front.clear();  // the line below says more
-  for (PlotSeries& series : plot.series)  // orders are on the other page
+  for (PlotSeries& series : plot.series)       // orders are on the other page
     series.name = series.name.substr(0, series.name.find(": "));
   plot.size = 27;
   const Box<2> panel{{kMargin, 96}, {list.page.x - kMargin, bottom}};

@@ -34,11 +34,7 @@ template <int D>
 class EngineOf : public Engine {
  public:
   EngineOf(const Scenario& scenario, Work& work)
-      : scenario_(scenario),
-        work_(work),
-        players_(scenario),
-        structure_(scenario.structure),
-        brains_(scenario) {
+      : scenario_(scenario), work_(work), players_(scenario) {
     if (scenario.shows_trails()) trails_.emplace();
     ++work_.worlds_created;
     count_structures();
@@ -396,11 +392,11 @@ class EngineOf : public Engine {
   const Scenario& scenario_;
   Work& work_;
   Players<D> players_;
-  StructureSpec structure_;
+  StructureSpec structure_ = scenario_.structure;
   bool steered_ = false;       // who has a brain has made up its mind about the next step
   bool being_stored_ = false;  // a body is on its way down the structure
   bool outdated_ = false;      // bodies have moved on since it was built
-  Brains<D> brains_;
+  Brains<D> brains_{scenario_};
   std::vector<Emission> emissions_;
   IslandNumbers island_numbers_;
   WorldWork last_;                             // what the last step did

@@ -30,10 +30,7 @@ struct Quote {
 class Side {
  public:
   Side(const Scenario& scenario, Pace pace, Work& work, RunWatch* watch)
-      : scenario_(scenario),
-        watch_(watch),
-        sink_([this](const Frame& frame) { return take(frame); }),
-        run_(scenario, pace, work, sink_, watch) {}
+      : scenario_(scenario), watch_(watch), run_(scenario, pace, work, sink_, watch) {}
   Side& operator=(Side&&) = delete;  // nor any other copy or move
 
   // Its frames of the step; the first has number `frame`. Adds their bytes.
@@ -75,7 +72,7 @@ class Side {
 
   const Scenario& scenario_;
   RunWatch* watch_;
-  std::function<bool(const Frame&)> sink_;
+  std::function<bool(const Frame&)> sink_ = [this](const Frame& frame) { return take(frame); };
   ScriptRun run_;
   std::vector<Shown> shown_;  // of the step
   std::uint64_t* bytes_ = nullptr;

@@ -141,12 +141,7 @@ template <int D>
 class NodePicture {
  public:
   NodePicture(const StructureSpec& spec, const Touched& touched, Frame& frame)
-      : spec_(spec),
-        traits_(traits_of(spec.kind)),
-        touched_(touched),
-        shows_memory_(shows(frame.panels, "memory")),
-        shows_pool_(shows(frame.panels, "pool")),
-        frame_(frame) {
+      : spec_(spec), touched_(touched), frame_(frame) {
     for (std::uint32_t i = 0; i < touched.met.size(); ++i) met_.emplace(touched.met[i], i);
   }
 
@@ -240,14 +235,14 @@ class NodePicture {
   }
 
   const StructureSpec& spec_;
-  const StructureTraits& traits_;
+  const StructureTraits& traits_ = traits_of(spec_.kind);
   const Touched& touched_;
-  bool shows_memory_;
-  bool shows_pool_;
+  Frame& frame_;
+  bool shows_memory_ = shows(frame_.panels, "memory");
+  bool shows_pool_ = shows(frame_.panels, "pool");
   std::map<NodeHandle, std::uint32_t> met_;  // when a ray met them first
   Counters now_;                             // of the structure that is being added
-  Frame& frame_;
-  std::uint32_t first_ = 0;  // node of the structure that is being added
+  std::uint32_t first_ = 0;                  // node of the structure that is being added
 };
 
 // Leaves were met among inner nodes: now they count by themselves.

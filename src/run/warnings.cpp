@@ -81,8 +81,7 @@ class ViewWatch : public Watcher {
 
 class OutsideWatch : public Watcher {
  public:
-  explicit OutsideWatch(const Scenario& scenario)
-      : scenario_(scenario), specs_(bodies_by_name(scenario)) {}
+  explicit OutsideWatch(const Scenario& scenario) : scenario_(scenario) {}
 
   void see_frame(const Frame& frame) override {
     for (const FrameBody& body : frame.bodies) {
@@ -119,7 +118,7 @@ class OutsideWatch : public Watcher {
   }
 
   const Scenario& scenario_;
-  std::unordered_map<std::string_view, const BodySpec*> specs_;
+  std::unordered_map<std::string_view, const BodySpec*> specs_ = bodies_by_name(scenario_);
   std::vector<Was> was_;  // by id
   Diagnostics found_;
 };

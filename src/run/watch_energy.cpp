@@ -52,11 +52,10 @@ class EnergyWatch : public Watcher {
         drivers_.erase(i);
         pushed_.erase(i);
       }
-    if (const auto* move = std::get_if<Move>(&step.verb)) {
+    if (const auto* move = std::get_if<Move>(&step.verb))
       if (scenario_.bodies[move->body].kind == BodyKind::kinematic_body &&
           (move->velocity.value_or(Vec<3>(0.0)) != Vec<3>(0.0) || move->spin.value_or(0) != 0))
         drivers_.insert(move->body);
-    }
     const bool changes =
         entering(step.verb) || std::holds_alternative<Remove>(step.verb) ||
         std::holds_alternative<Move>(step.verb) || std::holds_alternative<ApplyForce>(step.verb) ||

@@ -44,13 +44,7 @@ FilmSettings film_settings(const Sequence& s) {
 // begins with the still that the one before ended on.
 class FilmSink : public FileSink {
  public:
-  explicit FilmSink(const Sequence& s)
-      : FileSink(s),
-        settings_(film_settings(s)),
-        ffmpeg_(require_ffmpeg()),
-        is_clips_(s.to.is_by("step")),
-        walk_(s.job, s.work),
-        clock_({settings_.rate, s.job.options.hold, s.job.options.tween}) {}
+  using FileSink::FileSink;
 
  protected:
   void take(const Frame& frame, const Staging& staging) override {

@@ -44,9 +44,6 @@ class PageSink : public FileSink {
  public:
   explicit PageSink(const Sequence& s)
       : FileSink(s),
-        options_(of_picture(s.job)),
-        job_(options_),
-        file_(s.to.file({s.scenario.name})),
         expected_(s.selection.most() ? s.selection.most() : extent_of(s.scenario, s.pace).frames),
         lesson_({s.scenario.name, s.scenario.title, s.scenario.idea, s.scenario.lecture,
                  s.scenario.needs, s.scenario.steps.size()},

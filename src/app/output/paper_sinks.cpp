@@ -107,12 +107,7 @@ std::uint64_t pages_of(const Sequence& sequence, const publish::SheetGrid& grid)
 // Makes pages: PNG or PDF.
 class SheetSink : public FileSink {
  public:
-  explicit SheetSink(const Sequence& sequence)
-      : FileSink(sequence),
-        grid_(grid_of(sequence.job.options.sheet)),
-        paper_(paper_of(sequence.job)),
-        layout_(as_asked([&] { return publish::SheetLayout(paper_, grid_); },
-                         "--sheet: ", "; choose another --size")) {
+  explicit SheetSink(const Sequence& sequence) : FileSink(sequence) {
     refuse_in_betweens(sequence);
     if (sequence.to.is_by("step"))
       sequence.refuse(
@@ -203,9 +198,10 @@ class SheetSink : public FileSink {
             {"Sheet", number}};
   }
 
-  publish::SheetGrid grid_;
-  Vec<2> paper_;  // millimetres
-  publish::SheetLayout layout_;
+  publish::SheetGrid grid_ = grid_of(of_.job.options.sheet);
+  Vec<2> paper_ = paper_of(of_.job);  // millimetres
+  publish::SheetLayout layout_ = as_asked([&] { return publish::SheetLayout(paper_, grid_); },
+                                          "--sheet: ", "; choose another --size");
   std::optional<publish::PdfDocument> document_;  // one of these two
   Renderer* renderer_ = nullptr;
   Image image_;

@@ -338,15 +338,15 @@ class FolderSink : public StagedSink {
 
   FolderMade& made_;
   const Sequence of_;
-  const RenderJob& job_;
-  Manifest manifest_;
+  const RenderJob& job_ = of_.job;
+  Manifest manifest_ = job_.manifest(of_.scenario, of_.pace);
   Part part_;
   std::optional<FrameFolder> folder_;
   std::unique_ptr<Pipeline> pipeline_;
   std::vector<ListedFrame> all_;   // of the run so far
   std::set<std::uint32_t> taken_;  // of these, chosen, and of the part
   std::set<std::string> written_;  // names of files
-  FrameWalk walk_;
+  FrameWalk walk_{job_, of_.work};
   bool is_here_ = false;       // where it stands is of the part
   std::optional<Frame> last_;  // of an atlas
 };

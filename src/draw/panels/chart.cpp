@@ -44,12 +44,7 @@ std::string title_of(const FrameChart& chart) {
 
 class Bars : PanelPicture {
  public:
-  explicit Bars(const PanelPicture& on)
-      : PanelPicture(on),
-        chart_(frame_.get<FrameChart>()),
-        range_(staging_.axes().chart()),
-        paper_(panel_, kChartType, list_, labels_),
-        bars_(chart_.bars) {
+  explicit Bars(const PanelPicture& on) : PanelPicture(on) {
     std::erase_if(bars_, [](const FrameBar& bar) { return !std::isfinite(bar.value); });
     for (FrameBar& bar : bars_) bar.label = chart_words(bar.label);
     std::ranges::stable_sort(bars_, {}, &FrameBar::group);
@@ -186,12 +181,12 @@ class Bars : PanelPicture {
     if (bar.value > 0) list_.disc(at, radius, color_of(bar), {Role::body_line, 1.6});
   }
 
-  const FrameChart& chart_;
-  AxisRanges::Ends range_;  // of all charts of the sequence
-  PlotPaper paper_;
+  const FrameChart& chart_ = frame_.get<FrameChart>();
+  AxisRanges::Ends range_ = staging_.axes().chart();  // of all charts of the sequence
+  PlotPaper paper_{panel_, kChartType, list_, labels_};
   const PlotType& type_ = paper_.type;
   Box<2>& area_ = paper_.place.area;
-  std::vector<FrameBar> bars_;
+  std::vector<FrameBar> bars_ = chart_.bars;
   std::string note_;
   double row_ = kLeastRow, gap_ = kGroupGap;
   bool ticks_ = true;

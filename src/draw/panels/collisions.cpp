@@ -35,8 +35,7 @@ double row_height(int remembered) { return kCallRow + remembered * kPip + kTouch
 
 class CollisionsView : PanelPicture {
  public:
-  explicit CollisionsView(const PanelPicture& on)
-      : PanelPicture(on), told_(frame_.get<FrameCollisions>()), bodies_(by_id(frame_.bodies)) {
+  explicit CollisionsView(const PanelPicture& on) : PanelPicture(on) {
     const std::uint64_t passed = told_.now - told_.first;
     const std::uint64_t all = std::max<std::uint64_t>({told_.steps.value_or(passed), passed, 12});
     const double room = panel_.size().x - kCollisionPair;
@@ -155,8 +154,8 @@ class CollisionsView : PanelPicture {
     write("one frame left", {{x + 36, y}, 0}, kQuiet);
   }
 
-  const FrameCollisions& told_;
-  BodiesById bodies_;
+  const FrameCollisions& told_ = frame_.get<FrameCollisions>();
+  BodiesById bodies_ = by_id(frame_.bodies);
   double column_ = kMostColumn;
   double end_ = 0;           // of the rows, x
   std::uint64_t first_ = 0;  // world steps before the first column

@@ -38,8 +38,7 @@ const TextStyle kTableNumber{26, Weight::regular, Role::ink};
 
 class ComparisonView : PanelPicture {
  public:
-  explicit ComparisonView(const PanelPicture& on)
-      : PanelPicture(on), table_(frame_.get<FrameComparison>()) {
+  explicit ComparisonView(const PanelPicture& on) : PanelPicture(on) {
     const double left = kPictureWidth + 18 + kWorldWidth + kWhenWidth;
     columns_ = panel_.lo.x + left;
     column_ = (panel_.size().x - left) / static_cast<double>(table_.kinds.size());
@@ -169,7 +168,7 @@ class ComparisonView : PanelPicture {
     }
   }
 
-  const FrameComparison& table_;
+  const FrameComparison& table_ = frame_.get<FrameComparison>();
   double columns_ = 0;  // where they begin
   double column_ = 0;   // width
   double row_ = 0;      // height

@@ -38,11 +38,7 @@ Box<2> reach_of(const Staging& staging) {
 
 class DifferenceView : PanelPicture {
  public:
-  explicit DifferenceView(const PanelPicture& on)
-      : PanelPicture(on),
-        difference_(frame_.get<FrameDifference>()),
-        area_({panel_.lo + Vec<2>(kRimNumbers, kHeading), panel_.hi - Vec<2>(4, kRimNumbers)}),
-        pen_(list_, area_) {
+  explicit DifferenceView(const PanelPicture& on) : PanelPicture(on) {
     const Box<2> reach = reach_of(staging_);
     const Vec<2> room = shrunk(area_, kAround).size(), size = reach.size();
     scale_ = std::min(size.x > 0 ? room.x / size.x : 1e300, size.y > 0 ? room.y / size.y : 1e300);
@@ -183,9 +179,9 @@ class DifferenceView : PanelPicture {
               kOwn);
   }
 
-  const frame::FrameDifference& difference_;
-  Box<2> area_;
-  Pen pen_;
+  const frame::FrameDifference& difference_ = frame_.get<FrameDifference>();
+  Box<2> area_{panel_.lo + Vec<2>(kRimNumbers, kHeading), panel_.hi - Vec<2>(4, kRimNumbers)};
+  Pen pen_{list_, area_};
   double scale_ = 1;
   Vec<2> origin_{0.0};
 };

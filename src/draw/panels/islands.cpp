@@ -55,12 +55,7 @@ std::unique_ptr<Projection> projection_of(const Frame& frame, const Box<2>& pane
 
 class IslandGraph : PanelPicture {
  public:
-  explicit IslandGraph(const PanelPicture& on)
-      : PanelPicture(on),
-        view_(projection_of(frame_, panel_)),
-        place_(view_->picture()),
-        radius_(radius_for(staging_)),
-        bodies_(by_id(frame_.bodies)) {
+  explicit IslandGraph(const PanelPicture& on) : PanelPicture(on) {
     for (const FrameBody& body : frame_.bodies)
       if (!is_half_space(body))
         if (const auto at = view_->seen(body.position)) places_[body.id] = *at;
@@ -204,10 +199,10 @@ class IslandGraph : PanelPicture {
     }
   }
 
-  std::unique_ptr<Projection> view_;
-  Box<2> place_;
-  double radius_;
-  BodiesById bodies_;
+  std::unique_ptr<Projection> view_ = projection_of(frame_, panel_);
+  Box<2> place_ = view_->picture();
+  double radius_ = radius_for(staging_);
+  BodiesById bodies_ = by_id(frame_.bodies);
   std::map<BodyId, Vec<2>> places_;  // of nodes, on the page
 };
 

@@ -37,8 +37,7 @@ double ways_height(const FrameScreen& screen) { return kWaysGap + screen.planned
 
 class ScreenView : PanelPicture {
  public:
-  explicit ScreenView(const PanelPicture& on)
-      : PanelPicture(on), screen_(frame_.get<FrameScreen>()) {
+  explicit ScreenView(const PanelPicture& on) : PanelPicture(on) {
     const Vec<2> size(std::max(screen_.width, 1), std::max(screen_.height, 1));
     const Vec<2> room = shrunk(panel_, 3).size();
     const double below = std::min(ways_height(screen_), 0.55 * room.y);
@@ -148,7 +147,7 @@ class ScreenView : PanelPicture {
     }
   }
 
-  const FrameScreen& screen_;
+  const FrameScreen& screen_ = frame_.get<FrameScreen>();
   Box<2> image_, ways_;
   double scale_ = 1;  // page units a pixel
 };

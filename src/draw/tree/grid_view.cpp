@@ -28,8 +28,7 @@ using CellsOfSlot = std::map<std::uint32_t, std::vector<const FrameNode*>>;
 
 class GridView : PanelPicture {
  public:
-  explicit GridView(const PanelPicture& on)
-      : PanelPicture(on), structure_(frame_.get<FrameStructure>()), bodies_(by_id(frame_.bodies)) {
+  explicit GridView(const PanelPicture& on) : PanelPicture(on) {
     levels_.resize(structure_.grid_levels.size());
     std::vector<std::size_t> level(frame_.nodes.size());
     for (std::size_t i = 1; i < frame_.nodes.size(); ++i) {
@@ -196,8 +195,8 @@ class GridView : PanelPicture {
     panel_.hi.y -= kGridHeading;
   }
 
-  const FrameStructure& structure_;
-  BodiesById bodies_;
+  const FrameStructure& structure_ = frame_.get<FrameStructure>();
+  BodiesById bodies_ = by_id(frame_.bodies);
   std::vector<CellsOfSlot> levels_;
   const FrameNode* large_ = nullptr;
   Vec<2> slot_{0.0};  // its size

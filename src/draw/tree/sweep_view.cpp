@@ -38,12 +38,7 @@ std::vector<const FrameBody*> swept(const Frame& frame) {
 
 class SweepView : PanelPicture {
  public:
-  explicit SweepView(const PanelPicture& on)
-      : PanelPicture(on),
-        axis_(frame_.get<FrameStructure>().sweep_axis),
-        order_(swept(frame_)),
-        all_(order_.size()),
-        area_(panel_.lo + Vec<2>(0, kSweepHeading), panel_.hi - Vec<2>(16, kSweepAxis)) {
+  explicit SweepView(const PanelPicture& on) : PanelPicture(on) {
     const auto most = static_cast<std::size_t>(std::max(1.0, area_.size().y / kLeastBand));
     if (all_ > most) order_.resize(most);
     row_ = std::min(kMostBand,
@@ -149,10 +144,11 @@ class SweepView : PanelPicture {
                 {{{area_.lo.x + 0.27 * area_.size().x, below}, 0.5}}, kQuiet);
   }
 
-  int axis_;
-  std::vector<const FrameBody*> order_;  // as many as have room
-  std::size_t all_;
-  Box<2> area_;  // of the intervals
+  int axis_ = frame_.get<FrameStructure>().sweep_axis;
+  std::vector<const FrameBody*> order_ = swept(frame_);  // as many as have room
+  std::size_t all_ = order_.size();
+  // Of the intervals.
+  Box<2> area_{panel_.lo + Vec<2>(0, kSweepHeading), panel_.hi - Vec<2>(16, kSweepAxis)};
   double row_ = kLeastBand;
   double numbers_ = 0;  // width, with the gap behind them
   std::map<BodyId, std::size_t> row_of_;

@@ -14,9 +14,7 @@ namespace {
 class TreeView : PanelPicture {
  public:
   TreeView(const PanelPicture& on, const UnionTree& tree, const TreeStage& stage)
-      : PanelPicture(on),
-        layout_(lay_out_tree(frame_, tree, stage)),
-        bodies_(by_id(frame_.bodies)) {
+      : PanelPicture(on), layout_(lay_out_tree(frame_, tree, stage)) {
     for (const Branch& branch : branches())  // rows come in order
       if (branch.row == says_holds_.size()) says_holds_.push_back(has_room_for_holds(branch.row));
   }
@@ -325,7 +323,7 @@ class TreeView : PanelPicture {
 
   TreeLayout layout_;
   std::vector<bool> says_holds_;  // by row
-  BodiesById bodies_;
+  BodiesById bodies_ = by_id(frame_.bodies);
 };
 
 }  // namespace

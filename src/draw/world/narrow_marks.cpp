@@ -121,15 +121,12 @@ class SeparationMarks {
  public:
   SeparationMarks(const Frame& frame, const FrameBody& a, const FrameBody& b, const View2D& map,
                   DrawList& list, Labels& labels)
-      : separation_(*frame.find<FrameSeparation>()),
+      : separation_(frame.get<FrameSeparation>()),
         a_(a),
         b_(b),
         map_(map),
         list_(list),
-        labels_(labels),
-        pen_(list, map.panel()),
-        outline_(outline_on_page(a, map)),
-        outline_b_(outline_on_page(b, map)) {
+        labels_(labels) {
     outline_.insert(outline_.end(), outline_b_.begin(), outline_b_.end());
   }
 
@@ -233,8 +230,9 @@ class SeparationMarks {
   const View2D& map_;
   DrawList& list_;
   Labels& labels_;
-  Pen pen_;
-  std::vector<Vec<2>> outline_, outline_b_;  // of both; of the second
+  Pen pen_{list_, map_.panel()};
+  std::vector<Vec<2>> outline_ = outline_on_page(a_, map_);    // of both
+  std::vector<Vec<2>> outline_b_ = outline_on_page(b_, map_);  // of the second
   // Of the axis that is being drawn, on the page.
   const FrameAxis* axis_ = nullptr;
   Vec<2> along_{0.0}, side_{0.0};

@@ -89,10 +89,7 @@ void merge(std::vector<Edge> on_line, std::vector<Edge>& merged) {
 
 class Edges {
  public:
-  Edges(const View3D& view, bool may_sleep)
-      : view_(view),
-        may_sleep_(may_sleep),
-        grain_(std::ldexp(1.0, static_cast<int>(std::ceil(geometry::log2(view.size()))) - 32)) {}
+  Edges(const View3D& view, bool may_sleep) : view_(view), may_sleep_(may_sleep) {}
 
   // The twelve edges of a cell. In a column's cell those at the top are left out,
   // unless it is lit.
@@ -157,7 +154,7 @@ class Edges {
 
   const View3D& view_;
   bool may_sleep_;
-  double grain_;
+  double grain_ = std::ldexp(1.0, int(std::ceil(geometry::log2(view_.size()))) - 32);
   std::vector<Edge> edges_;
 };
 
