@@ -129,7 +129,7 @@ template <int D>
 struct ScanTask {
   const BoxTable<D>& queries;
   const BoxTable<D>& table;
-  std::span<const Item<D>> exact;
+  std::span<const Box<D>> exact;
   std::span<const ScanRun> runs;
 };
 
@@ -182,7 +182,8 @@ class FoundPairs {
 };
 
 // Adds (id of the query, id of the place) for each place of each run whose box overlaps the
-// query's, in the order of runs and places. `exact[id]` is the body with that id, in both tables.
+// query's, in the order of runs and places. `exact[id]` is the box of the body with that id, in
+// both tables.
 template <int D>
 void scan(const ScanTask<D>& task, FoundPairs& found);
 
@@ -190,7 +191,7 @@ void scan(const ScanTask<D>& task, FoundPairs& found);
 template <int D>
 class RunScanner {
  public:
-  RunScanner(const BoxTable<D>& queries, const BoxTable<D>& table, std::span<const Item<D>> exact,
+  RunScanner(const BoxTable<D>& queries, const BoxTable<D>& table, std::span<const Box<D>> exact,
              FoundPairs& found)
       : queries_(queries), table_(table), exact_(exact), found_(found) {
     // For one thread as many as stay in its nearest cache, for several enough to share out.
@@ -216,7 +217,7 @@ class RunScanner {
  private:
   const BoxTable<D>& queries_;
   const BoxTable<D>& table_;
-  std::span<const Item<D>> exact_;
+  std::span<const Box<D>> exact_;
   FoundPairs& found_;
   std::size_t count_ = 0;
   std::uint64_t compared_ = 0;

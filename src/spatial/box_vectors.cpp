@@ -68,11 +68,11 @@ std::size_t OneRun(const ScanTask<D>& task, const ScanRun& run, const ScanRoom& 
     auto maybe = hn::FirstN(floats, run.to - at), surely = maybe;
     look.at(task.table, at, maybe, surely);
     if (HWY_UNLIKELY(!hn::AllFalse(floats, hn::AndNot(surely, maybe)))) {
-      const Box<D>& box = task.exact[asking].box;
+      const Box<D>& box = task.exact[asking];
       for (std::size_t place = at; place < run.to && place < at + lanes; ++place) {
         room.first[pairs] = asking;
         room.second[pairs] = ids[place];
-        pairs += overlap(box, task.exact[ids[place]].box);
+        pairs += overlap(box, task.exact[ids[place]]);
       }
       continue;
     }

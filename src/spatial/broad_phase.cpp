@@ -120,11 +120,10 @@ void BroadPhase<D>::take(std::span<const Proxy<D>> proxies) {
 template <int D>
 void BroadPhase<D>::set(Store& store, std::size_t place, const Proxy<D>& proxy) {
   if (is_in(store, place, proxy)) return;
-  Item<D>& item = store.items[place];
   const ProxyState state{proxy.is_static, proxy.awake};
-  const bool moves = !(item.box == proxy.box);
+  const bool moves = !(store.boxes[place] == proxy.box);
   found_all_ = false;
-  item.box = proxy.box;
+  store.boxes[place] = proxy.box;
   store.states[place] = state;
   if (moves) {
     store.only_moved |= store.stands;
@@ -133,8 +132,8 @@ void BroadPhase<D>::set(Store& store, std::size_t place, const Proxy<D>& proxy) 
   if (!resting_ || &store != &dynamic_ || state.stirs()) return;
   // Where it was before it is in the tree still: of too many of these it is built anew.
   auto tree = std::move(resting_);
-  if (++put_to_rest_ > 64 + store.items.size() / 2) return;
-  tree->insert(item);
+  if (++put_to_rest_ > 64 + store.boxes.size() / 2) return;
+  tree->insert({static_cast<BodyId>(place), proxy.box});
   resting_ = std::move(tree);
 }
 
@@ -172,12 +171,12 @@ void BroadPhase<D>::replace(std::span<const Proxy<D>> proxies) {
     for (std::uint32_t rank = 0; rank < proxies.size(); ++rank) {
       const Proxy<D>& proxy = proxies[rank];
       if (&store_for(proxy) != store) continue;
-      fresh_.items.push_back({static_cast<BodyId>(fresh_.items.size()), proxy.box});
+      fresh_.boxes.push_back(proxy.box);
       fresh_.names.push_back(proxy.id);
       fresh_.states.push_back({proxy.is_static, proxy.awake});
       store->ranks.push_back(rank);
     }
-    const bool same = fresh_.items == store->items && fresh_.names == store->names;
+    const bool same = fresh_.boxes == store->boxes && fresh_.names == store->names;
     found_all_ = found_all_ && same && fresh_.states == store->states;
     store->only_moved = false;
     store->stands = store->stands && same;
@@ -206,17 +205,17 @@ void BroadPhase<D>::build(Store& store, Use use, const Watch& watch) {
   // A structure that can go on from where its bodies were is not built anew.
   if (store.only_moved) {
     store.stands = true;  // for who looks meanwhile: each body that is in it has its name
-    store.stands = store.structure->update(store.items, naming(store, watch));
+    store.stands = store.structure->update(store.boxes, naming(store, watch));
     if (store.stands) return;
   }
-  if (config_.in_proportion && store.items.size() > store.room) {
-    store.room = std::bit_ceil(store.items.size());
+  if (config_.in_proportion && store.boxes.size() > store.room) {
+    store.room = std::bit_ceil(store.boxes.size());
     store.settings.max_depth = config_.max_depth;
     make_anew(store);
   }
   for (;;) {
     try {
-      with_names(store, [&] { store.structure->build(store.items, config_.build); });
+      with_names(store, [&] { store.structure->build(store.boxes, config_.build); });
       break;
     } catch (const Refused&) {
       if (!config_.in_proportion || store.settings.max_depth == 0) throw;
@@ -233,12 +232,12 @@ void BroadPhase<D>::build(Store& store, Use use, const Watch& watch) {
 template <int D>
 void BroadPhase<D>::choose(Store& store, Use use) {
   constexpr double kFew = 16;  // comparisons of a body that are of no concern
-  const std::size_t bodies = store.items.size();
+  const std::size_t bodies = store.boxes.size();
   if (store.kind != StructureKind::automatic && store.chosen_use == use &&
       bodies <= 2 * store.chosen_for && 2 * bodies >= store.chosen_for &&
       store.tests <= 2 * store.chosen_tests + kFew)
     return;
-  StructureChoice<D> choice = choose_structure<D>(store.items, config_, use);
+  StructureChoice<D> choice = choose_structure<D>(store.boxes, config_, use);
   store.chosen_use = use;
   store.chosen_for = bodies;
   store.tests = store.chosen_tests = 0;
@@ -290,8 +289,8 @@ void BroadPhase<D>::insert(std::span<const Proxy<D>> proxies, const Watch& watch
 // Into the structure, too, if that takes one after another; else that no longer stands.
 template <int D>
 void BroadPhase<D>::put(Store& store, const Proxy<D>& proxy, const Watch& watch) {
-  const Item<D> item{static_cast<BodyId>(store.items.size()), proxy.box};
-  store.items.push_back(item);
+  const Item<D> item{static_cast<BodyId>(store.boxes.size()), proxy.box};
+  store.boxes.push_back(proxy.box);
   store.names.push_back(proxy.id);
   store.states.push_back({proxy.is_static, proxy.awake});
   store.ranks.push_back(static_cast<std::uint32_t>(all_names_.size()));
@@ -319,7 +318,7 @@ void BroadPhase<D>::with_names(const Store& store, F&& f) {
 
 template <int D>
 void BroadPhase<D>::empty(Store& store) {
-  store.stands = store.items.empty();
+  store.stands = store.boxes.empty();
   store.only_moved = false;
   store.structure->clear();
 }
@@ -331,7 +330,7 @@ void BroadPhase<D>::begin_search(const Bodies& bodies) {
   counters_.pair_tests = counters_.nodes_visited = 0;
   counters_.nodes_skipped_asleep = counters_.nodes_reused = 0;
   pairs_.clear();
-  search_->begin(bodies.items, bodies.states);
+  search_->begin(bodies.boxes, bodies.states);
   search_->found.set_threads(config_.threads);
   found_names_ = bodies.names;
   search_->found.ask_before_growing(
@@ -378,12 +377,12 @@ void BroadPhase<D>::order_pairs() {
 // Each awake body asks the static structure.
 template <int D>
 void BroadPhase<D>::pair_static() {
-  if (static_.items.empty()) return;
+  if (static_.boxes.empty()) return;
   // What was found among dynamic bodies is named by their ranks among all from now on.
   for (BodyId& place : search_->found.first()) place = dynamic_.ranks[place];
   for (BodyId& place : search_->found.second()) place = dynamic_.ranks[place];
   found_names_ = all_names_;
-  for (std::size_t i = 0; i < dynamic_.items.size(); ++i)
+  for (std::size_t i = 0; i < dynamic_.boxes.size(); ++i)
     if (dynamic_.states[i].stirs()) ask(*static_.structure, static_, i);
 }
 
@@ -391,14 +390,13 @@ void BroadPhase<D>::pair_static() {
 template <int D>
 void BroadPhase<D>::ask(const Structure<D>& structure, const Store& others, std::size_t place) {
   stop_if_asked();
-  const Box<D>& box = dynamic_.items[place].box;
+  const Box<D>& box = dynamic_.boxes[place];
   ids_.clear();
   structure.near(box, ids_);
   for (const BodyId j : ids_) {
     if (others.states[j].stirs()) continue;
     ++counters_.pair_tests;
-    if (overlap(box, others.items[j].box))
-      search_->found.add(dynamic_.ranks[place], others.ranks[j]);
+    if (overlap(box, others.boxes[j])) search_->found.add(dynamic_.ranks[place], others.ranks[j]);
   }
 }
 
@@ -406,7 +404,7 @@ template <int D>
 bool BroadPhase<D>::each_asks_alone() const {
   constexpr std::size_t kMany = 64, kFew = 8;
   const StructureTraits& traits = traits_of(config_.kind);
-  const std::size_t all = dynamic_.items.size();
+  const std::size_t all = dynamic_.boxes.size();
   return all >= kMany && kFew * stirring_.size() <= all && !traits.follows && !traits.is_own &&
          !traits.has(Setting::axis);
 }
@@ -414,25 +412,24 @@ bool BroadPhase<D>::each_asks_alone() const {
 // Those that stir among themselves, then each with what rests.
 template <int D>
 void BroadPhase<D>::find_pairs_of_few() {
-  const auto gather = [&](std::size_t place, BodyId id) {
-    fresh_.items.push_back({id, dynamic_.items[place].box});
-    fresh_.names.push_back(dynamic_.names[place]);
-    fresh_.states.push_back(dynamic_.states[place]);
-  };
   if (!few_) few_ = make_structure<D>(StructureKind::aabb_tree);
   if (!resting_) {
-    fresh_.clear();
-    for (std::size_t i = 0; i < dynamic_.items.size(); ++i)
-      if (!dynamic_.states[i].stirs()) gather(i, static_cast<BodyId>(i));
+    KeptItems<D> still;
+    for (std::uint32_t i = 0; i < dynamic_.boxes.size(); ++i)
+      if (!dynamic_.states[i].stirs()) still.push_back({i, dynamic_.boxes[i]});
     auto tree = make_structure<D>(StructureKind::aabb_tree);
-    tree->build(fresh_.items, Build::at_once);
+    tree->build(still, Build::at_once);
     resting_ = std::move(tree);
     put_to_rest_ = 0;
   }
   fresh_.clear();
-  for (const std::size_t place : stirring_) gather(place, static_cast<BodyId>(fresh_.items.size()));
+  for (const std::size_t place : stirring_) {
+    fresh_.boxes.push_back(dynamic_.boxes[place]);
+    fresh_.names.push_back(dynamic_.names[place]);
+    fresh_.states.push_back(dynamic_.states[place]);
+  }
   begin_search(fresh_);
-  few_->build(fresh_.items, Build::at_once);
+  few_->build(fresh_.boxes, Build::at_once);
   few_->pair(*search_);
   counters_.pair_tests = search_->tests;
   FoundPairs& found = search_->found;
@@ -483,7 +480,7 @@ template <int D>
 std::optional<Box<D>> BroadPhase<D>::box_of(BodyId id) const {
   std::size_t place = 0;
   const Store* store = store_of(id, place);
-  return store ? std::optional(store->items[place].box) : std::nullopt;
+  return store ? std::optional(store->boxes[place]) : std::nullopt;
 }
 
 template <int D>

@@ -23,8 +23,8 @@ enum class Use {
 // The kind and the settings that are likely to serve these bodies soonest. Depends on the boxes
 // alone; looks at each body once, and at a sample of some thousand pairs.
 template <int D>
-StructureChoice<D> choose_structure(std::span<const Item<D>> items,
-                                    const StructureConfig<D>& config, Use use = Use::pairs);
+StructureChoice<D> choose_structure(Items<D> items, const StructureConfig<D>& config,
+                                    Use use = Use::pairs);
 
 // What the broad phase knows of a body.
 template <int D>
@@ -133,15 +133,15 @@ class BroadPhase {
  private:
   // Bodies, by id. A structure knows them by their places in these lists.
   struct Bodies {
-    std::vector<Item<D>> items = {};  // their ids are their places
+    std::vector<Box<D>> boxes = {};
     std::vector<BodyId> names = {};
     std::vector<ProxyState> states = {};
     void clear() {
-      items.clear();
+      boxes.clear();
       names.clear();
       states.clear();
     }
-    std::size_t places() const { return items.capacity() + names.capacity() + states.capacity(); }
+    std::size_t places() const { return boxes.capacity() + names.capacity() + states.capacity(); }
   };
   // A structure and its bodies.
   struct Store : Bodies {
@@ -161,7 +161,7 @@ class BroadPhase {
 
   static StructureView<D> view_of(const Store& store) {
     if (!store.stands) return *store.structure;
-    return {*store.structure, store.names, store.items};
+    return {*store.structure, store.names, store.boxes};
   }
   std::array<Store*, 2> stores() { return {&static_, &dynamic_}; }
   std::array<const Store*, 2> stores() const { return {&static_, &dynamic_}; }
@@ -176,7 +176,7 @@ class BroadPhase {
   void all_or_nothing(F&& change);
   void take(std::span<const Proxy<D>> proxies);
   static bool is_in(const Store& store, std::size_t place, const Proxy<D>& proxy) {
-    return store.items[place].box == proxy.box &&
+    return store.boxes[place] == proxy.box &&
            store.states[place] == ProxyState{proxy.is_static, proxy.awake};
   }
   void set(Store& store, std::size_t place, const Proxy<D>& proxy);

@@ -51,9 +51,10 @@ class PairSearch {
   std::uint64_t nodes_visited = 0;  // while pairing
   std::uint64_t nodes_skipped = 0;  // whole branches in which all sleep, each counted once
 
-  // From now on it is about these bodies, whose ids are their places. Nothing is found yet.
-  void begin(std::span<const Item<D>> bodies, std::span<const ProxyState> states) {
-    bodies_ = bodies;
+  // From now on it is about the bodies of these boxes, whose ids are their places. Nothing is found
+  // yet.
+  void begin(std::span<const Box<D>> boxes, std::span<const ProxyState> states) {
+    boxes_ = boxes;
     states_ = states;
     stirring_ =
         static_cast<std::size_t>(std::ranges::count_if(states, std::mem_fn(&ProxyState::stirs)));
@@ -85,11 +86,11 @@ class PairSearch {
   void by_itself(Tree& tree) {
     nodes_visited = tree.work().nodes;
     constexpr std::size_t kFew = 8;
-    if (stirring_ == bodies_.size() || kFew * stirring_ > bodies_.size()) {
-      tests += tree.find_pairs(bodies_, found);
+    if (stirring_ == boxes_.size() || kFew * stirring_ > boxes_.size()) {
+      tests += tree.find_pairs(boxes_, found);
       drop_still_pairs();
     } else {
-      for (std::uint32_t i = 0; i < bodies_.size(); ++i)
+      for (std::uint32_t i = 0; i < boxes_.size(); ++i)
         if (states_[i].stirs()) ask(tree, i);
     }
   }
@@ -103,20 +104,20 @@ class PairSearch {
   template <class Tree>
   void ask(const Tree& tree, std::uint32_t place) {
     stop_if_asked();
-    const Box<D>& box = bodies_[place].box;
+    const Box<D>& box = boxes_[place];
     ids_.clear();
     tree.near(box, ids_);
     for (const BodyId other : ids_) {
       if (other == place || (other < place && states_[other].stirs())) continue;
       ++tests;
-      if (overlap(box, bodies_[other].box)) found.add(place, other);
+      if (overlap(box, boxes_[other])) found.add(place, other);
     }
   }
 
   // Each that stirs with all behind it; those that do not stand last.
   void pair_bodies(std::span<const BodyId> bodies) {
     std::size_t stirring = bodies.size();
-    if (stirring_ < bodies_.size()) {
+    if (stirring_ < boxes_.size()) {
       const auto stirs = [&](BodyId i) { return states_[i].stirs(); };
       here_.assign(bodies.begin(), bodies.end());
       stirring -= std::ranges::partition(here_, stirs).size();
@@ -127,20 +128,19 @@ class PairSearch {
     if (bodies.size() <= kFew) {
       for (std::size_t i = 0; i < stirring; ++i)
         for (std::size_t j = i + 1; j < bodies.size(); ++j)
-          if (overlap(bodies_[bodies[i]].box, bodies_[bodies[j]].box))
-            found.add(bodies[i], bodies[j]);
+          if (overlap(boxes_[bodies[i]], boxes_[bodies[j]])) found.add(bodies[i], bodies[j]);
       return;
     }
     leaf_.resize(bodies.size());
-    for (std::size_t i = 0; i < bodies.size(); ++i) leaf_.set(i, bodies[i], bodies_[bodies[i]].box);
-    RunScanner<D> runs(leaf_, leaf_, bodies_, found);
+    for (std::size_t i = 0; i < bodies.size(); ++i) leaf_.set(i, bodies[i], boxes_[bodies[i]]);
+    RunScanner<D> runs(leaf_, leaf_, boxes_, found);
     const auto end = static_cast<std::uint32_t>(bodies.size());
     for (std::uint32_t i = 0; i < stirring; ++i) runs.add(i, i + 1, end);
     runs.finish();
   }
 
   void drop_still_pairs() {
-    if (stirring_ == bodies_.size()) return;
+    if (stirring_ == boxes_.size()) return;
     const std::span<BodyId> first = found.first(), second = found.second();
     std::size_t size = 0;
     for (std::size_t i = 0; i < found.size(); ++i) {
@@ -151,7 +151,7 @@ class PairSearch {
     found.resize(size);
   }
 
-  std::span<const Item<D>> bodies_;
+  std::span<const Box<D>> boxes_;
   std::span<const ProxyState> states_;
   std::size_t stirring_ = 0;
 

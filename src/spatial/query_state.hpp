@@ -117,13 +117,13 @@ struct QueryOf {
   QueryWatch told;  // none: nobody is told
   QueryCounts counts = {};
 
-  Box<D> box(BodyId id) const { return box_of ? box_of(view.name(id)) : view.bodies[id].box; }
+  Box<D> box(BodyId id) const { return box_of ? box_of(view.name(id)) : view.boxes[id]; }
   // Its box will soon be asked for: bodies that lie side by side in a tree lie anywhere in memory,
   // and to wait for one after another would take longer than all else.
   void fetch(BodyId id) const {
     if (box_of) return;
-    __builtin_prefetch(&view.bodies[id].box.lo);
-    __builtin_prefetch(&view.bodies[id].box.hi[D - 1]);
+    __builtin_prefetch(&view.boxes[id].lo);
+    __builtin_prefetch(&view.boxes[id].hi[D - 1]);
   }
   void tell(QueryEvent::Kind kind, NodeHandle node, BodyId id = 0) const {
     if (told) told(QueryEvent{kind, node, id});

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <compare>
+#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -34,6 +35,64 @@ struct Item {
   BodyId id = 0;
   Box<D> box;
   bool operator==(const Item&) const = default;
+};
+
+// Bodies in a row: items, or boxes whose ids stand beside them or, if none do, are their places.
+template <int D>
+class Items {
+ public:
+  Items() = default;
+  template <std::convertible_to<std::span<const Item<D>>> Row>
+  Items(const Row& items) : items_(items) {}
+  template <std::convertible_to<std::span<const Box<D>>> Row>
+  Items(const Row& boxes, std::span<const BodyId> ids = {}) : boxes_(boxes), ids_(ids) {}
+
+  std::size_t size() const { return items_.size() + boxes_.size(); }
+  bool empty() const { return size() == 0; }
+  const Box<D>& box(std::size_t i) const { return items_.empty() ? boxes_[i] : items_[i].box; }
+  BodyId id(std::size_t i) const {
+    if (!items_.empty()) return items_[i].id;
+    return ids_.empty() ? static_cast<BodyId>(i) : ids_[i];
+  }
+  Item<D> operator[](std::size_t i) const { return {id(i), box(i)}; }
+
+  struct Place {
+    const Items& items;
+    std::size_t i;
+    Item<D> operator*() const { return items[i]; }
+    void operator++() { ++i; }
+    bool operator!=(const Place& other) const { return i != other.i; }
+  };
+  Place begin() const { return {*this, 0}; }
+  Place end() const { return {*this, size()}; }
+
+ private:
+  std::span<const Item<D>> items_;
+  std::span<const Box<D>> boxes_;
+  std::span<const BodyId> ids_;
+};
+
+// Such a row that is kept, ids only if they are not their places.
+template <int D>
+struct KeptItems {
+  std::vector<Box<D>> boxes = {};
+  std::vector<BodyId> ids = {};
+
+  void clear() {
+    boxes.clear();
+    ids.clear();
+  }
+  void push_back(const Item<D>& item) {
+    if (!ids.empty() || item.id != boxes.size()) {
+      while (ids.size() < boxes.size()) ids.push_back(static_cast<BodyId>(ids.size()));
+      ids.push_back(item.id);
+    }
+    boxes.push_back(item.box);
+  }
+  BodyId id(std::size_t i) const { return ids.empty() ? static_cast<BodyId>(i) : ids[i]; }
+  std::size_t places() const { return boxes.capacity() + ids.capacity(); }
+  bool operator==(const KeptItems&) const = default;
+  operator Items<D>() const { return {boxes, ids}; }
 };
 
 // Throws Refused, naming the body, unless its box is finite and nowhere inverted.
@@ -230,10 +289,10 @@ class Structure {
   virtual bool insert(const Item<D>& item, const EventWatch& watch = {}) = 0;
   // That of these items, instead of what was there; memory is used again. Ids ascend. A structure
   // that can do only one of these does it that way. Throws as `insert` does.
-  virtual void build(std::span<const Item<D>> items, Build way = Build::one_by_one) = 0;
+  virtual void build(Items<D> items, Build way = Build::one_by_one) = 0;
   // Goes on from where its bodies were: the same, in the same order, in other places; tells `watch`
   // what it does to follow them. False, and nothing is done, if it cannot.
-  virtual bool update(std::span<const Item<D>>, const EventWatch& = {}) { return false; }
+  virtual bool update(Items<D>, const EventWatch& = {}) { return false; }
   // Forgets the items, keeps the memory.
   virtual void clear() = 0;
   // What insertions that nobody watched leave to be done: of one that sorts before it is asked; and
@@ -286,12 +345,12 @@ struct StructureView {
   // If its bodies are numbered from 0: what they are called instead, in ascending order, and their
   // boxes. Else they have the ids that it was given.
   std::span<const BodyId> names = {};
-  std::span<const Item<D>> bodies = {};
+  std::span<const Box<D>> boxes = {};
 
   StructureView(const Structure<D>& s) : structure(&s) {}
   StructureView(const Structure<D>& s, std::span<const BodyId> their_names,
-                std::span<const Item<D>> their_boxes)
-      : structure(&s), names(their_names), bodies(their_boxes) {}
+                std::span<const Box<D>> their_boxes)
+      : structure(&s), names(their_names), boxes(their_boxes) {}
 
   BodyId name(BodyId id) const { return names.empty() ? id : names[id]; }
   void visit(NodeLook<D> f, const Vec<D>& toward = Vec<D>(0.0)) const {

@@ -52,7 +52,7 @@ class StructureOf : public Structure<D> {
     return false;
   }
 
-  void build(std::span<const Item<D>> items, Build way = Build::one_by_one) final {
+  void build(Items<D> items, Build way = Build::one_by_one) final {
     NoObserver nobody;
     constexpr bool one_by_one = requires { tree().add(Item<D>(), nobody); };
     constexpr bool at_once = requires { tree().make(items); };
@@ -79,7 +79,7 @@ class StructureOf : public Structure<D> {
   void ask(NearestQuery<D>& query) const final { walk_around<D>(tree(), query); }
 
   void pair(PairSearch<D>& search) final {
-    if constexpr (requires { tree().find_pairs(std::span<const Item<D>>(), search.found); })
+    if constexpr (requires { tree().find_pairs(std::span<const Box<D>>(), search.found); })
       search.by_itself(tree());
     else
       search.in_leaves(tree());
@@ -146,9 +146,7 @@ class Upright final : public StructureOf<Upright<Flat>, 3> {
   void add(const Item<3>& item, Observer&& observer) {
     flat_.add({item.id, seen_from_above(item.box)}, observer);
   }
-  void make(std::span<const Item<3>> items) requires requires(Flat& flat) {
-    flat.make(std::span<const Item<2>>());
-  }
+  void make(Items<3> items) requires requires(Flat& flat) { flat.make(Items<2>()); }
   {
     flat_items_.clear();
     for (const Item<3>& item : items) {

@@ -30,7 +30,7 @@ constexpr double kPart = 60, kPutInOrder = 4.5;
 
 // Of a sample of pairs: which share overlaps.
 template <int D>
-double share_of_overlaps(std::span<const Item<D>> items) {
+double share_of_overlaps(Items<D> items) {
   constexpr std::size_t kSamples = 2000;
   if (items.size() < 2) return 0;
   std::size_t tested = 0, overlaps = 0;
@@ -43,7 +43,7 @@ double share_of_overlaps(std::span<const Item<D>> items) {
     const std::size_t a = any(), b = any();
     if (a == b) continue;
     ++tested;
-    overlaps += overlap(items[a].box, items[b].box);
+    overlaps += overlap(items.box(a), items.box(b));
   }
   return static_cast<double>(overlaps) / static_cast<double>(tested);
 }
@@ -57,7 +57,7 @@ bool reaches_without_end(const Box<D>& box) {
 
 // The longest side of each body that has one, in order.
 template <int D>
-std::vector<double> sizes_of(std::span<const Item<D>> items) {
+std::vector<double> sizes_of(Items<D> items) {
   std::vector<double> sizes;
   for (const Item<D>& item : items)
     if (!reaches_without_end(item.box)) sizes.push_back(extent_of(item.box));
@@ -66,7 +66,7 @@ std::vector<double> sizes_of(std::span<const Item<D>> items) {
 }
 
 template <int D>
-Box<D> around_all(std::span<const Item<D>> items) {
+Box<D> around_all(Items<D> items) {
   std::optional<Box<D>> all;
   for (const Item<D>& item : items)
     if (!reaches_without_end(item.box)) all = all ? united(*all, item.box) : item.box;
@@ -82,7 +82,7 @@ std::string percent(double share) {
 template <int D>
 PairChain BroadPhase<D>::pair_chain(FunctionRef<bool(BodyId)> awake, std::uint64_t most) const {
   std::vector<bool> stirring;
-  for (std::size_t i = 0; i < dynamic_.items.size(); ++i)
+  for (std::size_t i = 0; i < dynamic_.boxes.size(); ++i)
     stirring.push_back(!dynamic_.states[i].is_static && awake(dynamic_.names[i]));
   struct Met {
     Pair pair;
@@ -93,8 +93,7 @@ PairChain BroadPhase<D>::pair_chain(FunctionRef<bool(BodyId)> awake, std::uint64
   const auto meet = [&](BodyId i, const Store& store, BodyId j) {
     require_within(++chain.met, most);
     const BodyId a = dynamic_.names[i], b = store.names[j];
-    met.push_back(
-        {{std::min(a, b), std::max(a, b)}, overlap(dynamic_.items[i].box, store.items[j].box)});
+    met.push_back({{std::min(a, b), std::max(a, b)}, overlap(dynamic_.boxes[i], store.boxes[j])});
   };
   // What sorts its bodies before it is asked does so in a copy, and stays as it is.
   const auto dynamic_copy = dynamic_.structure->sorted(), static_copy = static_.structure->sorted();
@@ -102,9 +101,9 @@ PairChain BroadPhase<D>::pair_chain(FunctionRef<bool(BodyId)> awake, std::uint64
   const Structure<D>& of_static = static_copy ? *static_copy : *static_.structure;
   chain.besides = of_dynamic.compare([&](BodyId i) -> bool { return stirring[i]; },
                                      [&](BodyId i, BodyId j) { meet(i, dynamic_, j); });
-  for (std::uint32_t i = 0; i < stirring.size() && !static_.items.empty(); ++i) {
+  for (std::uint32_t i = 0; i < stirring.size() && !static_.boxes.empty(); ++i) {
     std::vector<BodyId> near;
-    if (stirring[i]) chain.besides += of_static.near(dynamic_.items[i].box, near);
+    if (stirring[i]) chain.besides += of_static.near(dynamic_.boxes[i], near);
     for (const BodyId j : near) meet(i, static_, j);
   }
   std::ranges::sort(met, [](const Met& x, const Met& y) {
@@ -158,8 +157,7 @@ template StructureWork structure_work(BroadPhaseConfig<3>, std::span<const Proxy
                                       std::span<const Proxy<3>>, std::uint64_t);
 
 template <int D>
-StructureChoice<D> choose_structure(std::span<const Item<D>> items,
-                                    const StructureConfig<D>& config, Use use) {
+StructureChoice<D> choose_structure(Items<D> items, const StructureConfig<D>& config, Use use) {
   StructureChoice<D> choice;
   choice.config = config;
   if (use == Use::questions) {
@@ -188,9 +186,7 @@ StructureChoice<D> choose_structure(std::span<const Item<D>> items,
   return choice;
 }
 
-template StructureChoice<2> choose_structure(std::span<const Item<2>>, const StructureConfig<2>&,
-                                             Use);
-template StructureChoice<3> choose_structure(std::span<const Item<3>>, const StructureConfig<3>&,
-                                             Use);
+template StructureChoice<2> choose_structure(Items<2>, const StructureConfig<2>&, Use);
+template StructureChoice<3> choose_structure(Items<3>, const StructureConfig<3>&, Use);
 
 }  // namespace lantern::spatial

@@ -76,7 +76,7 @@ void expect_sound(const AabbTree<D>& tree, const std::vector<Item<D>>& items) {
 template <int D>
 std::vector<Pair> paired(AabbTree<D>& tree, const std::vector<Item<D>>& exact) {
   FoundPairs found;
-  tree.find_pairs(exact, found);
+  tree.find_pairs(testing::boxes_of(exact), found);
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < found.size(); ++i)
     pairs.push_back({std::min(found.first()[i], found.second()[i]),

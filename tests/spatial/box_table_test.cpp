@@ -13,26 +13,26 @@ using Limits = std::numeric_limits<double>;
 
 // What runs of all with all find, by hand.
 template <int D>
-std::vector<Pair> by_force(const std::vector<Item<D>>& items) {
+std::vector<Pair> by_force(const std::vector<Box<D>>& boxes) {
   std::vector<Pair> pairs;
-  for (std::size_t i = 0; i < items.size(); ++i)
-    for (std::size_t j = i + 1; j < items.size(); ++j)
-      if (overlap(items[i].box, items[j].box))
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    for (std::size_t j = i + 1; j < boxes.size(); ++j)
+      if (overlap(boxes[i], boxes[j]))
         pairs.push_back({static_cast<BodyId>(i), static_cast<BodyId>(j)});
   return pairs;
 }
 
 template <int D>
-std::vector<Pair> scanned(const std::vector<Item<D>>& items) {
+std::vector<Pair> scanned(const std::vector<Box<D>>& boxes) {
   BoxTable<D> table;
-  table.resize(items.size());
-  for (const Item<D>& item : items) table.set(item.id, item.id, item.box);
+  table.resize(boxes.size());
+  for (BodyId id = 0; id < boxes.size(); ++id) table.set(id, id, boxes[id]);
   FoundPairs found;
-  RunScanner<D> runs(table, table, items, found);
-  const auto size = static_cast<std::uint32_t>(items.size());
+  RunScanner<D> runs(table, table, boxes, found);
+  const auto size = static_cast<std::uint32_t>(boxes.size());
   for (std::uint32_t i = 0; i < size; ++i) runs.add(i, i + 1, size);
   runs.finish();
-  EXPECT_EQ(runs.compared(), items.size() * (items.size() - 1) / 2);
+  EXPECT_EQ(runs.compared(), boxes.size() * (boxes.size() - 1) / 2);
   std::vector<Pair> pairs;
   for (std::size_t i = 0; i < found.size(); ++i)
     pairs.push_back({found.first()[i], found.second()[i]});
@@ -44,15 +44,13 @@ void scans_as_by_force(const std::function<double(std::mt19937_64&)>& corner,
                        const std::function<double(std::mt19937_64&)>& extent) {
   std::mt19937_64 random(7);
   for (const BodyId size : {2u, 3u, 15u, 16u, 17u, 70u, 400u}) {
-    std::vector<Item<D>> items(size);
-    for (BodyId i = 0; i < size; ++i) {
-      items[i].id = i;
+    std::vector<Box<D>> boxes(size);
+    for (Box<D>& box : boxes)
       for (int axis = 0; axis < D; ++axis) {
-        items[i].box.lo[axis] = corner(random);
-        items[i].box.hi[axis] = items[i].box.lo[axis] + extent(random);
+        box.lo[axis] = corner(random);
+        box.hi[axis] = box.lo[axis] + extent(random);
       }
-    }
-    EXPECT_EQ(scanned<D>(items), by_force<D>(items)) << size << " boxes";
+    EXPECT_EQ(scanned<D>(boxes), by_force<D>(boxes)) << size << " boxes";
   }
 }
 
@@ -114,16 +112,16 @@ TEST(BoxTable, DecidesInDoubleWhatFloatCannot) {
 }
 
 TEST(BoxTable, AsksBeforeItsListsGrow) {
-  std::vector<Item<2>> items(100);
-  for (BodyId i = 0; i < items.size(); ++i) items[i] = {i, {{0, 0}, {1, 1}}};
+  std::vector<Box<2>> boxes(100);
+  for (BodyId i = 0; i < boxes.size(); ++i) boxes[i] = {{0, 0}, {1, 1}};
   BoxTable<2> table;
-  table.resize(items.size());
-  for (const Item<2>& item : items) table.set(item.id, item.id, item.box);
+  table.resize(boxes.size());
+  for (BodyId id = 0; id < boxes.size(); ++id) table.set(id, id, boxes[id]);
   FoundPairs found;
   found.ask_before_growing([](BodyId, std::size_t pairs) {
     if (pairs > 2000) throw std::length_error("too many");
   });
-  RunScanner<2> runs(table, table, items, found);
+  RunScanner<2> runs(table, table, boxes, found);
   for (std::uint32_t i = 0; i < 100; ++i) runs.add(i, i + 1, 100);
   EXPECT_THROW(runs.finish(), std::length_error);
   EXPECT_LE(found.size(), 2000u);
@@ -131,15 +129,15 @@ TEST(BoxTable, AsksBeforeItsListsGrow) {
 
 // However far back the places lie: room is asked for the length of a run.
 TEST(BoxTable, AShortRunAsksForLittleRoom) {
-  std::vector<Item<2>> items(20'000);
-  for (BodyId i = 0; i < items.size(); ++i) items[i] = {i, {{3.0 * i, 0}, {3.0 * i + 1, 1}}};
+  std::vector<Box<2>> boxes(20'000);
+  for (BodyId i = 0; i < boxes.size(); ++i) boxes[i] = {{3.0 * i, 0}, {3.0 * i + 1, 1}};
   BoxTable<2> table;
-  table.resize(items.size());
-  for (const Item<2>& item : items) table.set(item.id, item.id, item.box);
+  table.resize(boxes.size());
+  for (BodyId id = 0; id < boxes.size(); ++id) table.set(id, id, boxes[id]);
   FoundPairs found;
   found.ask_before_growing(
       [](BodyId, std::size_t pairs) { EXPECT_LT(pairs, 1000u) << "for a run of nine places"; });
-  RunScanner<2> runs(table, table, items, found);
+  RunScanner<2> runs(table, table, boxes, found);
   runs.add(19'990, 19'991, 20'000);
   runs.finish();
   EXPECT_EQ(found.size(), 0u);

@@ -56,7 +56,7 @@ void pairs_are_exact(Sort sort, std::uint64_t seed) {
     const auto items = numbered_world<D>(sort, random);
     grid.make(items);
     FoundPairs found;
-    const std::uint64_t compared = grid.find_pairs(items, found);
+    const std::uint64_t compared = grid.find_pairs(testing::boxes_of(items), found);
     ASSERT_EQ(pairs_in<D>(found), testing::true_overlaps(items))
         << D << "D, sort " << static_cast<int>(sort) << ", seed " << seed;
     std::set<Pair> met;
@@ -106,7 +106,7 @@ TEST(Grid, BodiesThatShareABucketFromAfarAreNoPair) {
     }
     grid.make(items);
     FoundPairs found;
-    EXPECT_LT(grid.find_pairs(items, found), 4000u) << "compared";
+    EXPECT_LT(grid.find_pairs(testing::boxes_of(items), found), 4000u) << "compared";
     EXPECT_EQ(found.size(), 0u);
   }
 }
@@ -371,7 +371,7 @@ TEST(Grid, ChoosesCellsThatSuitItsBodies) {
     EXPECT_GT(grid.arrangement().levels[0].side, 1.3 * size);
     EXPECT_LT(grid.arrangement().levels[0].side, 3 * size);
     FoundPairs found;
-    EXPECT_LT(grid.find_pairs(items, found), 10'000u);
+    EXPECT_LT(grid.find_pairs(testing::boxes_of(items), found), 10'000u);
   }
   std::vector<Item<2>> points;
   for (BodyId id = 0; id < 1000; ++id) {
@@ -407,7 +407,7 @@ TEST(Grid, NothingAndOneAndAllInOnePlace) {
     for (BodyId id = 0; id < 50; ++id) items[id].id = id;
     grid.make(items);
     FoundPairs found;
-    EXPECT_EQ(grid.find_pairs(items, found), 50u * 49 / 2);
+    EXPECT_EQ(grid.find_pairs(testing::boxes_of(items), found), 50u * 49 / 2);
     EXPECT_EQ(found.size(), 50u * 49 / 2);
   }
 }

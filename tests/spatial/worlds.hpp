@@ -132,6 +132,13 @@ void shuffle(std::vector<T>& list, Random& random) {
 }
 
 template <int D>
+std::vector<Box<D>> boxes_of(const std::vector<Item<D>>& items) {
+  std::vector<Box<D>> boxes;
+  for (const Item<D>& item : items) boxes.push_back(item.box);
+  return boxes;
+}
+
+template <int D>
 Box<D> box_of(const std::vector<Item<D>>& items, BodyId id) {
   return std::find_if(items.begin(), items.end(), [&](const auto& i) { return i.id == id; })->box;
 }

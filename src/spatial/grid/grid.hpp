@@ -40,17 +40,17 @@ class SideRule {
     ++histogram_[std::bit_cast<std::uint32_t>(extent) >> kShift];
   }
 
-  // For these items, which were added. Time: O(n), but where sizes differ little the same for any
+  // For these boxes, which were added. Time: O(n), but where sizes differ little the same for any
   // n.
-  double side(std::span<const Item<D>> items) {
-    const double half = quantile(0.5, items.size()), most = quantile(0.95, items.size());
+  double side(std::span<const Box<D>> boxes) {
+    const double half = quantile(0.5, boxes.size()), most = quantile(0.95, boxes.size());
     double side = std::min(1.5 * most, 3 * half);
     if (most > 4 * half || most == 0) {
       // Half of how far apart the bodies are, from where the middle half of them is.
       double volume = 1;
       for (int i = 0; i < D; ++i) {
         room_.clear();
-        for (const Item<D>& item : items) room_.push_back(item.box.lo[i]);
+        for (const Box<D>& box : boxes) room_.push_back(box.lo[i]);
         const auto at = [&](std::size_t place) {
           if (room_.empty()) return 0.0;
           std::nth_element(room_.begin(), room_.begin() + static_cast<std::ptrdiff_t>(place),
@@ -62,7 +62,7 @@ class SideRule {
         volume *= geometry::pow(std::max(2 * (high - low), 0.0), 1.0 / D);
       }
       side = std::max(side,
-                      volume / geometry::pow(static_cast<double>(items.size() + 1), 1.0 / D) / 2);
+                      volume / geometry::pow(static_cast<double>(boxes.size() + 1), 1.0 / D) / 2);
     }
     return side > 0 ? std::clamp(side, 1e-100, 1e100) : 1;
   }
@@ -111,7 +111,9 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
   // Tells make_child, test and store of the cells that the body reaches.
   template <class Observer>
   void add(const Item<D>& item, Observer&& observer) {
-    append(items_, item);
+    const std::size_t places = items_.places();
+    items_.push_back(item);
+    allocations_ += items_.places() != places;
     side_rule_.add(item.box);
     held_ = shown_ = false;
     if constexpr (!std::is_same_v<std::remove_cvref_t<Observer>, NoObserver>) {
@@ -131,12 +133,16 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
   }
 
   // Throws Refused for a box that is not valid, after which it is empty. Time: O(n).
-  void make(std::span<const Item<D>> items) {
+  void make(Items<D> items) {
     clear();
     for (const Item<D>& item : items) require_valid(item);
-    allocations_ += items.size() > items_.capacity();
-    items_.assign(items.begin(), items.end());
-    for (const Item<D>& item : items) side_rule_.add(item.box);
+    const std::size_t places = items_.places();
+    items_.boxes.reserve(items.size());
+    for (const Item<D>& item : items) {
+      items_.push_back(item);
+      side_rule_.add(item.box);
+    }
+    allocations_ += items_.places() != places;
     hold();
   }
 
@@ -151,16 +157,16 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
   void hold() const {
     if (held_) return;
     fit();
-    table_.build(items_, rasters());
-    placed_ += items_.size();
+    table_.build(items_.boxes, rasters());
+    placed_ += items_.boxes.size();
     held_ = true;
   }
 
-  // `exact` are the items, and their ids their places.
-  std::uint64_t find_pairs(std::span<const Item<D>> exact, FoundPairs& found) {
+  // `exact` are the boxes of the items, whose ids are their places.
+  std::uint64_t find_pairs(std::span<const Box<D>> exact, FoundPairs& found) {
     hold();
     RunScanner<D> runs(table_.table(), table_.table(), exact, found);
-    table_.each_run(items_, [&](std::uint32_t asks, std::uint32_t from, std::uint32_t to) {
+    table_.each_run(items_.boxes, [&](std::uint32_t asks, std::uint32_t from, std::uint32_t to) {
       runs.add(asks, from, to);
     });
     runs.finish();
@@ -171,13 +177,13 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
   std::uint64_t meet(FunctionRef<bool(BodyId)> awake, FunctionRef<void(BodyId, BodyId)> f) const {
     hold();
     std::uint64_t rows = 0;
-    table_.each_run(items_, [&](std::uint32_t asks, std::uint32_t from, std::uint32_t to) {
+    table_.each_run(items_.boxes, [&](std::uint32_t asks, std::uint32_t from, std::uint32_t to) {
       stop_if_asked();
       rows += from < to;
-      const BodyId a = items_[table_.table().id(asks)].id;
+      const BodyId a = items_.id(table_.table().id(asks));
       const bool stirs = awake(a);
       for (std::uint32_t place = from; place < to; ++place) {
-        const BodyId b = items_[table_.table().id(place)].id;
+        const BodyId b = items_.id(table_.table().id(place));
         if (stirs || awake(b)) f(a, b);
       }
     });
@@ -198,10 +204,10 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
     table_.each_near(box, [&](std::uint32_t from, std::uint32_t to) {
       ++tests;
       for (std::uint32_t place = from; place < to; ++place) {
-        const Item<D>& item = items_[table_.table().id(place)];
-        const bool is_near = overlap(item.box, box);
+        const std::uint32_t at = table_.table().id(place);
+        const bool is_near = overlap(items_.boxes[at], box);
         tests += !is_near;
-        if (is_near) ids.push_back(item.id);
+        if (is_near) ids.push_back(items_.id(at));
       }
     });
     return tests;
@@ -237,7 +243,7 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
   WalkCounts each_met(const PointProbe<D>& probe, Limit& limit, Soon& soon, F& f) const {
     hold();
     WalkCounts counts;
-    for (double reach = rasters_[0].side(); !items_.empty();) {
+    for (double reach = rasters_[0].side(); !items_.boxes.empty();) {
       table_.each_near({probe.point() - reach, probe.point() + reach},
                        look(probe, limit, soon, f, counts));
       if (limit() <= reach * reach || reach == kInfinity) break;
@@ -268,7 +274,7 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
   Counters work() const override {
     return {.nodes = 1,
             .leaves = 1,
-            .entries = items_.size(),
+            .entries = items_.boxes.size(),
             .box_tests = placed_,
             .allocations = allocations_ + table_.allocations() + cells_.allocations()};
   }
@@ -289,7 +295,7 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
   template <class Probe, class Limit, class Soon, class F>
   auto look(const Probe& probe, Limit& limit, Soon& soon, F& f, WalkCounts& counts) const {
     return [&, back = probe.high_first(0, 0)](std::uint32_t from, std::uint32_t to) {
-      const auto name = [&](std::uint32_t place) { return items_[place].id; };
+      const auto name = [&](std::uint32_t place) { return items_.id(place); };
       const auto told = [&](std::uint32_t place, bool is_sure) { f(name(place), is_sure); };
       const auto told_soon = [&](std::uint32_t place) { soon(name(place)); };
       ++counts.visited;
@@ -314,7 +320,7 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
   // Cells as suit the bodies, where that is left to it.
   void fit() const {
     if (config_.cell != 0) return;
-    const double side = side_rule_.side(items_);
+    const double side = side_rule_.side(items_.boxes);
     if (side == rasters_[0].side()) return;
     cut(side);
     cells_.forget();
@@ -335,7 +341,7 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
   }
 
   StructureConfig<D> config_;
-  std::vector<Item<D>> items_;
+  KeptItems<D> items_;
 
   // Made of the items when they are asked for.
   mutable std::array<GridRaster<D>, kMostLevels> rasters_;

@@ -34,8 +34,8 @@ class GridCells : CountsAllocations {
 
   // At most `most` entries: if there would be more, kMostOfBody is halved until there are not.
   // Since `forget`, items may only have come behind those of the last time, on the same rasters.
-  void make(std::span<const Item<D>> items, std::span<const GridRaster<D>> rasters,
-            const GridTable<D>& table, bool open, std::uint64_t most) {
+  void make(Items<D> items, std::span<const GridRaster<D>> rasters, const GridTable<D>& table,
+            bool open, std::uint64_t most) {
     nodes_.clear();
     bodies_.clear();
     look_how_far(items, rasters, most);
@@ -43,7 +43,7 @@ class GridCells : CountsAllocations {
     const auto before_them = static_cast<std::ptrdiff_t>(entries_.size());
     for (std::uint32_t k = first; k < items.size(); ++k) {
       stop_if_asked();
-      enter(reach_[k], {.id = items[k].id, .item = k}, open ? &table : nullptr, entries_);
+      enter(reach_[k], {.id = items.id(k), .item = k}, open ? &table : nullptr, entries_);
     }
     entered_ = static_cast<std::uint32_t>(items.size());
     std::sort(entries_.begin() + before_them, entries_.end(), before);
@@ -56,14 +56,13 @@ class GridCells : CountsAllocations {
   // How the last item comes to its cells: make_child, test and store, node by node in the order of
   // visiting. The same holds as for `make`, which would give the nodes the same handles; but none
   // is looked at that the item does not reach.
-  const std::vector<Event>& way_of_last(std::span<const Item<D>> items,
-                                        std::span<const GridRaster<D>> rasters,
+  const std::vector<Event>& way_of_last(Items<D> items, std::span<const GridRaster<D>> rasters,
                                         const GridTable<D>& table, bool open, std::uint64_t most) {
     look_how_far(items, rasters, most);
     for (; stored_ < items.size(); ++stored_) {
       way_.clear();
       here_.clear();
-      const BodyId id = items[stored_].id;
+      const BodyId id = items.id(stored_);
       enter(reach_[stored_], {.id = id, .item = stored_}, open ? &table : nullptr, here_);
       std::sort(here_.begin(), here_.end(), before);
       const auto come_to = [&](const Place& place) -> Standing& {
@@ -156,13 +155,12 @@ class GridCells : CountsAllocations {
 
   // Which cells the items reach that came since, and how many a body may reach so that all reach no
   // more than `most` together.
-  void look_how_far(std::span<const Item<D>> items, std::span<const GridRaster<D>> rasters,
-                    std::uint64_t most) {
+  void look_how_far(Items<D> items, std::span<const GridRaster<D>> rasters, std::uint64_t most) {
     const auto counted = [&](const Reach& reach) {
       return reach.cells <= limit_ ? reach.cells : 1;
     };
     while (reach_.size() < items.size()) {
-      append(reach_, Reach(items[reach_.size()].box, rasters));
+      append(reach_, Reach(items.box(reach_.size()), rasters));
       reached_ += counted(reach_.back());
     }
     while (limit_ >= 1 && reached_ > static_cast<double>(most)) {

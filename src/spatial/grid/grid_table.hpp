@@ -224,30 +224,30 @@ template <int D>
 class GridTable : CountsAllocations {
  public:
   // Holds these instead of what was there. The rasters are those of the levels, the finest first.
-  // What is held names bodies by their places in `items`.
-  void build(std::span<const Item<D>> items, std::span<const GridRaster<D>> rasters) {
+  // What is held names bodies by their places in `boxes`.
+  void build(std::span<const Box<D>> boxes, std::span<const GridRaster<D>> rasters) {
     set_up(rasters);
-    deal(items);
+    deal(boxes);
     for (Level& level : levels_) level.lay_out();
-    count(items);
-    place(items);
+    count(boxes);
+    place(boxes);
   }
 
   // f(place, from, to) for all runs of places that must be compared with one that asks; some are
   // empty: to tell which costs as much as to write one down.
   template <class F>
-  void each_run(std::span<const Item<D>> items, F&& f) const {
+  void each_run(std::span<const Box<D>> boxes, F&& f) const {
     for (const Level& level : levels_) {
       if (level.count == 0) continue;
-      runs_within(level, items, f);
+      runs_within(level, boxes, f);
       for (const Level& finer : levels_) {
         if (&finer == &level) break;
         for (std::uint32_t p = level.first; p < level.first + level.count; ++p)
-          ask(finer, items[table_.id(p)].box,
+          ask(finer, boxes[table_.id(p)],
               [&](std::uint32_t from, std::uint32_t to) { f(p, from, to); });
       }
     }
-    runs_of_large(items, f);
+    runs_of_large(boxes, f);
   }
 
   // f(from, to) for the runs of places whose bodies may reach the box.
@@ -321,13 +321,13 @@ class GridTable : CountsAllocations {
   }
 
   // Each body to the finest level whose cells are as large as it is.
-  void deal(std::span<const Item<D>> items) {
-    make_room(spot_of_, items.size());
-    make_room(spot_at_, items.size());
+  void deal(std::span<const Box<D>> boxes) {
+    make_room(spot_of_, boxes.size());
+    make_room(spot_at_, boxes.size());
     large_.clear();
     const std::size_t levels = levels_.size();
-    for (std::size_t k = 0; k < items.size(); ++k) {
-      const Box<D>& box = items[k].box;
+    for (std::size_t k = 0; k < boxes.size(); ++k) {
+      const Box<D>& box = boxes[k];
       const double extent = extent_of(box);
       std::size_t l = 0;
       while (l < levels && extent > levels_[l].raster.side()) ++l;
@@ -345,7 +345,7 @@ class GridTable : CountsAllocations {
     }
   }
 
-  void count(std::span<const Item<D>> items) {
+  void count(std::span<const Box<D>> boxes) {
     std::uint32_t slots = 0, places = 0;
     for (Level& level : levels_) {
       level.first_slot = slots;
@@ -356,13 +356,13 @@ class GridTable : CountsAllocations {
     first_large_ = places;
     allocations_ += slots + 2 > start_.capacity();
     start_.assign(slots + 2, 0);
-    for (std::size_t k = 0; k < items.size(); ++k) {
+    for (std::size_t k = 0; k < boxes.size(); ++k) {
       Spot& spot = spot_of_[k];
       if (spot.level == kLarge) continue;
       const Level& level = levels_[spot.level];
-      const GridCell<D> from = level.raster.at(items[k].box.lo);
+      const GridCell<D> from = level.raster.at(boxes[k].lo);
       spot.slot = level.first_slot + level.slot(from);
-      spot.span = level.span(from, items[k].box.hi);
+      spot.span = level.span(from, boxes[k].hi);
       ++start_[spot.slot + 2];
     }
     std::uint32_t sum = 0;
@@ -370,22 +370,22 @@ class GridTable : CountsAllocations {
   }
 
   // start_[s + 1] runs from where the bodies of slot s begin to where they end.
-  void place(std::span<const Item<D>> items) {
+  void place(std::span<const Box<D>> boxes) {
     const std::size_t places = table_.places();
-    table_.resize(items.size());
+    table_.resize(boxes.size());
     allocations_ += table_.places() != places;
-    for (std::uint32_t k = 0; k < items.size(); ++k) {
+    for (std::uint32_t k = 0; k < boxes.size(); ++k) {
       if (spot_of_[k].level == kLarge) continue;
       const std::uint32_t p = start_[spot_of_[k].slot + 1]++;
-      table_.set(p, k, items[k].box);
+      table_.set(p, k, boxes[k]);
       spot_at_[p] = spot_of_[k];
     }
     std::ranges::sort(large_, [&](std::uint32_t a, std::uint32_t b) {
-      const double x = items[a].box.lo[0], y = items[b].box.lo[0];
-      return x < y || (x == y && items[a].id < items[b].id);
+      const double x = boxes[a].lo[0], y = boxes[b].lo[0];
+      return x < y || (x == y && a < b);
     });
     for (std::uint32_t i = 0; i < large_.size(); ++i)
-      table_.set(first_large_ + i, large_[i], items[large_[i]].box);
+      table_.set(first_large_ + i, large_[i], boxes[large_[i]]);
   }
 
   // f(from, to) for the bodies of the level that may reach the box.
@@ -465,7 +465,7 @@ class GridTable : CountsAllocations {
 
   // Each body with those behind it in its row, and with those in the rows behind that it reaches.
   template <class F>
-  void runs_within(const Level& level, std::span<const Item<D>> items, F& f) const {
+  void runs_within(const Level& level, std::span<const Box<D>> boxes, F& f) const {
     const auto width = static_cast<std::uint32_t>(level.fold[0]);
     std::int64_t y = 0, z = 0;
     for (std::uint32_t row = level.first_slot; row < level.first_slot + level.slots; row += width) {
@@ -474,7 +474,7 @@ class GridTable : CountsAllocations {
       for (std::uint32_t p = start_[row]; p < end; ++p) {
         GridCell<D> from{spot_at_[p].slot - row, y};
         if constexpr (D == 3) from[2] = z;
-        if (level.folded) from = level.counted(level.raster.at(items[table_.id(p)].box.lo));
+        if (level.folded) from = level.counted(level.raster.at(boxes[table_.id(p)].lo));
         runs_of(level, p, row, from, f);
       }
       if (++y == level.fold[1]) {
@@ -519,13 +519,13 @@ class GridTable : CountsAllocations {
 
   // Among themselves they are swept along x.
   template <class F>
-  void runs_of_large(std::span<const Item<D>> items, F& f) const {
+  void runs_of_large(std::span<const Box<D>> boxes, F& f) const {
     const auto n = static_cast<std::uint32_t>(table_.size());
     for (std::uint32_t p = first_large_; p < n; ++p) {
       stop_if_asked();
-      const Box<D>& box = items[table_.id(p)].box;
+      const Box<D>& box = boxes[table_.id(p)];
       std::uint32_t end = p + 1;
-      while (end < n && items[table_.id(end)].box.lo[0] <= box.hi[0]) ++end;
+      while (end < n && boxes[table_.id(end)].lo[0] <= box.hi[0]) ++end;
       f(p, p + 1, end);
       for (const Level& level : levels_)
         ask(level, box, [&](std::uint32_t from, std::uint32_t to) { f(p, from, to); });

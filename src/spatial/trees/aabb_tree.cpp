@@ -212,7 +212,7 @@ void AabbTree<D>::grow_all() {
 }
 
 template <int D>
-void AabbTree<D>::make(std::span<const Item<D>> items) {
+void AabbTree<D>::make(Items<D> items) {
   for (const Item<D>& item : items) require_valid(item);
   require_places(items.size());
   clear();
@@ -250,7 +250,7 @@ bool AabbTree<D>::suits(const Node& leaf, const Item<D>& item) const {
 }
 
 template <int D>
-bool AabbTree<D>::update(std::span<const Item<D>> items, const EventWatch& watch) {
+bool AabbTree<D>::update(Items<D> items, const EventWatch& watch) {
   bool same = items.size() == bodies();
   for (std::size_t i = 0; i < items.size(); ++i) {
     require_valid(items[i]);
@@ -282,7 +282,7 @@ bool AabbTree<D>::update(std::span<const Item<D>> items, const EventWatch& watch
 }
 
 template <int D>
-void AabbTree<D>::take_out_and_put_back(std::span<const Item<D>> items, const EventWatch& watch) {
+void AabbTree<D>::take_out_and_put_back(const Items<D>& items, const EventWatch& watch) {
   if (watch) tell_leaving(kRoot, items, watch);
   left_.clear();
   if (!keep_those_that_suit(kRoot, items)) nodes_[kRoot] = Node{};
@@ -296,7 +296,7 @@ void AabbTree<D>::take_out_and_put_back(std::span<const Item<D>> items, const Ev
 
 // While all are still in the tree.
 template <int D>
-void AabbTree<D>::tell_leaving(NodeHandle at, std::span<const Item<D>> items,
+void AabbTree<D>::tell_leaving(NodeHandle at, const Items<D>& items,
                                const EventWatch& watch) const {
   const Node& node = nodes_[at];
   if (!node.is_leaf()) {
@@ -309,7 +309,7 @@ void AabbTree<D>::tell_leaving(NodeHandle at, std::span<const Item<D>> items,
 
 // Takes the others out of the branch. False if none is left in it.
 template <int D>
-bool AabbTree<D>::keep_those_that_suit(NodeHandle at, std::span<const Item<D>> items) {
+bool AabbTree<D>::keep_those_that_suit(NodeHandle at, const Items<D>& items) {
   Node& node = nodes_[at];
   ++box_tests_;
   if (node.is_leaf()) {
@@ -330,11 +330,11 @@ bool AabbTree<D>::keep_those_that_suit(NodeHandle at, std::span<const Item<D>> i
 
 // Every leaf stays where it is. The areas of the inner nodes.
 template <int D>
-double AabbTree<D>::mend_all(NodeHandle at, std::span<const Item<D>> items) {
+double AabbTree<D>::mend_all(NodeHandle at, const Items<D>& items) {
   Node& node = nodes_[at];
   ++box_tests_;
   if (node.is_leaf()) {
-    const Item<D>& item = items[node.link];
+    const Item<D> item = items[node.link];
     if (suits(node, item)) return 0;
     node = Node::leaf(item, margin_);
     ++refitted_;
@@ -362,13 +362,13 @@ std::uint32_t AabbTree<D>::put_into(BoxTable<D>& table, NodeHandle at, std::uint
 }
 
 template <int D>
-std::uint64_t AabbTree<D>::find_pairs(std::span<const Item<D>> exact, FoundPairs& found) {
+std::uint64_t AabbTree<D>::find_pairs(std::span<const Box<D>> exact, FoundPairs& found) {
   const BoxTable<D>& table = table_;
   if ((!listed_ || margin_ > 0) && bodies() > 0) {
     const std::size_t places = table_.places();
     table_.resize(bodies());
     const auto own = [](const Node& leaf) { return leaf.box(); };
-    const auto true_box = [&](const Node& leaf) -> const Box<D>& { return exact[leaf.link].box; };
+    const auto true_box = [&](const Node& leaf) -> const Box<D>& { return exact[leaf.link]; };
     margin_ > 0 ? put_into(table_, kRoot, 0, true_box) : put_into(table_, kRoot, 0, own);
     allocations_ += table_.places() != places;
     listed_ = true;

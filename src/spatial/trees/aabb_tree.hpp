@@ -59,7 +59,7 @@ class AabbTree final : public StructureOf<AabbTree<D>, D>, CountsAllocations {
   }
 
   // Time: O(n log n).
-  void make(std::span<const Item<D>> items);
+  void make(Items<D> items);
 
   // These items, whose boxes may have changed since they were built: those in the tree, in any
   // order, ids being 0 … n-1 (else the tree is built anew). If few have left their enlarged boxes,
@@ -67,7 +67,7 @@ class AabbTree final : public StructureOf<AabbTree<D>, D>, CountsAllocations {
   // and once the tree has become much worse by that, it is built anew; or as its `following` says.
   // `watch`, if there is one, is told who leaves and how each is inserted. Throws Refused as
   // `insert` does; nothing changes then.
-  bool update(std::span<const Item<D>> items, const EventWatch& watch = {}) override;
+  bool update(Items<D> items, const EventWatch& watch = {}) override;
 
   void clear() override {
     nodes_.assign(2, Node{});
@@ -114,7 +114,7 @@ class AabbTree final : public StructureOf<AabbTree<D>, D>, CountsAllocations {
 
   // The same walk, but down to nodes with some bodies only: these are then compared, all with all,
   // several by one instruction. So more boxes are compared, in less time.
-  std::uint64_t find_pairs(std::span<const Item<D>> exact, FoundPairs& found);
+  std::uint64_t find_pairs(std::span<const Box<D>> exact, FoundPairs& found);
 
   Counters counters() const override {
     const std::uint64_t n = bodies(), nodes = n < 2 ? 1 : 2 * n - 1;
@@ -280,11 +280,11 @@ class AabbTree final : public StructureOf<AabbTree<D>, D>, CountsAllocations {
   void grow_all();
   void grow(NodeHandle at, std::span<Node> leaves, std::uint32_t height);
   std::size_t cut(std::span<Node> leaves, std::uint32_t height);
-  void take_out_and_put_back(std::span<const Item<D>> items, const EventWatch& watch);
-  void tell_leaving(NodeHandle at, std::span<const Item<D>> items, const EventWatch& watch) const;
+  void take_out_and_put_back(const Items<D>& items, const EventWatch& watch);
+  void tell_leaving(NodeHandle at, const Items<D>& items, const EventWatch& watch) const;
   bool suits(const Node& leaf, const Item<D>& item) const;
-  bool keep_those_that_suit(NodeHandle at, std::span<const Item<D>> items);
-  double mend_all(NodeHandle at, std::span<const Item<D>> items);
+  bool keep_those_that_suit(NodeHandle at, const Items<D>& items);
+  double mend_all(NodeHandle at, const Items<D>& items);
   template <class BoxOf>
   std::uint32_t put_into(BoxTable<D>& table, NodeHandle at, std::uint32_t place, BoxOf& box_of);
   void pair_within(const Spot& at, const BoxTable<D>& table, RunScanner<D>& runs) const;

@@ -177,7 +177,7 @@ class KdTree final : public StructureOf<KdTree<D>, D>, CountsAllocations {
   // further use. Tells make_child, split, store, and why a leaf
   // that is too full stays one. Time: O(n log n) where planes part well.
   template <class Observer = NoObserver>
-  void make(std::span<const Item<D>> items, Observer&& observer = {}) {
+  void make(Items<D> items, Observer&& observer = {}) {
     for (const Item<D>& item : items) require_valid(item);
     most_nodes_before_ = std::max(most_nodes_before_, nodes_.size());
     nodes_.clear();

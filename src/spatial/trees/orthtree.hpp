@@ -62,12 +62,11 @@ class Orthtree final : public StructureOf<Orthtree<D>, D>, CountsAllocations {
   // The tree of these items, instead of what was there: the same that `add` makes of them one by
   // one, with the same counts of tests and splits, in less time; but its nodes and their places in
   // the array are numbered in the order of visiting. Throws as `build` does.
-  void make(std::span<const Item<D>> items) {
+  void make(Items<D> items) {
     for (const Item<D>& item : items) require_valid(item);
     clear();
     box_tests_ = items.size();
-    allocations_ += items.size() > items_.capacity();
-    items_.assign(items.begin(), items.end());
+    for (const Item<D>& item : items) append(items_, item);
     const std::size_t before = work_.capacity() + reached_.capacity();
     work_.resize(items.size());
     std::iota(work_.begin(), work_.end(), 0u);

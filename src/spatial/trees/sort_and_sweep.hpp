@@ -44,12 +44,12 @@ class SortAndSweep final : public StructureOf<SortAndSweep<D>, D>, CountsAllocat
   }
 
   // Their boxes must be valid.
-  void make(std::span<const Item<D>> items) {
+  void make(Items<D> items) {
     clear();
-    allocations_ += items.size() > items_.capacity();
-    items_.assign(items.begin(), items.end());
-    if (!items.empty()) box_ = items.front().box;
-    for (const Item<D>& item : items) box_ = united(box_, item.box);
+    for (const Item<D>& item : items) {
+      append(items_, item);
+      box_ = items_.size() == 1 ? item.box : united(box_, item.box);
+    }
     sort();
   }
 
@@ -115,7 +115,7 @@ class SortAndSweep final : public StructureOf<SortAndSweep<D>, D>, CountsAllocat
   }
 
   // Sorts first.
-  std::uint64_t find_pairs(std::span<const Item<D>> exact, FoundPairs& found) {
+  std::uint64_t find_pairs(std::span<const Box<D>> exact, FoundPairs& found) {
     sort();
     const std::size_t before = table_.places();
     table_.resize(order_.size());
