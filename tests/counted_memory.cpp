@@ -3,6 +3,8 @@
 #include <cstdlib>
 #include <new>
 
+#include <malloc.h>
+
 // Where one of the pair is inlined and the other is not, GCC takes them for strangers (bug 103993).
 #if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wmismatched-new-delete"
@@ -16,7 +18,10 @@ void* counted(std::size_t size, std::size_t line) noexcept {
   ++held;
   if (line == 0) bytes += size;
   const std::size_t room = size == 0 ? 1 : size;
-  return line == 0 ? std::malloc(room) : std::aligned_alloc(line, (room + line - 1) / line * line);
+  void* memory =
+      line == 0 ? std::malloc(room) : std::aligned_alloc(line, (room + line - 1) / line * line);
+  held_bytes += static_cast<std::int64_t>(malloc_usable_size(memory));
+  return memory;
 }
 void* counted_or_thrown(std::size_t size, std::size_t line = 0) {
   if (void* memory = counted(size, line)) return memory;
@@ -24,6 +29,7 @@ void* counted_or_thrown(std::size_t size, std::size_t line = 0) {
 }
 void given_back(void* memory) noexcept {
   lantern::counted_memory::held -= memory != nullptr;
+  lantern::counted_memory::held_bytes -= static_cast<std::int64_t>(malloc_usable_size(memory));
   std::free(memory);
 }
 

@@ -113,18 +113,18 @@ template class BoxTable<3>;
 template void scan(const ScanTask<2>&, FoundPairs&);
 template void scan(const ScanTask<3>&, FoundPairs&);
 
-void PairOrder::order(FoundPairs& found, std::span<const BodyId> names,
+void PairOrder::order(FoundPairs& found, std::size_t numbers, std::span<const BodyId> names,
                       std::vector<Pair>& ordered) {
   ordered.reserve(found.reserved());  // as found grows: seldom
   ordered.resize(found.size());
   if (is_in_order(found)) {
     for (std::size_t i = 0; i < found.size(); ++i)
-      ordered[i] = {names[found.first()[i]], names[found.second()[i]]};
+      ordered[i] = {id_at(names, found.first()[i]), id_at(names, found.second()[i])};
     return;
   }
   parts_.resize(found.size() < kWorthThreads ? 1 : found.threads());
-  for (Part& part : parts_) part.begin.assign(names.size(), 0);
-  end_.resize(names.size());
+  for (Part& part : parts_) part.begin.assign(numbers, 0);
+  end_.resize(numbers);
   if (partners_.size() < found.size()) partners_.resize(found.reserved());
   fill_rows(found);
   share_rows(found.size());
@@ -185,9 +185,9 @@ void PairOrder::order_rows(Part& part, std::span<const BodyId> names, Pair* orde
     const std::uint32_t end = end_[row];
     if (begin == end) continue;
     stop_if_asked();
-    const BodyId name = names[row];
+    const BodyId name = id_at(names, row);
     for (const std::uint32_t b : in_order(std::span(partners_).subspan(begin, end - begin), part))
-      *next++ = {name, names[b]};
+      *next++ = {name, id_at(names, b)};
     begin = end;
   }
   part.ordered = static_cast<std::size_t>(next - first);

@@ -247,10 +247,11 @@ ScanDone scan_runs(const ScanTask<D>& task, const ScanRoom& room, std::size_t be
 // find them.
 class PairOrder {
  public:
-  // The pairs, each once, with `names[number]` for each number, instead of what `ordered` held. The
-  // names ascend. `found` may name a pair in both ways, and more than once; it is used as scratch,
-  // and by as many threads as may scan for it.
-  void order(FoundPairs& found, std::span<const BodyId> names, std::vector<Pair>& ordered);
+  // The pairs of so many numbers, each once, by the names of the numbers, if there are any, instead
+  // of what `ordered` held. The names ascend. `found` may name a pair in both ways, and more than
+  // once; it is used as scratch, and by as many threads as may scan for it.
+  void order(FoundPairs& found, std::size_t numbers, std::span<const BodyId> names,
+             std::vector<Pair>& ordered);
 
   // Places for which there is memory.
   std::size_t places() const;

@@ -90,22 +90,27 @@ template <int D>
 void BroadPhase<D>::take(std::span<const Proxy<D>> proxies) {
   bool ascending = true;
   bool same_bodies = true;  // are they those that the stores hold, each in its own?
-  std::array<std::size_t, 2> places{};
+  bool changes = false;     // is the one before not as it was?
+  std::uint32_t fixed = 0;  // so many before belong to the static store
   changed_.clear();
-  for (std::size_t i = 0; i < proxies.size(); ++i) {
+  for (std::uint32_t i = 0; i < proxies.size(); ++i) {
     const Proxy<D>& proxy = proxies[i];
     ascending = ascending && (i == 0 || proxies[i - 1].id < proxy.id);
     const Store& store = store_for(proxy);
-    const std::size_t place = places[is_of_static(proxy)]++;
-    same_bodies = same_bodies && place < store.names.size() && store.names[place] == proxy.id;
-    if (same_bodies && is_in(store, place, proxy)) continue;
-    require_valid(Item<D>{proxy.id, proxy.box});
-    if (same_bodies) changed_.emplace_back(i, place);
+    const std::uint32_t place = is_of_static(proxy) ? fixed : i - fixed;
+    same_bodies = same_bodies && store.has(place, proxy.id);
+    const bool as_it_was = same_bodies && is_in(store, place, proxy);
+    if (!as_it_was) require_valid(Item<D>{proxy.id, proxy.box});
+    if (changes == as_it_was) changed_.push_back({i, fixed});
+    changes = !as_it_was;
+    fixed += is_of_static(proxy);
   }
-  same_bodies = same_bodies && ascending && places[0] == dynamic_.names.size() &&
-                places[1] == static_.names.size();
-  if (same_bodies) {
-    for (const auto& [i, place] : changed_) set(store_for(proxies[i]), place, proxies[i]);
+  if (same_bodies && ascending && proxies.size() == size()) {
+    if (changes) changed_.push_back({static_cast<std::uint32_t>(proxies.size()), fixed});
+    for (std::size_t run = 0; run < changed_.size(); run += 2)
+      for (auto [i, before] = changed_[run]; i < changed_[run + 1][0]; ++i)
+        is_of_static(proxies[i]) ? set(static_, before++, proxies[i])
+                                 : set(dynamic_, i - before, proxies[i]);
     return;
   }
   if (ascending) return replace(proxies);
@@ -124,7 +129,7 @@ void BroadPhase<D>::set(Store& store, std::size_t place, const Proxy<D>& proxy) 
   const bool moves = !(store.boxes[place] == proxy.box);
   found_all_ = false;
   store.boxes[place] = proxy.box;
-  store.states[place] = state;
+  store.set_state(place, state);
   if (moves) {
     store.only_moved |= store.stands;
     store.stands = false;
@@ -132,7 +137,7 @@ void BroadPhase<D>::set(Store& store, std::size_t place, const Proxy<D>& proxy) 
   if (!resting_ || &store != &dynamic_ || state.stirs()) return;
   // Where it was before it is in the tree still: of too many of these it is built anew.
   auto tree = std::move(resting_);
-  if (++put_to_rest_ > 64 + store.boxes.size() / 2) return;
+  if (++put_to_rest_ > 64 + store.size() / 2) return;
   tree->insert({static_cast<BodyId>(place), proxy.box});
   resting_ = std::move(tree);
 }
@@ -146,13 +151,10 @@ void BroadPhase<D>::follow(std::span<const Proxy<D>> changed) {
     for (const Proxy<D>& proxy : changed) {
       Store& store = store_for(proxy);
       std::size_t& place = next[is_of_static(proxy)];
-      if (place == store.names.size() || store.names[place] != proxy.id)
-        place = static_cast<std::size_t>(
-            std::lower_bound(store.names.begin(), store.names.end(), proxy.id) -
-            store.names.begin());
-      LANTERN_CHECK(place, <, store.names.size());
+      if (!store.has(place, proxy.id)) place = store.place_of(proxy.id);
+      LANTERN_CHECK(place, <, store.size());
       set(store, place, proxy);
-      if (store.states[place].stirs()) stirring_.push_back(place);
+      if (store.state(place).stirs()) stirring_.push_back(place);
       ++place;
     }
     if (!static_.stands) build(static_);
@@ -162,25 +164,46 @@ void BroadPhase<D>::follow(std::span<const Proxy<D>> changed) {
 
 template <int D>
 void BroadPhase<D>::replace(std::span<const Proxy<D>> proxies) {
-  all_names_.clear();
   resting_.reset();
-  for (const Proxy<D>& proxy : proxies) all_names_.push_back(proxy.id);
+  ranked_ = false;
   for (Store* store : stores()) {
-    fresh_.clear();
-    store->ranks.clear();
-    for (std::uint32_t rank = 0; rank < proxies.size(); ++rank) {
-      const Proxy<D>& proxy = proxies[rank];
+    bool same = true, same_states = true;
+    std::size_t bodies = 0;
+    for (const Proxy<D>& proxy : proxies) {
       if (&store_for(proxy) != store) continue;
-      fresh_.boxes.push_back(proxy.box);
-      fresh_.names.push_back(proxy.id);
-      fresh_.states.push_back({proxy.is_static, proxy.awake});
-      store->ranks.push_back(rank);
+      same = same && store->has(bodies, proxy.id) && store->boxes[bodies] == proxy.box;
+      same_states = same_states && same && is_in(*store, bodies, proxy);
+      ++bodies;
     }
-    const bool same = fresh_.boxes == store->boxes && fresh_.names == store->names;
-    found_all_ = found_all_ && same && fresh_.states == store->states;
+    same = same && bodies == store->size();
+    found_all_ = found_all_ && same && same_states;
     store->only_moved = false;
     store->stands = store->stands && same;
-    std::swap(static_cast<Bodies&>(*store), fresh_);
+    if (same && same_states) continue;
+    if (store->size() == 0) store->boxes.reserve(bodies);
+    store->clear();
+    for (const Proxy<D>& proxy : proxies)
+      if (&store_for(proxy) == store)
+        store->push_back({proxy.id, proxy.box}, {proxy.is_static, proxy.awake});
+  }
+}
+
+// Ranks are numbers of all bodies in the order of their ids: the ids themselves if these are 0, 1,
+// 2, ...; places in the dynamic store if there are no static bodies; else `ranks`.
+template <int D>
+void BroadPhase<D>::rank_all() {
+  if (std::exchange(ranked_, true)) return;
+  numbered_ = std::max(static_.end_id(), dynamic_.end_id()) == size();
+  all_ids_.clear();
+  for (Store* store : stores()) store->ranks.clear();
+  if (numbered_ || static_.size() == 0) return;
+  std::array<std::size_t, 2> next{};
+  for (std::uint32_t rank = 0; rank < size(); ++rank) {
+    const bool is_static = next[0] == dynamic_.size() ||
+                           (next[1] < static_.size() && static_.id(next[1]) < dynamic_.id(next[0]));
+    Store& store = is_static ? static_ : dynamic_;
+    store.ranks.push_back(rank);
+    all_ids_.push_back(store.id(next[is_static]++));
   }
 }
 
@@ -190,9 +213,9 @@ void BroadPhase<D>::forget() {
   pairs_.clear();
   resting_.reset();
   found_all_ = false;
+  ranked_ = false;
   for (Store* store : stores()) {
     store->clear();
-    store->ranks.clear();
     empty(*store);
   }
 }
@@ -208,8 +231,8 @@ void BroadPhase<D>::build(Store& store, Use use, const Watch& watch) {
     store.stands = store.structure->update(store.boxes, naming(store, watch));
     if (store.stands) return;
   }
-  if (config_.in_proportion && store.boxes.size() > store.room) {
-    store.room = std::bit_ceil(store.boxes.size());
+  if (config_.in_proportion && store.size() > store.room) {
+    store.room = std::bit_ceil(store.size());
     store.settings.max_depth = config_.max_depth;
     make_anew(store);
   }
@@ -232,7 +255,7 @@ void BroadPhase<D>::build(Store& store, Use use, const Watch& watch) {
 template <int D>
 void BroadPhase<D>::choose(Store& store, Use use) {
   constexpr double kFew = 16;  // comparisons of a body that are of no concern
-  const std::size_t bodies = store.boxes.size();
+  const std::size_t bodies = store.size();
   if (store.kind != StructureKind::automatic && store.chosen_use == use &&
       bodies <= 2 * store.chosen_for && 2 * bodies >= store.chosen_for &&
       store.tests <= 2 * store.chosen_tests + kFew)
@@ -252,24 +275,22 @@ template <int D>
 auto BroadPhase<D>::naming(const Store& store, const Watch& watch) -> Watch {
   if (!watch) return {};
   return [&](Event event) {
-    event.body = store.names[event.body];
+    event.body = store.id(event.body);
     watch(event);
   };
 }
 
 template <int D>
 void BroadPhase<D>::insert(std::span<const Proxy<D>> proxies, const Watch& watch) {
-  std::optional<BodyId> last;
-  for (const Store* store : stores())
-    if (!store->names.empty()) last = std::max(last, std::optional(store->names.back()));
+  std::uint64_t least = std::max(static_.end_id(), dynamic_.end_id());
   for (const Proxy<D>& proxy : proxies) {
     require_valid(Item<D>{proxy.id, proxy.box});
-    if (last >= proxy.id) throw Refused("body {}: ids must come in ascending order", proxy.id);
-    last = proxy.id;
+    if (proxy.id < least) throw Refused("body {}: ids must come in ascending order", proxy.id);
+    least = std::uint64_t{proxy.id} + 1;
   }
   if (proxies.empty()) return;
   resting_.reset();
-  found_all_ = false;
+  found_all_ = ranked_ = false;
   all_or_nothing([&] {
     std::array<bool, 2> entered{};
     for (const Proxy<D>& proxy : proxies) {
@@ -289,12 +310,8 @@ void BroadPhase<D>::insert(std::span<const Proxy<D>> proxies, const Watch& watch
 // Into the structure, too, if that takes one after another; else that no longer stands.
 template <int D>
 void BroadPhase<D>::put(Store& store, const Proxy<D>& proxy, const Watch& watch) {
-  const Item<D> item{static_cast<BodyId>(store.boxes.size()), proxy.box};
-  store.boxes.push_back(proxy.box);
-  store.names.push_back(proxy.id);
-  store.states.push_back({proxy.is_static, proxy.awake});
-  store.ranks.push_back(static_cast<std::uint32_t>(all_names_.size()));
-  all_names_.push_back(proxy.id);
+  const Item<D> item{static_cast<BodyId>(store.size()), proxy.box};
+  store.push_back({proxy.id, proxy.box}, {proxy.is_static, proxy.awake});
   with_names(store, [&] {
     if (store.structure->insert(item, naming(store, watch)))
       counters_.*store.builds += item.id == 0;
@@ -311,14 +328,14 @@ void BroadPhase<D>::with_names(const Store& store, F&& f) {
     f();
   } catch (const StructureFault& broken) {
     OwnFault fault = broken.fault();
-    for (BodyId& body : fault.bodies) body = store.names[body];
+    for (BodyId& body : fault.bodies) body = store.id(body);
     throw StructureFault(std::move(fault));
   }
 }
 
 template <int D>
 void BroadPhase<D>::empty(Store& store) {
-  store.stands = store.boxes.empty();
+  store.stands = store.size() == 0;
   store.only_moved = false;
   store.structure->clear();
 }
@@ -332,7 +349,7 @@ void BroadPhase<D>::begin_search(const Bodies& bodies) {
   pairs_.clear();
   search_->begin(bodies.boxes, bodies.states);
   search_->found.set_threads(config_.threads);
-  found_names_ = bodies.names;
+  found_names_ = bodies.ids;
   search_->found.ask_before_growing(
       [this](BodyId body, std::size_t pairs) { require_room(body, pairs); });
 }
@@ -364,26 +381,36 @@ void BroadPhase<D>::order_pairs() {
   FoundPairs& found = search_->found;
   if (found.size() > config_.most_pairs) refuse_more(found.first()[config_.most_pairs]);
   constexpr std::size_t kFew = 8;  // of many bodies: it costs less to compare them with each other
-  if (kFew * found.size() >= found_names_.size())
-    return search_->order.order(found, found_names_, pairs_);
+  if (kFew * found.size() >= size())
+    return search_->order.order(found, size(), found_names_, pairs_);
   for (std::size_t i = 0; i < found.size(); ++i) {
     const auto [a, b] = std::minmax(found.first()[i], found.second()[i]);
-    pairs_.push_back({found_names_[a], found_names_[b]});
+    pairs_.push_back({id_at(found_names_, a), id_at(found_names_, b)});
   }
   std::ranges::sort(pairs_);
   pairs_.erase(std::ranges::unique(pairs_).begin(), pairs_.end());
 }
 
+// What was found among dynamic bodies is named by their ranks among all from now on.
+template <int D>
+template <class PlaceOf>
+void BroadPhase<D>::name_by_ranks(PlaceOf&& place_of) {
+  rank_all();
+  FoundPairs& found = search_->found;
+  for (const std::span<BodyId> list : {found.first(), found.second()})
+    for (BodyId& i : list) i = rank(dynamic_, place_of(i));
+  found_names_ = numbered_             ? std::span<const BodyId>()
+                 : static_.size() == 0 ? dynamic_.ids
+                                       : all_ids_;
+}
+
 // Each awake body asks the static structure.
 template <int D>
 void BroadPhase<D>::pair_static() {
-  if (static_.boxes.empty()) return;
-  // What was found among dynamic bodies is named by their ranks among all from now on.
-  for (BodyId& place : search_->found.first()) place = dynamic_.ranks[place];
-  for (BodyId& place : search_->found.second()) place = dynamic_.ranks[place];
-  found_names_ = all_names_;
-  for (std::size_t i = 0; i < dynamic_.boxes.size(); ++i)
-    if (dynamic_.states[i].stirs()) ask(*static_.structure, static_, i);
+  if (static_.size() == 0) return;
+  name_by_ranks([](BodyId place) { return place; });
+  for (std::size_t i = 0; i < dynamic_.size(); ++i)
+    if (dynamic_.state(i).stirs()) ask(*static_.structure, static_, i);
 }
 
 // Of the others those that stir are not met so.
@@ -394,9 +421,9 @@ void BroadPhase<D>::ask(const Structure<D>& structure, const Store& others, std:
   ids_.clear();
   structure.near(box, ids_);
   for (const BodyId j : ids_) {
-    if (others.states[j].stirs()) continue;
+    if (others.state(j).stirs()) continue;
     ++counters_.pair_tests;
-    if (overlap(box, others.boxes[j])) search_->found.add(dynamic_.ranks[place], others.ranks[j]);
+    if (overlap(box, others.boxes[j])) search_->found.add(rank(dynamic_, place), rank(others, j));
   }
 }
 
@@ -404,7 +431,7 @@ template <int D>
 bool BroadPhase<D>::each_asks_alone() const {
   constexpr std::size_t kMany = 64, kFew = 8;
   const StructureTraits& traits = traits_of(config_.kind);
-  const std::size_t all = dynamic_.boxes.size();
+  const std::size_t all = dynamic_.size();
   return all >= kMany && kFew * stirring_.size() <= all && !traits.follows && !traits.is_own &&
          !traits.has(Setting::axis);
 }
@@ -415,27 +442,21 @@ void BroadPhase<D>::find_pairs_of_few() {
   if (!few_) few_ = make_structure<D>(StructureKind::aabb_tree);
   if (!resting_) {
     KeptItems<D> still;
-    for (std::uint32_t i = 0; i < dynamic_.boxes.size(); ++i)
-      if (!dynamic_.states[i].stirs()) still.push_back({i, dynamic_.boxes[i]});
+    for (std::uint32_t i = 0; i < dynamic_.size(); ++i)
+      if (!dynamic_.state(i).stirs()) still.push_back({i, dynamic_.boxes[i]});
     auto tree = make_structure<D>(StructureKind::aabb_tree);
     tree->build(still, Build::at_once);
     resting_ = std::move(tree);
     put_to_rest_ = 0;
   }
-  fresh_.clear();
-  for (const std::size_t place : stirring_) {
-    fresh_.boxes.push_back(dynamic_.boxes[place]);
-    fresh_.names.push_back(dynamic_.names[place]);
-    fresh_.states.push_back(dynamic_.states[place]);
-  }
-  begin_search(fresh_);
-  few_->build(fresh_.boxes, Build::at_once);
+  stirring_bodies_.clear();
+  for (const std::size_t place : stirring_)
+    stirring_bodies_.push_back({dynamic_.id(place), dynamic_.boxes[place]}, {});
+  begin_search(stirring_bodies_);
+  few_->build(stirring_bodies_.boxes, Build::at_once);
   few_->pair(*search_);
   counters_.pair_tests = search_->tests;
-  FoundPairs& found = search_->found;
-  for (BodyId& i : found.first()) i = dynamic_.ranks[stirring_[i]];
-  for (BodyId& i : found.second()) i = dynamic_.ranks[stirring_[i]];
-  found_names_ = all_names_;
+  name_by_ranks([&](BodyId i) { return stirring_[i]; });
   for (const std::size_t place : stirring_) {
     ask(*static_.structure, static_, place);
     ask(*resting_, dynamic_, place);
@@ -448,7 +469,7 @@ void BroadPhase<D>::find_pairs_of_few() {
 // them in order.
 template <int D>
 void BroadPhase<D>::require_room(BodyId number, std::size_t pairs) const {
-  const BodyId body = found_names_[number];
+  const BodyId body = id_at(found_names_, number);
   require_memory(pairs * (3 * sizeof(BodyId) + sizeof(Pair)),
                  fmt::format("body {}: with it {} or more pairs of boxes that overlap", body,
                              search_->found.size()),
@@ -459,7 +480,7 @@ void BroadPhase<D>::require_room(BodyId number, std::size_t pairs) const {
 template <int D>
 void BroadPhase<D>::refuse_more(BodyId number) const {
   throw Refused("body {}: with it more than {} pairs overlap; take fewer bodies, or part them",
-                found_names_[number], config_.most_pairs);
+                id_at(found_names_, number), config_.most_pairs);
 }
 
 // --- looking ---
@@ -468,10 +489,8 @@ template <int D>
 auto BroadPhase<D>::store_of(BodyId id, std::size_t& place) const -> const Store* {
   for (const Store* store : stores()) {
     if (!store->stands) continue;
-    const auto found = std::lower_bound(store->names.begin(), store->names.end(), id);
-    if (found == store->names.end() || *found != id) continue;
-    place = static_cast<std::size_t>(found - store->names.begin());
-    return store;
+    place = store->place_of(id);
+    if (store->has(place, id)) return store;
   }
   return nullptr;
 }
@@ -488,7 +507,7 @@ std::vector<OwnFault> BroadPhase<D>::faults() const {
   std::vector<OwnFault> all;
   for (const Store* store : stores())
     for (OwnFault fault : store->structure->faults()) {
-      for (BodyId& body : fault.bodies) body = store->names[body];
+      for (BodyId& body : fault.bodies) body = store->id(body);
       all.push_back(std::move(fault));
     }
   return all;
@@ -498,8 +517,7 @@ template <int D>
 void BroadPhase<D>::each_swept(FunctionRef<void(BodyId, BodyId)> f) const {
   if (!arrangement().axis || !dynamic_.stands) return;
   dynamic_.structure->sorted()->compare(
-      [](BodyId) { return true; },
-      [&](BodyId a, BodyId b) { f(dynamic_.names[a], dynamic_.names[b]); });
+      [](BodyId) { return true; }, [&](BodyId a, BodyId b) { f(dynamic_.id(a), dynamic_.id(b)); });
 }
 
 template <int D>
@@ -512,8 +530,8 @@ bool BroadPhase<D>::is_stale(const Item<D>& item) const {
 template <int D>
 std::size_t BroadPhase<D>::own_places() const {
   const auto of_store = [](const Store& s) { return s.places() + s.ranks.capacity(); };
-  return pairs_.capacity() + sorted_.capacity() + all_names_.capacity() + ids_.capacity() +
-         of_store(static_) + of_store(dynamic_) + fresh_.places() + stirring_.capacity() +
+  return pairs_.capacity() + sorted_.capacity() + all_ids_.capacity() + ids_.capacity() +
+         of_store(static_) + of_store(dynamic_) + stirring_bodies_.places() + stirring_.capacity() +
          changed_.capacity() + search_->places() + search_->order.places();
 }
 

@@ -131,17 +131,40 @@ class BroadPhase {
   }
 
  private:
-  // Bodies, by id. A structure knows them by their places in these lists.
-  struct Bodies {
-    std::vector<Box<D>> boxes = {};
-    std::vector<BodyId> names = {};
+  // Bodies, by id. A structure knows them by their places in these lists. States are left out as
+  // long as all stir.
+  struct Bodies : KeptItems<D> {
     std::vector<ProxyState> states = {};
+
+    std::size_t size() const { return this->boxes.size(); }
+    ProxyState state(std::size_t place) const {
+      return states.empty() ? ProxyState{} : states[place];
+    }
+    void set_state(std::size_t place, ProxyState state) {
+      if (states.empty() && state == ProxyState{}) return;
+      states.reserve(this->boxes.capacity());
+      states.resize(size());
+      states[place] = state;
+    }
+    void push_back(const Item<D>& item, ProxyState state) {
+      KeptItems<D>::push_back(item);
+      set_state(size() - 1, state);
+    }
     void clear() {
-      boxes.clear();
-      names.clear();
+      KeptItems<D>::clear();
       states.clear();
     }
-    std::size_t places() const { return boxes.capacity() + names.capacity() + states.capacity(); }
+    std::size_t places() const { return KeptItems<D>::places() + states.capacity(); }
+    bool has(std::size_t place, BodyId id) const { return place < size() && this->id(place) == id; }
+    // Where it is, or would be.
+    std::size_t place_of(BodyId id) const {
+      if (this->ids.empty()) return id;
+      return static_cast<std::size_t>(std::ranges::lower_bound(this->ids, id) - this->ids.begin());
+    }
+    // Beyond all ids.
+    std::uint64_t end_id() const {
+      return size() == 0 ? 0 : std::uint64_t{this->id(size() - 1)} + 1;
+    }
   };
   // A structure and its bodies.
   struct Store : Bodies {
@@ -153,7 +176,7 @@ class BroadPhase {
     std::size_t chosen_for = 0;             // so many bodies, and
     double chosen_tests = 0;                // so many comparisons a body in the first update after
     double tests = 0;                       // comparisons a body in the last update
-    std::vector<std::uint32_t> ranks = {};  // of each body among all, by id
+    std::vector<std::uint32_t> ranks = {};  // see rank_all
     std::uint64_t room = 0;                 // how many bodies its limits were made for
     bool stands = true;                     // the structure holds these bodies, ready to be asked
     bool only_moved = false;                // it holds them where they were; else it holds none
@@ -161,7 +184,7 @@ class BroadPhase {
 
   static StructureView<D> view_of(const Store& store) {
     if (!store.stands) return *store.structure;
-    return {*store.structure, store.names, store.boxes};
+    return {*store.structure, store.ids, store.boxes};
   }
   std::array<Store*, 2> stores() { return {&static_, &dynamic_}; }
   std::array<const Store*, 2> stores() const { return {&static_, &dynamic_}; }
@@ -177,10 +200,15 @@ class BroadPhase {
   void take(std::span<const Proxy<D>> proxies);
   static bool is_in(const Store& store, std::size_t place, const Proxy<D>& proxy) {
     return store.boxes[place] == proxy.box &&
-           store.states[place] == ProxyState{proxy.is_static, proxy.awake};
+           store.state(place) == ProxyState{proxy.is_static, proxy.awake};
   }
   void set(Store& store, std::size_t place, const Proxy<D>& proxy);
   void replace(std::span<const Proxy<D>> proxies);
+  void rank_all();
+  std::size_t size() const { return static_.size() + dynamic_.size(); }
+  BodyId rank(const Store& store, std::size_t place) const {
+    return id_at(numbered_ ? store.ids : store.ranks, place);
+  }
   void forget();
   void build(Store& store, Use use = Use::pairs, const Watch& watch = {});
   void put(Store& store, const Proxy<D>& proxy, const Watch& watch);
@@ -190,6 +218,8 @@ class BroadPhase {
   void empty(Store& store);
   bool each_asks_alone() const;
   void begin_search(const Bodies& bodies);
+  template <class PlaceOf>
+  void name_by_ranks(PlaceOf&& place_of);
   void find_pairs();
   void find_pairs_of_few();
   void pair_static();
@@ -214,10 +244,12 @@ class BroadPhase {
 
   // Scratch of an update, kept for its memory.
   std::vector<Proxy<D>> sorted_;  // all, by id, if they came otherwise
-  // Of those that came and are not as they were: which of them, and their places in their stores.
-  std::vector<std::pair<std::size_t, std::size_t>> changed_;
-  std::vector<BodyId> all_names_;  // by rank, if there are static bodies
-  Bodies fresh_;                   // of a store whose bodies are others now
+  // Which of those that came are not as they were: where some in a row begin, where they end, and
+  // so on, and how many come before there that are in the static store.
+  std::vector<std::array<std::uint32_t, 2>> changed_;
+  bool ranked_ = false, numbered_ = false;  // see rank_all
+  std::vector<BodyId> all_ids_;
+  Bodies stirring_bodies_;
   std::vector<BodyId> ids_;
   std::span<const BodyId> found_names_;
   struct Search;

@@ -51,13 +51,13 @@ class PairSearch {
   std::uint64_t nodes_visited = 0;  // while pairing
   std::uint64_t nodes_skipped = 0;  // whole branches in which all sleep, each counted once
 
-  // From now on it is about the bodies of these boxes, whose ids are their places. Nothing is found
-  // yet.
+  // From now on it is about the bodies of these boxes, whose ids are their places; without states
+  // all stir. Nothing is found yet.
   void begin(std::span<const Box<D>> boxes, std::span<const ProxyState> states) {
     boxes_ = boxes;
     states_ = states;
-    stirring_ =
-        static_cast<std::size_t>(std::ranges::count_if(states, std::mem_fn(&ProxyState::stirs)));
+    const auto stirring = std::ranges::count_if(states, std::mem_fn(&ProxyState::stirs));
+    stirring_ = states.empty() ? boxes.size() : static_cast<std::size_t>(stirring);
     tests = nodes_visited = nodes_skipped = 0;
     found.clear();
   }
@@ -68,7 +68,7 @@ class PairSearch {
   template <class Tree>
   void in_leaves(const Tree& tree) {
     const auto walk = [&](auto&& f) { tree.take(Tour<D>{ids_}, f); };
-    awake_.find(tree.counters().nodes, walk, [&](BodyId i) { return states_[i].stirs(); });
+    awake_.find(tree.counters().nodes, walk, [&](BodyId i) { return stirs(i); });
     walk([&](const NodeView<D>& node) {
       if (!awake_[node.handle]) {
         ++nodes_skipped;
@@ -91,7 +91,7 @@ class PairSearch {
       drop_still_pairs();
     } else {
       for (std::uint32_t i = 0; i < boxes_.size(); ++i)
-        if (states_[i].stirs()) ask(tree, i);
+        if (stirs(i)) ask(tree, i);
     }
   }
 
@@ -101,6 +101,8 @@ class PairSearch {
   }
 
  private:
+  bool stirs(BodyId i) const { return states_.empty() || states_[i].stirs(); }
+
   template <class Tree>
   void ask(const Tree& tree, std::uint32_t place) {
     stop_if_asked();
@@ -108,7 +110,7 @@ class PairSearch {
     ids_.clear();
     tree.near(box, ids_);
     for (const BodyId other : ids_) {
-      if (other == place || (other < place && states_[other].stirs())) continue;
+      if (other == place || (other < place && stirs(other))) continue;
       ++tests;
       if (overlap(box, boxes_[other])) found.add(place, other);
     }
@@ -118,9 +120,8 @@ class PairSearch {
   void pair_bodies(std::span<const BodyId> bodies) {
     std::size_t stirring = bodies.size();
     if (stirring_ < boxes_.size()) {
-      const auto stirs = [&](BodyId i) { return states_[i].stirs(); };
       here_.assign(bodies.begin(), bodies.end());
-      stirring -= std::ranges::partition(here_, stirs).size();
+      stirring -= std::ranges::partition(here_, [&](BodyId i) { return stirs(i); }).size();
       bodies = here_;
     }
     tests += all_pairs(bodies.size()) - all_pairs(bodies.size() - stirring);
@@ -144,7 +145,7 @@ class PairSearch {
     const std::span<BodyId> first = found.first(), second = found.second();
     std::size_t size = 0;
     for (std::size_t i = 0; i < found.size(); ++i) {
-      if (!states_[first[i]].stirs() && !states_[second[i]].stirs()) continue;
+      if (!stirs(first[i]) && !stirs(second[i])) continue;
       first[size] = first[i];
       second[size++] = second[i];
     }

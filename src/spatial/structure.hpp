@@ -37,6 +37,11 @@ struct Item {
   bool operator==(const Item&) const = default;
 };
 
+// Of ids that are left out where they are places.
+inline BodyId id_at(std::span<const BodyId> ids, std::size_t place) {
+  return ids.empty() ? static_cast<BodyId>(place) : ids[place];
+}
+
 // Bodies in a row: items, or boxes whose ids stand beside them or, if none do, are their places.
 template <int D>
 class Items {
@@ -50,10 +55,8 @@ class Items {
   std::size_t size() const { return items_.size() + boxes_.size(); }
   bool empty() const { return size() == 0; }
   const Box<D>& box(std::size_t i) const { return items_.empty() ? boxes_[i] : items_[i].box; }
-  BodyId id(std::size_t i) const {
-    if (!items_.empty()) return items_[i].id;
-    return ids_.empty() ? static_cast<BodyId>(i) : ids_[i];
-  }
+  BodyId id(std::size_t i) const { return items_.empty() ? id_at(ids_, i) : items_[i].id; }
+  bool ids_are_places() const { return items_.empty() && ids_.empty(); }
   Item<D> operator[](std::size_t i) const { return {id(i), box(i)}; }
 
   struct Place {
@@ -72,7 +75,7 @@ class Items {
   std::span<const BodyId> ids_;
 };
 
-// Such a row that is kept, ids only if they are not their places.
+// Such a row that is kept.
 template <int D>
 struct KeptItems {
   std::vector<Box<D>> boxes = {};
@@ -83,15 +86,21 @@ struct KeptItems {
     ids.clear();
   }
   void push_back(const Item<D>& item) {
-    if (!ids.empty() || item.id != boxes.size()) {
-      while (ids.size() < boxes.size()) ids.push_back(static_cast<BodyId>(ids.size()));
-      ids.push_back(item.id);
-    }
     boxes.push_back(item.box);
+    if (ids.empty() && item.id == boxes.size() - 1) return;
+    ids.reserve(boxes.capacity());
+    while (ids.size() + 1 < boxes.size()) ids.push_back(static_cast<BodyId>(ids.size()));
+    ids.push_back(item.id);
   }
-  BodyId id(std::size_t i) const { return ids.empty() ? static_cast<BodyId>(i) : ids[i]; }
+  void assign(Items<D> items) {
+    ids.clear();
+    boxes.resize(items.size());
+    for (std::size_t i = 0; i < items.size(); ++i) boxes[i] = items.box(i);
+    if (!items.ids_are_places())
+      for (std::size_t i = 0; i < items.size(); ++i) ids.push_back(items.id(i));
+  }
+  BodyId id(std::size_t i) const { return id_at(ids, i); }
   std::size_t places() const { return boxes.capacity() + ids.capacity(); }
-  bool operator==(const KeptItems&) const = default;
   operator Items<D>() const { return {boxes, ids}; }
 };
 
@@ -101,6 +110,11 @@ template <int D>
 template <int D>
 void require_valid(const Item<D>& item) {
   if (!is_valid(item.box)) refuse_box(item);
+}
+template <int D>
+void require_all_valid(Items<D> items) {
+  for (std::size_t i = 0; i < items.size(); ++i)
+    if (!is_valid(items.box(i))) refuse_box(items[i]);
 }
 
 // What is known of a body beside its box.
@@ -342,8 +356,8 @@ class Structure {
 template <int D>
 struct StructureView {
   const Structure<D>* structure;
-  // If its bodies are numbered from 0: what they are called instead, in ascending order, and their
-  // boxes. Else they have the ids that it was given.
+  // If its bodies are numbered from 0: what they are called instead, if anything, in ascending
+  // order, and their boxes. Else they have the ids that it was given.
   std::span<const BodyId> names = {};
   std::span<const Box<D>> boxes = {};
 
@@ -352,7 +366,7 @@ struct StructureView {
                 std::span<const Box<D>> their_boxes)
       : structure(&s), names(their_names), boxes(their_boxes) {}
 
-  BodyId name(BodyId id) const { return names.empty() ? id : names[id]; }
+  BodyId name(BodyId id) const { return id_at(names, id); }
   void visit(NodeLook<D> f, const Vec<D>& toward = Vec<D>(0.0)) const {
     std::vector<BodyId> ids;
     structure->visit(

@@ -83,7 +83,7 @@ template <int D>
 PairChain BroadPhase<D>::pair_chain(FunctionRef<bool(BodyId)> awake, std::uint64_t most) const {
   std::vector<bool> stirring;
   for (std::size_t i = 0; i < dynamic_.boxes.size(); ++i)
-    stirring.push_back(!dynamic_.states[i].is_static && awake(dynamic_.names[i]));
+    stirring.push_back(!dynamic_.state(i).is_static && awake(dynamic_.id(i)));
   struct Met {
     Pair pair;
     bool overlaps;
@@ -92,7 +92,7 @@ PairChain BroadPhase<D>::pair_chain(FunctionRef<bool(BodyId)> awake, std::uint64
   PairChain chain;
   const auto meet = [&](BodyId i, const Store& store, BodyId j) {
     require_within(++chain.met, most);
-    const BodyId a = dynamic_.names[i], b = store.names[j];
+    const BodyId a = dynamic_.id(i), b = store.id(j);
     met.push_back({{std::min(a, b), std::max(a, b)}, overlap(dynamic_.boxes[i], store.boxes[j])});
   };
   // What sorts its bodies before it is asked does so in a copy, and stays as it is.

@@ -148,9 +148,7 @@ void order_pairs(std::vector<Pair>& pairs, std::uint32_t numbers) {
   FoundPairs found;
   found.reserve(pairs.size(), 0);
   for (const Pair& pair : pairs) found.add(pair.a, pair.b);
-  std::vector<BodyId> names(numbers);
-  std::iota(names.begin(), names.end(), BodyId{0});
-  PairOrder().order(found, names, pairs);
+  PairOrder().order(found, numbers, {}, pairs);
 }
 
 TEST(PairOrder, PutsPairsInOrderAndEachOnce) {

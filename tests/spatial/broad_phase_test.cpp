@@ -31,8 +31,10 @@ std::vector<Pair> true_pairs(const std::vector<Proxy<D>>& proxies) {
 template <int D>
 std::vector<Proxy<D>> random_proxies(Sort sort, std::size_t bodies, Random& random) {
   std::vector<Proxy<D>> proxies;
+  const bool numbered = random.bits() % 2 == 0;
   for (const Item<D>& item : testing::random_world<D>(sort, bodies, random))
-    proxies.push_back({item.id, item.box, random.whole(0, 2) == 0, random.whole(0, 2) != 0});
+    proxies.push_back({numbered ? static_cast<BodyId>(proxies.size()) : item.id, item.box,
+                       random.whole(0, 2) == 0, random.whole(0, 2) != 0});
   // A floor without end, standing in for a half-space.
   Box<D> floor{Vec<D>(-kEndless), Vec<D>(kEndless)};
   floor.hi.y = 7;
@@ -396,6 +398,24 @@ TEST(BroadPhase, WhatIsInsertedIsFoundAtOnce) {
       std::iota(ids.begin(), ids.end(), BodyId{0});
       const auto box_of = [&](BodyId id) { return proxies[id].box; };
       EXPECT_EQ(overlap_query<2>(phase.dynamic(), world, box_of).ids, ids) << to_string(kind);
+    }
+  }
+}
+
+TEST(BroadPhase, WhatIsInsertedIsPaired) {
+  for (const BodyId gap : {1u, 3u}) {
+    Random random(22);
+    BroadPhaseConfig<2> config;
+    config.kind = StructureKind::aabb_tree;
+    BroadPhase<2> phase(config);
+    std::vector<Proxy<2>> proxies;
+    for (BodyId i = 0; i < 40; ++i) {
+      proxies.push_back(
+          {gap * i, testing::random_box<2>(Sort::uniform, random), i % 3 == 2, i % 4 != 3});
+      phase.insert(std::span(proxies).last(1));
+      phase.update(proxies);
+      EXPECT_EQ(phase.pairs(), true_pairs(proxies));
+      EXPECT_EQ(phase.counters().static_builds, i < 2 ? 0u : 1u) << "no body was taken anew";
     }
   }
 }

@@ -38,5 +38,72 @@ TEST(SteadyState, AnUpdateAsksForNoMemory) {
   }
 }
 
+constexpr std::size_t kBodies = 4096;
+
+double held() { return static_cast<double>(counted_memory::held_bytes) / kBodies; }
+
+// As close to each other however many there are.
+template <int D>
+std::vector<Proxy<D>> crowd() {
+  Random random(5);
+  const double side = 2 * std::pow(static_cast<double>(kBodies), 1.0 / D);
+  std::vector<Proxy<D>> proxies;
+  for (BodyId id = 0; id < kBodies; ++id)
+    proxies.push_back({id, Box<D>::around(random_point<D>(random, 0, side),
+                                          random_point<D>(random, 0.25, 0.75))});
+  return proxies;
+}
+
+// Bytes a body that a broad phase holds beside the structure and the boxes.
+template <int D>
+double beside_boxes(const std::vector<Proxy<D>>& proxies) {
+  std::vector<Box<D>> boxes;
+  for (const Proxy<D>& proxy : proxies) boxes.push_back(proxy.box);
+  const double before = held();
+  const auto tree = make_structure<D>(StructureKind::aabb_tree);
+  tree->build(boxes, Build::at_once);
+  const double of_tree = held() - before;
+  BroadPhaseConfig<D> config;
+  config.kind = StructureKind::aabb_tree;
+  config.build = Build::at_once;
+  BroadPhase<D> phase(config);
+  phase.build(proxies);
+  return held() - before - 2 * of_tree - sizeof(Box<D>);
+}
+
+template <int D>
+void expect_lean() {
+  std::vector<Proxy<D>> proxies = crowd<D>();
+  constexpr double kFixed = 1;  // what any broad phase takes, shared out
+  EXPECT_LT(beside_boxes<D>(proxies), kFixed);
+  proxies[7].awake = false;
+  EXPECT_LT(beside_boxes<D>(proxies), kFixed + sizeof(ProxyState));
+  for (Proxy<D>& proxy : proxies) proxy.id *= 3;
+  EXPECT_LT(beside_boxes<D>(proxies), kFixed + sizeof(ProxyState) + sizeof(BodyId));
+}
+
+TEST(SteadyState, ABroadPhaseHoldsOfABodyItsBox) {
+  expect_lean<2>();
+  expect_lean<3>();
+}
+
+template <int D>
+void expect_no_more_when_all_move() {
+  std::vector<Proxy<D>> proxies = crowd<D>();
+  BroadPhaseConfig<D> config;
+  config.kind = StructureKind::grid;
+  BroadPhase<D> phase(config);
+  phase.update(proxies);
+  const double before = held();
+  for (Proxy<D>& proxy : proxies) proxy.box = {proxy.box.lo + 0.1, proxy.box.hi + 0.1};
+  phase.update(proxies);
+  EXPECT_LT(held() - before, 0.1);
+}
+
+TEST(SteadyState, AnUpdateHoldsNoMoreOfWhatMoves) {
+  expect_no_more_when_all_move<2>();
+  expect_no_more_when_all_move<3>();
+}
+
 }  // namespace
 }  // namespace lantern::spatial

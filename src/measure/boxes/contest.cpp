@@ -1,5 +1,3 @@
-#include <numeric>
-
 #include <fmt/format.h>
 
 #include "base/number.hpp"
@@ -91,9 +89,7 @@ class OwnOracle : public Oracle<D> {
   explicit OwnOracle(const BroadPhaseConfig<D>& config) : broad_phase_(config) {}
 
   void build(Boxes<D> boxes) override { broad_phase_.build(boxes); }
-  void along(const Ray<D>& ray, std::vector<BodyId>& ids) override {
-    inside(ray, ids);
-  }
+  void along(const Ray<D>& ray, std::vector<BodyId>& ids) override { inside(ray, ids); }
   bool first(const Ray<D>& ray, std::vector<BodyId>& ids) override {
     const NearestHit nearest = raycast_nearest(broad_phase_.dynamic(), ray);
     if (nearest.hit) ids.push_back(nearest.hit->id);
@@ -317,15 +313,10 @@ std::vector<std::string> box_peer_names(std::vector<std::string>& missing) {
 void into_order(std::vector<Pair>& pairs, std::uint32_t bodies) {
   thread_local FoundPairs found;
   thread_local PairOrder order;
-  thread_local std::vector<BodyId> names;
-  if (names.size() != bodies) {
-    names.resize(bodies);
-    std::iota(names.begin(), names.end(), BodyId{0});
-  }
   found.clear();
   found.reserve(pairs.size(), 0);
   for (const Pair& pair : pairs) found.add(pair.a, pair.b);
-  order.order(found, names, pairs);
+  order.order(found, bodies, {}, pairs);
 }
 
 // --- what is to be found ---

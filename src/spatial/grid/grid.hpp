@@ -135,14 +135,11 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
   // Throws Refused for a box that is not valid, after which it is empty. Time: O(n).
   void make(Items<D> items) {
     clear();
-    for (const Item<D>& item : items) require_valid(item);
+    require_all_valid(items);
     const std::size_t places = items_.places();
-    items_.boxes.reserve(items.size());
-    for (const Item<D>& item : items) {
-      items_.push_back(item);
-      side_rule_.add(item.box);
-    }
+    items_.assign(items);
     allocations_ += items_.places() != places;
+    for (const Box<D>& box : items_.boxes) side_rule_.add(box);
     hold();
   }
 

@@ -213,7 +213,7 @@ void AabbTree<D>::grow_all() {
 
 template <int D>
 void AabbTree<D>::make(Items<D> items) {
-  for (const Item<D>& item : items) require_valid(item);
+  require_all_valid(items);
   require_places(items.size());
   clear();
   leaves_.clear();

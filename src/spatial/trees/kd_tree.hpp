@@ -178,7 +178,7 @@ class KdTree final : public StructureOf<KdTree<D>, D>, CountsAllocations {
   // that is too full stays one. Time: O(n log n) where planes part well.
   template <class Observer = NoObserver>
   void make(Items<D> items, Observer&& observer = {}) {
-    for (const Item<D>& item : items) require_valid(item);
+    require_all_valid(items);
     most_nodes_before_ = std::max(most_nodes_before_, nodes_.size());
     nodes_.clear();
     items_.clear();

@@ -63,7 +63,7 @@ class Orthtree final : public StructureOf<Orthtree<D>, D>, CountsAllocations {
   // one, with the same counts of tests and splits, in less time; but its nodes and their places in
   // the array are numbered in the order of visiting. Throws as `build` does.
   void make(Items<D> items) {
-    for (const Item<D>& item : items) require_valid(item);
+    require_all_valid(items);
     clear();
     box_tests_ = items.size();
     for (const Item<D>& item : items) append(items_, item);
