@@ -174,9 +174,9 @@ struct GridLevel {
     return static_cast<std::uint32_t>(bucket);
   }
 
-  // How the cells lie, when all bodies are counted. If there are more than eight a body, the
-  // longest axes are folded.
-  void lay_out() {
+  // How the cells lie, when all bodies are counted. If there are more than eight a body or than so
+  // many slots, the longest axes are folded.
+  void lay_out(double most_slots) {
     if (count == 0) return;
     base = raster.at(corners.lo);
     last = raster.at(corners.hi);
@@ -188,7 +188,7 @@ struct GridLevel {
       sharp = sharp && std::abs(base[i]) < kSharp && std::abs(last[i]) < kSharp;
     }
     reach = sharp ? 1 : 2;
-    const double most = 64 + 8.0 * count;
+    const double most = std::min(64 + 8.0 * count, most_slots);
     folded = cells > most;
     while (cells > most) {
       std::int64_t& longest = *std::ranges::max_element(fold);
@@ -228,7 +228,8 @@ class GridTable : CountsAllocations {
   void build(std::span<const Box<D>> boxes, std::span<const GridRaster<D>> rasters) {
     set_up(rasters);
     deal(boxes);
-    for (Level& level : levels_) level.lay_out();
+    const double most = kMostSlots / static_cast<double>(levels_.size());
+    for (Level& level : levels_) level.lay_out(most);
     count(boxes);
     place(boxes);
   }
@@ -298,12 +299,12 @@ class GridTable : CountsAllocations {
 
  private:
   using Level = GridLevel<D>;
-  static constexpr std::uint8_t kLarge = 0xff;
-  // Where a body is: its level, its first cell, and how far it reaches beyond.
-  struct Spot {
-    std::uint32_t slot = 0;
-    std::uint8_t level = 0, span = 0;
-  };
+  // Where a body is: the slot of its first cell, until that is known its level; and in the last
+  // bits how far it reaches beyond, see GridLevel::span.
+  using Spot = std::uint32_t;
+  static constexpr int kSpanBits = 6;
+  static constexpr Spot kLarge = (1 << kSpanBits) - 1;  // no body reaches three cells beyond
+  static constexpr double kMostSlots = 1 << (32 - kSpanBits);
 
   void set_up(std::span<const GridRaster<D>> rasters) {
     if (levels_.size() != rasters.size()) {
@@ -332,11 +333,11 @@ class GridTable : CountsAllocations {
       std::size_t l = 0;
       while (l < levels && extent > levels_[l].raster.side()) ++l;
       if (l == levels) {
-        spot_of_[k].level = kLarge;
+        spot_of_[k] = kLarge;
         append(large_, static_cast<std::uint32_t>(k));
         continue;
       }
-      spot_of_[k].level = static_cast<std::uint8_t>(l);
+      spot_of_[k] = static_cast<Spot>(l) << kSpanBits;
       Level& level = levels_[l];
       ++level.count;
       level.corners.lo = glm::min(level.corners.lo, box.lo);
@@ -358,12 +359,12 @@ class GridTable : CountsAllocations {
     start_.assign(slots + 2, 0);
     for (std::size_t k = 0; k < boxes.size(); ++k) {
       Spot& spot = spot_of_[k];
-      if (spot.level == kLarge) continue;
-      const Level& level = levels_[spot.level];
+      if (spot == kLarge) continue;
+      const Level& level = levels_[spot >> kSpanBits];
       const GridCell<D> from = level.raster.at(boxes[k].lo);
-      spot.slot = level.first_slot + level.slot(from);
-      spot.span = level.span(from, boxes[k].hi);
-      ++start_[spot.slot + 2];
+      const std::uint32_t slot = level.first_slot + level.slot(from);
+      spot = slot << kSpanBits | level.span(from, boxes[k].hi);
+      ++start_[slot + 2];
     }
     std::uint32_t sum = 0;
     for (std::uint32_t& s : start_) s = sum += s;
@@ -375,8 +376,8 @@ class GridTable : CountsAllocations {
     table_.resize(boxes.size());
     allocations_ += table_.places() != places;
     for (std::uint32_t k = 0; k < boxes.size(); ++k) {
-      if (spot_of_[k].level == kLarge) continue;
-      const std::uint32_t p = start_[spot_of_[k].slot + 1]++;
+      if (spot_of_[k] == kLarge) continue;
+      const std::uint32_t p = start_[(spot_of_[k] >> kSpanBits) + 1]++;
       table_.set(p, k, boxes[k]);
       spot_at_[p] = spot_of_[k];
     }
@@ -472,7 +473,7 @@ class GridTable : CountsAllocations {
       stop_if_asked();
       const std::uint32_t end = start_[row + width];
       for (std::uint32_t p = start_[row]; p < end; ++p) {
-        GridCell<D> from{spot_at_[p].slot - row, y};
+        GridCell<D> from{(spot_at_[p] >> kSpanBits) - row, y};
         if constexpr (D == 3) from[2] = z;
         if (level.folded) from = level.counted(level.raster.at(boxes[table_.id(p)].lo));
         runs_of(level, p, row, from, f);
@@ -491,9 +492,7 @@ class GridTable : CountsAllocations {
     const auto before = [&](std::size_t axis) {
       return std::max<std::int64_t>(from[axis] - level.reach, 0);
     };
-    const auto to = [&](std::size_t axis) {
-      return from[axis] + (spot_at_[p].span >> 2 * axis & 3);
-    };
+    const auto to = [&](std::size_t axis) { return from[axis] + (spot_at_[p] >> 2 * axis & 3); };
     const std::int64_t x0 = before(0), x1 = to(0), y1 = to(1);
     own_row(level, p, row, from[0], x1, f);
     for (std::int64_t y = from[1] + 1; y <= y1; ++y)
