@@ -102,13 +102,13 @@ void check_kind(const TableReader& table, const StructureSpec& s, const Draft& d
 
 template <int D>
 void choose(const ScenarioSpec& scenario, StructureSpec& structure) {
-  std::vector<Item<D>> items;
+  std::vector<Box<D>> boxes;
   for (const BodySpec& body : scenario.bodies) {
     const Box<D> box =
         in_dimension<D>(bounding_box(body.shape, body.position, orientation_of(body)));
-    if (is_valid(box)) items.push_back({static_cast<BodyId>(items.size()), box});
+    if (is_valid(box)) boxes.push_back(box);
   }
-  const StructureChoice<D> choice = choose_structure<D>(items, StructureConfig<D>());
+  const StructureChoice<D> choice = choose_structure<D>(boxes, StructureConfig<D>());
   structure.kind = choice.kind;
   structure.cell = choice.config.cell;
   structure.levels = choice.config.levels;

@@ -343,9 +343,7 @@ class OwnView::Inspection {
   // What it is all for: the first that is missed is told even if there is much else to tell.
   void inspect_pairs() {
     const auto sweep = make_structure<2>(StructureKind::sort_and_sweep);
-    std::vector<Item<2>> items;
-    for (BodyId body = 0; body < boxes_.size(); ++body) items.push_back({body, boxes_[body]});
-    sweep->build(items);
+    sweep->build(boxes_);
     bool told = false;
     const auto all = [](BodyId) { return true; };
     sweep->compare(all, [&](BodyId a, BodyId b) {
