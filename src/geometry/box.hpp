@@ -26,9 +26,9 @@ struct Box {
 // The predicate that brute force and every tree share.
 template <int D>
 bool overlap(const Box<D>& a, const Box<D>& b) {
-  for (int i = 0; i < D; ++i)
-    if (a.hi[i] < b.lo[i] || b.hi[i] < a.lo[i]) return false;
-  return true;
+  bool all = true;  // and no branch for each axis
+  for (int i = 0; i < D; ++i) all &= (a.lo[i] <= b.hi[i]) & (b.lo[i] <= a.hi[i]);
+  return all;
 }
 
 template <int D>

@@ -1,5 +1,6 @@
 #include "spatial/broad_phase.hpp"
 
+#include <numeric>
 #include <utility>
 
 #include "base/check.hpp"
@@ -125,26 +126,33 @@ void BroadPhase<D>::take(std::span<const Proxy<D>> proxies) {
 template <int D>
 void BroadPhase<D>::set(Store& store, std::size_t place, const Proxy<D>& proxy) {
   if (is_in(store, place, proxy)) return;
-  const ProxyState state{proxy.is_static, proxy.awake};
-  const bool moves = !(store.boxes[place] == proxy.box);
+  Box<D>& box = store.boxes[place];
   found_all_ = false;
-  store.boxes[place] = proxy.box;
-  store.set_state(place, state);
-  if (moves) {
+  store.set_state(place, {proxy.is_static, proxy.awake});
+  if (!(box == proxy.box)) {
+    box = proxy.box;
     store.only_moved |= store.stands;
     store.stands = false;
+    if (&store == &static_) near_.forget();
   }
-  if (!resting_ || &store != &dynamic_ || state.stirs()) return;
-  // Where it was before it is in the tree still: of too many of these it is built anew.
+  if (resting_ && &store == &dynamic_ && !store.state(place).stirs()) put_to_rest(place);
+}
+
+// Where it was before it is in the tree still: of too many of these it is built anew.
+template <int D>
+void BroadPhase<D>::put_to_rest(std::size_t place) {
   auto tree = std::move(resting_);
-  if (++put_to_rest_ > 64 + store.size() / 2) return;
-  tree->insert({static_cast<BodyId>(place), proxy.box});
+  if (++put_to_rest_ > 64 + dynamic_.size() / 2) return;
+  tree->insert({static_cast<BodyId>(place), dynamic_.boxes[place]});
   resting_ = std::move(tree);
 }
 
 template <int D>
 void BroadPhase<D>::follow(std::span<const Proxy<D>> changed) {
-  for (const Proxy<D>& proxy : changed) require_valid(Item<D>{proxy.id, proxy.box});
+  bool all_valid = true;  // without a branch for each
+  for (const Proxy<D>& proxy : changed) all_valid &= is_valid(proxy.box);
+  if (!all_valid)
+    for (const Proxy<D>& proxy : changed) require_valid(Item<D>{proxy.id, proxy.box});
   all_or_nothing([&] {
     stirring_.clear();
     std::array<std::size_t, 2> next{};
@@ -158,13 +166,16 @@ void BroadPhase<D>::follow(std::span<const Proxy<D>> changed) {
       ++place;
     }
     if (!static_.stands) build(static_);
-    if (!found_all_) each_asks_alone() ? find_pairs_of_few() : find_pairs();
+    if (found_all_) return;
+    if (each_asks_alone()) return find_pairs_of_few();
+    mends_pairs() ? mend_pairs() : find_pairs();
   });
 }
 
 template <int D>
 void BroadPhase<D>::replace(std::span<const Proxy<D>> proxies) {
   resting_.reset();
+  near_.forget();
   ranked_ = false;
   for (Store* store : stores()) {
     bool same = true, same_states = true;
@@ -212,6 +223,7 @@ template <int D>
 void BroadPhase<D>::forget() {
   pairs_.clear();
   resting_.reset();
+  near_.forget();
   found_all_ = false;
   ranked_ = false;
   for (Store* store : stores()) {
@@ -224,11 +236,18 @@ void BroadPhase<D>::forget() {
 
 template <int D>
 void BroadPhase<D>::build(Store& store, Use use, const Watch& watch) {
+  build(store, store.boxes, use, watch);
+}
+
+template <int D>
+void BroadPhase<D>::build(Store& store, std::span<const Box<D>> boxes, Use use,
+                          const Watch& watch) {
+  if (&store == &dynamic_) reaches_stand_ = false;
   if (config_.kind == StructureKind::automatic) choose(store, use);
   // A structure that can go on from where its bodies were is not built anew.
   if (store.only_moved) {
     store.stands = true;  // for who looks meanwhile: each body that is in it has its name
-    store.stands = store.structure->update(store.boxes, naming(store, watch));
+    store.stands = store.structure->update(boxes, naming(store, watch));
     if (store.stands) return;
   }
   if (config_.in_proportion && store.size() > store.room) {
@@ -238,7 +257,7 @@ void BroadPhase<D>::build(Store& store, Use use, const Watch& watch) {
   }
   for (;;) {
     try {
-      with_names(store, [&] { store.structure->build(store.boxes, config_.build); });
+      with_names(store, [&] { store.structure->build(boxes, config_.build); });
       break;
     } catch (const Refused&) {
       if (!config_.in_proportion || store.settings.max_depth == 0) throw;
@@ -290,6 +309,7 @@ void BroadPhase<D>::insert(std::span<const Proxy<D>> proxies, const Watch& watch
   }
   if (proxies.empty()) return;
   resting_.reset();
+  near_.forget();
   found_all_ = ranked_ = false;
   all_or_nothing([&] {
     std::array<bool, 2> entered{};
@@ -343,52 +363,60 @@ void BroadPhase<D>::empty(Store& store) {
 // --- pairing ---
 
 template <int D>
-void BroadPhase<D>::begin_search(const Bodies& bodies) {
+void BroadPhase<D>::begin_search(std::span<const Box<D>> boxes, std::span<const ProxyState> states,
+                                 std::span<const BodyId> names) {
   counters_.pair_tests = counters_.nodes_visited = 0;
   counters_.nodes_skipped_asleep = counters_.nodes_reused = 0;
   pairs_.clear();
-  search_->begin(bodies.boxes, bodies.states);
+  search_->begin(boxes, states);
   search_->found.set_threads(config_.threads);
-  found_names_ = bodies.ids;
+  found_names_ = names;
   search_->found.ask_before_growing(
       [this](BodyId body, std::size_t pairs) { require_room(body, pairs); });
 }
 
 template <int D>
 void BroadPhase<D>::find_pairs() {
-  begin_search(dynamic_);
+  begin_search(dynamic_.boxes, dynamic_.states, dynamic_.ids);
   if (search_->stirring() > 0) {
     if (!dynamic_.stands) build(dynamic_);
-    for (Store* store : stores()) store->structure->sort();
-    dynamic_.structure->pair(*search_);
-    counters_.pair_tests = search_->tests;
-    counters_.nodes_visited = search_->nodes_visited;
-    counters_.nodes_skipped_asleep = search_->nodes_skipped;
-    counters_.nodes_reused = dynamic_.structure->work().nodes_reused;
-    dynamic_.tests =
-        static_cast<double>(counters_.pair_tests) / static_cast<double>(search_->stirring());
-    if (dynamic_.chosen_tests == 0) dynamic_.chosen_tests = dynamic_.tests;
-    pair_static();
-    order_pairs();
+    search();
+    order_pairs(pairs_);
   } else if (!dynamic_.stands) {
     empty(dynamic_);
   }
   found_all_ = true;
 }
 
+// Of these, of which at least one stirs: the structure holds them.
 template <int D>
-void BroadPhase<D>::order_pairs() {
+void BroadPhase<D>::search() {
+  for (Store* store : stores()) store->structure->sort();
+  dynamic_.structure->pair(*search_);
+  counters_.pair_tests = search_->tests;
+  counters_.nodes_visited = search_->nodes_visited;
+  counters_.nodes_skipped_asleep = search_->nodes_skipped;
+  counters_.nodes_reused = dynamic_.structure->work().nodes_reused;
+  dynamic_.tests =
+      static_cast<double>(counters_.pair_tests) / static_cast<double>(search_->stirring());
+  if (dynamic_.chosen_tests == 0) dynamic_.chosen_tests = dynamic_.tests;
+  pair_static();
+}
+
+template <int D>
+void BroadPhase<D>::order_pairs(std::vector<Pair>& pairs) {
   FoundPairs& found = search_->found;
   if (found.size() > config_.most_pairs) refuse_more(found.first()[config_.most_pairs]);
   constexpr std::size_t kFew = 8;  // of many bodies: it costs less to compare them with each other
   if (kFew * found.size() >= size())
-    return search_->order.order(found, size(), found_names_, pairs_);
+    return search_->order.order(found, size(), found_names_, pairs);
+  pairs.clear();
   for (std::size_t i = 0; i < found.size(); ++i) {
     const auto [a, b] = std::minmax(found.first()[i], found.second()[i]);
-    pairs_.push_back({id_at(found_names_, a), id_at(found_names_, b)});
+    pairs.push_back({id_at(found_names_, a), id_at(found_names_, b)});
   }
-  std::ranges::sort(pairs_);
-  pairs_.erase(std::ranges::unique(pairs_).begin(), pairs_.end());
+  std::ranges::sort(pairs);
+  pairs.erase(std::ranges::unique(pairs).begin(), pairs.end());
 }
 
 // What was found among dynamic bodies is named by their ranks among all from now on.
@@ -399,9 +427,7 @@ void BroadPhase<D>::name_by_ranks(PlaceOf&& place_of) {
   FoundPairs& found = search_->found;
   for (const std::span<BodyId> list : {found.first(), found.second()})
     for (BodyId& i : list) i = rank(dynamic_, place_of(i));
-  found_names_ = numbered_             ? std::span<const BodyId>()
-                 : static_.size() == 0 ? dynamic_.ids
-                                       : all_ids_;
+  found_names_ = names_by_rank();
 }
 
 // Each awake body asks the static structure.
@@ -410,14 +436,14 @@ void BroadPhase<D>::pair_static() {
   if (static_.size() == 0) return;
   name_by_ranks([](BodyId place) { return place; });
   for (std::size_t i = 0; i < dynamic_.size(); ++i)
-    if (dynamic_.state(i).stirs()) ask(*static_.structure, static_, i);
+    if (search_->stirs(i)) ask(*static_.structure, static_, search_->box(i), i);
 }
 
 // Of the others those that stir are not met so.
 template <int D>
-void BroadPhase<D>::ask(const Structure<D>& structure, const Store& others, std::size_t place) {
+void BroadPhase<D>::ask(const Structure<D>& structure, const Store& others, const Box<D>& box,
+                        std::size_t place) {
   stop_if_asked();
-  const Box<D>& box = dynamic_.boxes[place];
   ids_.clear();
   structure.near(box, ids_);
   for (const BodyId j : ids_) {
@@ -436,10 +462,15 @@ bool BroadPhase<D>::each_asks_alone() const {
          !traits.has(Setting::axis);
 }
 
+template <int D>
+Structure<D>& BroadPhase<D>::few() {
+  if (!few_) few_ = make_structure<D>(StructureKind::aabb_tree);
+  return *few_;
+}
+
 // Those that stir among themselves, then each with what rests.
 template <int D>
 void BroadPhase<D>::find_pairs_of_few() {
-  if (!few_) few_ = make_structure<D>(StructureKind::aabb_tree);
   if (!resting_) {
     KeptItems<D> still;
     for (std::uint32_t i = 0; i < dynamic_.size(); ++i)
@@ -452,17 +483,131 @@ void BroadPhase<D>::find_pairs_of_few() {
   stirring_bodies_.clear();
   for (const std::size_t place : stirring_)
     stirring_bodies_.push_back({dynamic_.id(place), dynamic_.boxes[place]}, {});
-  begin_search(stirring_bodies_);
-  few_->build(stirring_bodies_.boxes, Build::at_once);
+  begin_search(stirring_bodies_.boxes, {}, stirring_bodies_.ids);
+  few().build(stirring_bodies_.boxes, Build::at_once);
   few_->pair(*search_);
   counters_.pair_tests = search_->tests;
   name_by_ranks([&](BodyId i) { return stirring_[i]; });
   for (const std::size_t place : stirring_) {
-    ask(*static_.structure, static_, place);
-    ask(*resting_, dynamic_, place);
+    const Box<D>& box = dynamic_.boxes[place];
+    ask(*static_.structure, static_, box, place);
+    ask(*resting_, dynamic_, box, place);
   }
-  order_pairs();
+  order_pairs(pairs_);
   found_all_ = true;
+}
+
+// --- mending ---
+
+template <int D>
+bool BroadPhase<D>::mends_pairs() const {
+  constexpr std::size_t kMany = 64;
+  return config_.mends && config_.kind == StructureKind::automatic &&
+         dynamic_.size() >= kMany;
+}
+
+template <int D>
+void BroadPhase<D>::mend_pairs() {
+  Mending next = near_.follow(dynamic_.boxes, reaches_stand_);
+  if (next == Mending::anew && !find_near()) next = Mending::none;
+  if (next == Mending::none) {
+    find_pairs();
+  } else {
+    begin_search(dynamic_.boxes, dynamic_.states, dynamic_.ids);
+    if (next == Mending::some) mend_near();
+    pair_near();
+    found_all_ = true;
+  }
+  near_.pay(next, pairs_.size());
+}
+
+// Of all bodies: false if too many are near each other.
+template <int D>
+bool BroadPhase<D>::find_near() {
+  try {
+    begin_search(near_.reaches(), {}, dynamic_.ids);
+    build(dynamic_, near_.reaches());
+    dynamic_.stands = dynamic_.only_moved = false;  // it holds reaches, not the boxes themselves
+    search();
+    found_names_ = {};
+    order_pairs(near_.near());
+  } catch (const Refused&) {
+    near_.give_up();
+    return false;
+  }
+  reaches_stand_ = true;
+  rank_all();
+  spots_.resize(static_.size() == 0 ? 0 : size());
+  if (!spots_.empty())
+    for (const Store* store : stores())
+      for (std::uint32_t place = 0; place < store->size(); ++place)
+        spots_[rank(*store, place)] = {store == &static_, place};
+  return true;
+}
+
+// Of those that have left their reaches: near bodies that never did, and are where the structure
+// has them; those that once did; and static ones.
+template <int D>
+void BroadPhase<D>::mend_near() {
+  if (near_.left().empty()) return;
+  const std::span<const Box<D>> reaches = near_.reaches();
+  const std::span<const std::uint32_t> all_left = near_.all_left();
+  stirring_bodies_.clear();
+  for (const std::uint32_t place : all_left) stirring_bodies_.boxes.push_back(reaches[place]);
+  few().build(stirring_bodies_.boxes, Build::at_once);
+  const auto each_near = [&](const Structure<D>& structure, const Box<D>& reach, auto&& f) {
+    ids_.clear();
+    structure.near(reach, ids_);
+    for (const BodyId id : ids_) f(id);
+  };
+  for (const std::uint32_t place : near_.left()) {
+    stop_if_asked();
+    const Box<D>& reach = reaches[place];
+    const auto add = [&](const Box<D>& box, std::uint32_t number) {
+      ++counters_.pair_tests;
+      if (overlap(reach, box)) near_.add(rank(dynamic_, place), number);
+    };
+    each_near(*dynamic_.structure, reach, [&](BodyId other) {
+      if (!near_.has_left(other)) add(reaches[other], rank(dynamic_, other));
+    });
+    each_near(*few_, reach, [&](BodyId at) {
+      if (const std::uint32_t other = all_left[at]; other != place)
+        add(reaches[other], rank(dynamic_, other));
+    });
+    each_near(*static_.structure, reach,
+              [&](BodyId other) { add(static_.boxes[other], rank(static_, other)); });
+  }
+  near_.put_in_order();
+}
+
+// Those near each other whose boxes overlap; without a guess which they are.
+template <int D>
+void BroadPhase<D>::pair_near() {
+  const std::vector<Pair>& near = near_.near();
+  const std::span<const BodyId> names = names_by_rank();
+  pairs_.resize(near.size());
+  Pair* next = pairs_.data();
+  if (spots_.empty() && dynamic_.states.empty()) {
+    const Box<D>* boxes = dynamic_.boxes.data();
+    for (const auto [a, b] : near) {
+      *next = {id_at(names, a), id_at(names, b)};
+      next += overlap(boxes[a], boxes[b]);
+    }
+  } else {
+    const auto body_at = [&](BodyId rank) -> std::pair<const Store&, std::size_t> {
+      if (spots_.empty()) return {dynamic_, rank};
+      return {spots_[rank].is_static ? static_ : dynamic_, spots_[rank].place};
+    };
+    for (const auto [a, b] : near) {
+      const auto& [one, i] = body_at(a);
+      const auto& [two, j] = body_at(b);
+      *next = {id_at(names, a), id_at(names, b)};
+      next += overlap(one.boxes[i], two.boxes[j]) &&
+              (one.state(i).stirs() || two.state(j).stirs());
+    }
+  }
+  pairs_.resize(static_cast<std::size_t>(next - pairs_.data()));
+  counters_.pair_tests += near.size();
 }
 
 // Before the lists of pairs grow, or pass their limit: places in them, and what it takes to put
@@ -532,6 +677,7 @@ std::size_t BroadPhase<D>::own_places() const {
   const auto of_store = [](const Store& s) { return s.places() + s.ranks.capacity(); };
   return pairs_.capacity() + sorted_.capacity() + all_ids_.capacity() + ids_.capacity() +
          of_store(static_) + of_store(dynamic_) + stirring_bodies_.places() + stirring_.capacity() +
+         near_.places() + spots_.capacity() +
          changed_.capacity() + search_->places() + search_->order.places();
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "spatial/broad_phase_config.hpp"
+#include "spatial/near_pairs.hpp"
 
 namespace lantern::spatial {
 
@@ -203,28 +204,44 @@ class BroadPhase {
            store.state(place) == ProxyState{proxy.is_static, proxy.awake};
   }
   void set(Store& store, std::size_t place, const Proxy<D>& proxy);
+  void put_to_rest(std::size_t place);
   void replace(std::span<const Proxy<D>> proxies);
   void rank_all();
   std::size_t size() const { return static_.size() + dynamic_.size(); }
   BodyId rank(const Store& store, std::size_t place) const {
     return id_at(numbered_ ? store.ids : store.ranks, place);
   }
+  std::span<const BodyId> names_by_rank() const {
+    if (numbered_) return {};
+    return static_.size() == 0 ? dynamic_.ids : all_ids_;
+  }
   void forget();
   void build(Store& store, Use use = Use::pairs, const Watch& watch = {});
+  void build(Store& store, std::span<const Box<D>> boxes, Use use = Use::pairs,
+             const Watch& watch = {});
   void put(Store& store, const Proxy<D>& proxy, const Watch& watch);
   static Watch naming(const Store& store, const Watch& watch);
   template <class F>
   static void with_names(const Store& store, F&& f);
   void empty(Store& store);
   bool each_asks_alone() const;
-  void begin_search(const Bodies& bodies);
+  void begin_search(std::span<const Box<D>> boxes, std::span<const ProxyState> states,
+                    std::span<const BodyId> names);
   template <class PlaceOf>
   void name_by_ranks(PlaceOf&& place_of);
   void find_pairs();
+  void search();
+  Structure<D>& few();
   void find_pairs_of_few();
   void pair_static();
-  void ask(const Structure<D>& structure, const Store& others, std::size_t place);
-  void order_pairs();
+  void ask(const Structure<D>& structure, const Store& others, const Box<D>& box,
+           std::size_t place);
+  void order_pairs(std::vector<Pair>& pairs);
+  bool mends_pairs() const;
+  void mend_pairs();
+  bool find_near();
+  void mend_near();
+  void pair_near();
   void require_room(BodyId number, std::size_t pairs) const;
   [[noreturn]] void refuse_more(BodyId number) const;
   std::size_t own_places() const;
@@ -241,6 +258,15 @@ class BroadPhase {
   std::vector<std::size_t> stirring_;
   std::unique_ptr<Structure<D>> few_, resting_;
   std::size_t put_to_rest_ = 0;  // since that tree was built
+  // Of `automatic`, where most stir: which are near each other, and whether the dynamic structure
+  // holds their reaches instead of their boxes.
+  NearPairs<D> near_;
+  bool reaches_stand_ = false;
+  struct Spot {
+    bool is_static = false;
+    std::uint32_t place = 0;
+  };
+  std::vector<Spot> spots_;  // by rank, if there are static bodies
 
   // Scratch of an update, kept for its memory.
   std::vector<Proxy<D>> sorted_;  // all, by id, if they came otherwise

@@ -63,6 +63,8 @@ class PairSearch {
   }
   // Pairs are those of which at least one stirs; so many do.
   std::size_t stirring() const { return stirring_; }
+  bool stirs(std::size_t place) const { return states_.empty() || states_[place].stirs(); }
+  const Box<D>& box(std::size_t place) const { return boxes_[place]; }
 
   // Of a tree in which two bodies meet where they share a leaf.
   template <class Tree>
@@ -101,7 +103,6 @@ class PairSearch {
   }
 
  private:
-  bool stirs(BodyId i) const { return states_.empty() || states_[i].stirs(); }
 
   template <class Tree>
   void ask(const Tree& tree, std::uint32_t place) {

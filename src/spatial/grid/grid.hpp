@@ -197,17 +197,16 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
   // Those that the box overlaps, each once.
   std::uint64_t near(const Box<D>& box, std::vector<BodyId>& ids) const override {
     hold();
-    std::uint64_t tests = 0;  // of rows, and of bodies in vain
-    table_.each_near(box, [&](std::uint32_t from, std::uint32_t to) {
-      ++tests;
-      for (std::uint32_t place = from; place < to; ++place) {
-        const std::uint32_t at = table_.table().id(place);
-        const bool is_near = overlap(items_.boxes[at], box);
-        tests += !is_near;
-        if (is_near) ids.push_back(items_.id(at));
-      }
-    });
-    return tests;
+    const std::size_t before = ids.size();
+    const VolumeProbe<D, Box> probe(box);
+    auto limit = [] { return 0.0; };
+    auto soon = [](BodyId) {};
+    auto near = [&](std::uint32_t place, bool is_sure) {
+      if (is_sure || overlap(items_.boxes[place], box)) ids.push_back(items_.id(place));
+    };
+    WalkCounts counts;
+    table_.each_near(box, look(probe, limit, soon, near, counts));
+    return counts.visited + counts.compared - (ids.size() - before);  // in vain
   }
 
   // --- asked by rows, see query_walk.hpp ---
@@ -223,7 +222,7 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
       runs.push_back({from, to});
       table_.table().fetch(from);
     });
-    const auto looks = look(probe, limit, soon, f, counts);
+    const auto looks = look_named(probe, limit, soon, f, counts);
     for (const auto& [from, to] : runs) looks(from, to);
     return counts;
   }
@@ -231,7 +230,7 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
   WalkCounts each_met(const RayProbe<D, kOrdered>& probe, Limit& limit, Soon& soon, F& f) const {
     hold();
     WalkCounts counts;
-    table_.each_along(probe, limit, look(probe, limit, soon, f, counts));
+    table_.each_along(probe, limit, look_named(probe, limit, soon, f, counts));
     return counts;
   }
   // What lies within a cube around the point, and if the nearest of it, or nothing, lies farther
@@ -242,7 +241,7 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
     WalkCounts counts;
     for (double reach = rasters_[0].side(); !items_.boxes.empty();) {
       table_.each_near({probe.point() - reach, probe.point() + reach},
-                       look(probe, limit, soon, f, counts));
+                       look_named(probe, limit, soon, f, counts));
       if (limit() <= reach * reach || reach == kInfinity) break;
       constexpr double kFar = 1e150;
       reach = limit() < kFar ? std::sqrt(limit()) * (1 + 1e-15) : 2 * reach;
@@ -288,21 +287,27 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
   }
 
  private:
-  // A run of places, a block after the other, as the probe comes to them.
+  // A run of places, a block after the other, as the probe comes to them; told of places of items.
   template <class Probe, class Limit, class Soon, class F>
-  auto look(const Probe& probe, Limit& limit, Soon& soon, F& f, WalkCounts& counts) const {
-    return [&, back = probe.high_first(0, 0)](std::uint32_t from, std::uint32_t to) {
-      const auto name = [&](std::uint32_t place) { return items_.id(place); };
-      const auto told = [&](std::uint32_t place, bool is_sure) { f(name(place), is_sure); };
-      const auto told_soon = [&](std::uint32_t place) { soon(name(place)); };
+  auto look(const Probe& probe, Limit& limit, Soon soon, F f, WalkCounts& counts) const {
+    return [=, this, &probe, &limit, &counts, back = probe.high_first(0, 0)](std::uint32_t from,
+                                                                           std::uint32_t to) {
       ++counts.visited;
       counts.compared += to - from;
       for (std::uint32_t i = from; i < to; i += kAabbBlock) {
         const std::uint32_t count = std::min(kAabbBlock, to - i);
         const std::uint32_t first = back ? to - (i - from) - count : i;
-        each_in_row(table_.table().row(first), count, probe, limit, told_soon, told);
+        each_in_row(table_.table().row(first), count, probe, limit, soon, f);
       }
     };
+  }
+
+  // The same told of bodies.
+  template <class Probe, class Limit, class Soon, class F>
+  auto look_named(const Probe& probe, Limit& limit, Soon& soon, F& f, WalkCounts& counts) const {
+    return look(
+        probe, limit, [&](std::uint32_t place) { soon(items_.id(place)); },
+        [&](std::uint32_t place, bool is_sure) { f(items_.id(place), is_sure); }, counts);
   }
 
   std::span<const GridRaster<D>> rasters() const {

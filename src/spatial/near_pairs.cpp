@@ -1,0 +1,185 @@
+#include "spatial/near_pairs.hpp"
+
+#include <cmath>
+#include <utility>
+
+
+namespace lantern::spatial {
+namespace {
+
+// About what it costs to look for a body's partners by a structure built anew, and for each that is
+// found; to see whether a body is within its reach, and whether a pair of the list overlaps; and to
+// look for the partners of one body.
+constexpr double kBuilt = 120, kFound = 50, kFollowed = 10, kCompared = 6, kAsked = 1500;
+
+template <int D>
+bool lies_in(const Box<D>& box, const Box<D>& reach) {
+  bool all = true;
+  for (int i = 0; i < D; ++i) all &= (reach.lo[i] <= box.lo[i]) & (box.hi[i] <= reach.hi[i]);
+  return all;
+}
+
+double most_of(const auto& v) {
+  double most = 0;
+  for (int i = 0; i < v.length(); ++i) most = std::max(most, std::abs(v[i]));
+  return most;
+}
+
+}  // namespace
+
+// Without reaches one step costs as much as the other.
+bool Horizon::is_due(double next) const {
+  if (at_ == 0) return age_ >= (tried_[1].steps > 0 ? kLong : 1);
+  return next * age_ > work_ || next > tried_[0].mean();
+}
+
+void Horizon::begin() {
+  constexpr int kOften = 16;  // by then bodies may move otherwise
+  tried_[at_].add(work_, age_);
+  const auto best = static_cast<std::size_t>(
+      std::ranges::min_element(tried_, {}, &Trial::mean) - tried_.begin());
+  const bool looks_around = best == 0 ? at_ == 0 : again_ >= kOften;
+  std::size_t next = best;
+  for (const std::size_t i : {best - 1, best + 1})
+    if (i < kHorizons && (tried_[i].steps == 0 || looks_around)) next = i;
+  again_ = next == at_ ? again_ + 1 : 0;
+  at_ = next;
+  age_ = 0;
+  work_ = 0;
+}
+
+template <int D>
+Mending NearPairs<D>::follow(std::span<const Box<D>> boxes, bool reaches_stand) {
+  constexpr int kKnown = 3;  // steps, with a move and how it differs from the one before
+  if (horizon_.rests_for() > kKnown) {
+    steps_known_ = 0;
+    return Mending::none;
+  }
+  look_at_motion(boxes);
+  left_.clear();
+  if (horizon_.steps() > 0) find_left(boxes);
+  Mending next = horizon_.steps() == 0 ? Mending::none : Mending::some;
+  const bool is_lost = !reaches_stand && !left_.empty();
+  if (steps_known_ >= kKnown && (is_lost || horizon_.is_due(cost_of_mending()))) {
+    horizon_.begin();
+    while (horizon_.steps() > 0 && !begin(boxes)) give_up();
+    next = horizon_.steps() == 0 ? Mending::none : Mending::anew;
+  }
+  if (next == Mending::some)
+    for (const std::uint32_t place : left_) {
+      enlarge(place, boxes[place]);
+      if (std::exchange(has_left_[place], 1) == 0) all_left_.push_back(place);
+    }
+  for (std::size_t i = 0; i < boxes.size(); ++i) before_[i] = boxes[i].lo;
+  return next;
+}
+
+// Of a sample of them.
+template <int D>
+void NearPairs<D>::look_at_motion(std::span<const Box<D>> boxes) {
+  constexpr std::size_t kSample = 64;
+  const std::size_t stride = boxes.size() / kSample + 1;
+  extent_ = 0;
+  if (steps_known_ == 0) {
+    before_.resize(boxes.size());
+    moves_.resize(boxes.size() / stride + 1);
+  }
+  ways_.clear();
+  turns_.clear();
+  for (std::size_t i = 0; i < boxes.size(); i += stride) {
+    const Vec<D> move = boxes[i].lo - before_[i];
+    const Vec<D> turn = move - std::exchange(moves_[i / stride], move);
+    extent_ += extent_of(boxes[i]);
+    ways_.push_back(most_of(move));
+    turns_.push_back(most_of(turn));
+  }
+  const auto nearly_most = [](std::vector<double>& all) {
+    const auto at = all.begin() + static_cast<std::ptrdiff_t>(all.size() * 9 / 10);
+    std::ranges::nth_element(all, at);
+    return *at;
+  };
+  way_ = nearly_most(ways_);
+  turn_ = nearly_most(turns_);
+  extent_ /= static_cast<double>(turns_.size());
+  ++steps_known_;
+}
+
+template <int D>
+void NearPairs<D>::find_left(std::span<const Box<D>> boxes) {
+  for (std::uint32_t i = 0; i < reaches_.size(); ++i)
+    if (!lies_in(boxes[i], reaches_[i])) left_.push_back(i);
+}
+
+// What bodies do for the most part: they move on as they did, and turn a little; or as it happens,
+// and then they get the less far the oftener they turn. False if they get so far that too many
+// would be near each other.
+template <int D>
+bool NearPairs<D>::begin(std::span<const Box<D>> boxes) {
+  const double steps = horizon_.steps();
+  const bool moves_on = 2 * turn_ <= way_;
+  ahead_ = moves_on ? steps : 0;
+  margin_ = 1.5 * std::sqrt(steps) * (moves_on ? turn_ : way_);
+  if (margin_ + ahead_ * way_ > 2 * extent_) return false;
+  reaches_.resize(boxes.size());
+  for (std::size_t i = 0; i < boxes.size(); ++i) enlarge(i, boxes[i]);
+  left_.clear();
+  all_left_.clear();
+  has_left_.assign(boxes.size(), 0);
+  return true;
+}
+
+template <int D>
+void NearPairs<D>::enlarge(std::size_t place, const Box<D>& box) {
+  const Vec<D> way = (box.lo - before_[place]) * ahead_;
+  const Box<D> reach{glm::min(box.lo, box.lo + way) - margin_,
+                     glm::max(box.hi, box.hi + way) + margin_};
+  reaches_[place] = is_valid(reach) ? reach : box;
+}
+
+// --- the list ---
+
+template <int D>
+void NearPairs<D>::put_in_order() {
+  std::ranges::sort(more_);
+  more_.erase(std::ranges::unique(more_).begin(), more_.end());
+  both_.clear();
+  std::ranges::set_union(near_, more_, std::back_inserter(both_));
+  std::swap(near_, both_);
+  more_.clear();
+}
+
+// --- what it costs ---
+
+template <int D>
+double NearPairs<D>::cost_of_mending() const {
+  const auto number = [](std::size_t n) { return static_cast<double>(n); };
+  return kFollowed * number(before_.size()) + kCompared * number(near_.size()) +
+         kAsked * number(left_.size()) + (left_.empty() ? 0 : kBuilt * number(all_left_.size()));
+}
+
+template <int D>
+void NearPairs<D>::pay(Mending done, std::size_t pairs) {
+  const auto number = [](std::size_t n) { return static_cast<double>(n); };
+  if (getenv("DBG")) fprintf(stderr, "%d steps %d left %zu all %zu near %zu pairs %zu way %g turn %g\n", int(done), horizon_.steps(), left_.size(), all_left_.size(), near_.size(), pairs, way_, turn_);
+  horizon_.pay(done == Mending::some ? cost_of_mending()
+                                  : (kFollowed + kBuilt) * number(before_.size()) +
+                                        kFound * number(done == Mending::anew ? near_.size() : pairs));
+}
+
+template <int D>
+void NearPairs<D>::give_up() {
+  horizon_.pay(kInfinity);
+  horizon_.begin();
+}
+
+template <int D>
+std::size_t NearPairs<D>::places() const {
+  return before_.capacity() + moves_.capacity() + ways_.capacity() + turns_.capacity() +
+         reaches_.capacity() + left_.capacity() + all_left_.capacity() + has_left_.capacity() +
+         near_.capacity() + more_.capacity() + both_.capacity();
+}
+
+template class NearPairs<2>;
+template class NearPairs<3>;
+
+}  // namespace lantern::spatial
