@@ -502,8 +502,7 @@ void BroadPhase<D>::find_pairs_of_few() {
 template <int D>
 bool BroadPhase<D>::mends_pairs() const {
   constexpr std::size_t kMany = 64;
-  return config_.mends && config_.kind == StructureKind::automatic &&
-         dynamic_.size() >= kMany;
+  return config_.mends && config_.kind == StructureKind::automatic && dynamic_.size() >= kMany;
 }
 
 template <int D>
@@ -602,8 +601,7 @@ void BroadPhase<D>::pair_near() {
       const auto& [one, i] = body_at(a);
       const auto& [two, j] = body_at(b);
       *next = {id_at(names, a), id_at(names, b)};
-      next += overlap(one.boxes[i], two.boxes[j]) &&
-              (one.state(i).stirs() || two.state(j).stirs());
+      next += overlap(one.boxes[i], two.boxes[j]) && (one.state(i).stirs() || two.state(j).stirs());
     }
   }
   pairs_.resize(static_cast<std::size_t>(next - pairs_.data()));
@@ -677,8 +675,8 @@ std::size_t BroadPhase<D>::own_places() const {
   const auto of_store = [](const Store& s) { return s.places() + s.ranks.capacity(); };
   return pairs_.capacity() + sorted_.capacity() + all_ids_.capacity() + ids_.capacity() +
          of_store(static_) + of_store(dynamic_) + stirring_bodies_.places() + stirring_.capacity() +
-         near_.places() + spots_.capacity() +
-         changed_.capacity() + search_->places() + search_->order.places();
+         near_.places() + spots_.capacity() + changed_.capacity() + search_->places() +
+         search_->order.places();
 }
 
 template class BroadPhase<2>;

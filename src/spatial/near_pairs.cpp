@@ -3,7 +3,6 @@
 #include <cmath>
 #include <utility>
 
-
 namespace lantern::spatial {
 namespace {
 
@@ -36,8 +35,8 @@ bool Horizon::is_due(double next) const {
 void Horizon::begin() {
   constexpr int kOften = 16;  // by then bodies may move otherwise
   tried_[at_].add(work_, age_);
-  const auto best = static_cast<std::size_t>(
-      std::ranges::min_element(tried_, {}, &Trial::mean) - tried_.begin());
+  const auto best =
+      static_cast<std::size_t>(std::ranges::min_element(tried_, {}, &Trial::mean) - tried_.begin());
   const bool looks_around = best == 0 ? at_ == 0 : again_ >= kOften;
   std::size_t next = best;
   for (const std::size_t i : {best - 1, best + 1})
@@ -160,10 +159,10 @@ double NearPairs<D>::cost_of_mending() const {
 template <int D>
 void NearPairs<D>::pay(Mending done, std::size_t pairs) {
   const auto number = [](std::size_t n) { return static_cast<double>(n); };
-  if (getenv("DBG")) fprintf(stderr, "%d steps %d left %zu all %zu near %zu pairs %zu way %g turn %g\n", int(done), horizon_.steps(), left_.size(), all_left_.size(), near_.size(), pairs, way_, turn_);
-  horizon_.pay(done == Mending::some ? cost_of_mending()
-                                  : (kFollowed + kBuilt) * number(before_.size()) +
-                                        kFound * number(done == Mending::anew ? near_.size() : pairs));
+  horizon_.pay(done == Mending::some
+                   ? cost_of_mending()
+                   : (kFollowed + kBuilt) * number(before_.size()) +
+                         kFound * number(done == Mending::anew ? near_.size() : pairs));
 }
 
 template <int D>

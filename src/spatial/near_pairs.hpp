@@ -18,8 +18,8 @@
 
 namespace lantern::spatial {
 
-// How many steps ahead reaches look: found by trying what serves these bodies best. Work is counted,
-// in about nanoseconds, so that the same bodies are always served alike.
+// How many steps ahead reaches look: found by trying what serves these bodies best. Work is
+// counted, in about nanoseconds, so that the same bodies are always served alike.
 class Horizon {
  public:
   // 0: there are no reaches.
@@ -51,7 +51,7 @@ class Horizon {
   };
   std::array<Trial, kHorizons> tried_;
   std::size_t at_ = 0;
-  int again_ = 0;  // how often in a row it began with the same
+  int again_ = 0;              // how often in a row it began with the same
   double work_ = 0, age_ = 0;  // since it began
 };
 
@@ -99,9 +99,9 @@ class NearPairs {
 
   Horizon horizon_;
   int steps_known_ = 0;
-  double way_ = 0;   // what nearly no body moves more than in a step, along an axis
-  double turn_ = 0;  // the same of what it moves otherwise than in the step before
-  double extent_ = 0;  // the mean
+  double way_ = 0;                 // what nearly no body moves more than in a step, along an axis
+  double turn_ = 0;                // the same of what it moves otherwise than in the step before
+  double extent_ = 0;              // the mean
   double ahead_ = 0, margin_ = 0;  // of reaches: for so many moves like the last one, and beyond
   std::vector<Vec<D>> before_;     // lower corners, a step ago
   std::vector<Vec<D>> moves_;      // of a sample, in the last step

@@ -103,7 +103,6 @@ class PairSearch {
   }
 
  private:
-
   template <class Tree>
   void ask(const Tree& tree, std::uint32_t place) {
     stop_if_asked();

@@ -44,7 +44,8 @@ struct BoxContestant {
   std::function<std::unique_ptr<BoxRun>(const BoxStage&, const BoxSetting&)> start = {};
 };
 
-// Ours: each kind but those whose parts a designer gives (bsp), `auto` first where there is one.
+// Ours: each kind, `auto` first where there is one, and then it without what it keeps of the last
+// step.
 std::vector<BoxContestant> own_box_contestants();
 
 // How many axes a level of the tree of that name halves.

@@ -1,3 +1,5 @@
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "base/number.hpp"
@@ -47,19 +49,20 @@ class PeerPairs : public BoxRun {
   std::vector<Pair> pairs_;
 };
 
-// Told once of what never moves, as the others are.
+// Told once of what never moves, as the others are; `auto` of the others only that they move.
 template <int D>
 class OwnPairs : public BoxRun {
  public:
   OwnPairs(const BoxStage& stage, const BroadPhaseConfig<D>& config)
       : scene_(updates_in<D>(stage)),
         some_rest_(std::ranges::any_of(scene_.frames[0], &Proxy<D>::is_static)),
+        follows_(some_rest_ || config.kind == StructureKind::automatic),
         broad_phase_(config) {}
 
   void step(std::size_t frame) override {
     const std::vector<Proxy<D>>& boxes = scene_.frames[frame];
-    if (!some_rest_ || broad_phase_.counters().static_builds == 0)
-      return broad_phase_.update(boxes);
+    if (!follows_ || !std::exchange(told_, true)) return broad_phase_.update(boxes);
+    if (!some_rest_) return broad_phase_.follow(boxes);
     moving_.clear();
     std::ranges::copy_if(boxes, std::back_inserter(moving_), std::not_fn(&Proxy<D>::is_static));
     broad_phase_.follow(moving_);
@@ -78,7 +81,7 @@ class OwnPairs : public BoxRun {
 
  private:
   const BoxUpdates<D>& scene_;
-  bool some_rest_;
+  bool some_rest_, follows_, told_ = false;
   BroadPhase<D> broad_phase_;
   std::vector<Proxy<D>> moving_;
 };
@@ -192,10 +195,12 @@ constexpr int kMostDepth = 16;
 constexpr std::array kMargins = {0.0, 0.05, 0.1, 0.2, 0.4};
 
 template <int D>
-std::unique_ptr<BoxRun> own_run(StructureKind kind, const BoxStage& stage, const BoxSetting& s) {
+std::unique_ptr<BoxRun> own_run(StructureKind kind, bool mends, const BoxStage& stage,
+                                const BoxSetting& s) {
   const StructureTraits traits = traits_of(kind);
   BroadPhaseConfig<D> config;
   config.kind = kind;
+  config.mends = mends;
   config.build = Build::at_once;
   config.bounds = updates_in<D>(stage).bounds;
   if (traits.has(Setting::levels)) config.levels = 1u << s.first;
@@ -209,7 +214,7 @@ std::unique_ptr<BoxRun> own_run(StructureKind kind, const BoxStage& stage, const
   return std::make_unique<Asked<D>>(stage, std::make_unique<OwnOracle<D>>(config));
 }
 
-BoxContestant own_contestant(StructureKind kind) {
+BoxContestant own_contestant(StructureKind kind, bool mends = true) {
   const StructureTraits traits = traits_of(kind);
   const bool splits = traits.splits || traits.has(Setting::planes);  // these at the medians
   BoxContestant who{.name = std::string(to_string(kind))};
@@ -237,7 +242,8 @@ BoxContestant own_contestant(StructureKind kind) {
     return splits ? fmt::format("capacity {}, depth limit {}", 1 << s.first, s.second) : "";
   };
   who.start = [=](const BoxStage& stage, const BoxSetting& s) {
-    return stage.dimension() == 2 ? own_run<2>(kind, stage, s) : own_run<3>(kind, stage, s);
+    return stage.dimension() == 2 ? own_run<2>(kind, mends, stage, s)
+                                  : own_run<3>(kind, mends, stage, s);
   };
   return who;
 }
@@ -290,7 +296,13 @@ int halved_axes(const std::string& tree, int dimension) {
 std::vector<BoxContestant> own_box_contestants() {
   std::vector<BoxContestant> all;
   const auto automatic = structure_named("auto");
-  if (automatic) all.push_back(own_contestant(*automatic));
+  if (automatic) {
+    all.push_back(own_contestant(*automatic));
+    // The same, but built anew in each step.
+    all.push_back(own_contestant(*automatic, false));
+    all.back().name += "_anew";
+    all.back().can = [](const BoxStage& stage) { return stage.task == BoxTask::pairs; };
+  }
   for (const StructureKind kind : known_structures())
     if (kind != automatic) all.push_back(own_contestant(kind));
   return all;

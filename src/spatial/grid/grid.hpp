@@ -291,7 +291,7 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
   template <class Probe, class Limit, class Soon, class F>
   auto look(const Probe& probe, Limit& limit, Soon soon, F f, WalkCounts& counts) const {
     return [=, this, &probe, &limit, &counts, back = probe.high_first(0, 0)](std::uint32_t from,
-                                                                           std::uint32_t to) {
+                                                                             std::uint32_t to) {
       ++counts.visited;
       counts.compared += to - from;
       for (std::uint32_t i = from; i < to; i += kAabbBlock) {
