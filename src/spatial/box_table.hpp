@@ -38,6 +38,7 @@ inline float stepped(float x, int by) {
 // Some boxes in a row: each bound of all, and their ids.
 template <int D>
 struct BoxRow {
+  static constexpr int kDimension = D;
   const float* lo[D];
   const float* hi[D];
   const std::byte* ids;

@@ -97,7 +97,7 @@ ScanDone ScanRuns(const ScanTask<D>& task, const ScanRoom& room, std::size_t pai
 
 // --- boxes, balls and rays among the boxes of a row ---
 
-using Lanes = hn::CappedTag<float, kAabbBlock>;
+using Lanes = hn::CappedTag<float, kRowBlock>;
 
 std::uint32_t MaskBits(hn::Mask<Lanes> mask) {
   std::uint8_t part[8] = {};
@@ -109,88 +109,135 @@ std::uint32_t MaskBits(hn::Mask<Lanes> mask) {
 template <class Look>
 std::uint32_t BitsOf(Look look) {
   std::uint32_t bits = 0;
-  for (std::uint32_t i = 0; i < kAabbBlock; i += static_cast<std::uint32_t>(hn::Lanes(Lanes()))) {
+  for (std::uint32_t i = 0; i < kRowBlock; i += static_cast<std::uint32_t>(hn::Lanes(Lanes()))) {
     bits |= MaskBits(look(i)) << i;
   }
   return bits;
 }
 
+using Floats = hn::Vec<Lanes>;
+
+// Edges of the boxes from some place of a row on, and edges that their boxes in double reach.
+struct Edges {
+  Floats lo, hi, sure_lo, sure_hi;
+};
 template <int D>
-BlockBits Reached(const BoxRow<D>& row, const FloatBox<D>& asked) {
-  const auto bits = [&](int smaller) {
-    return BitsOf([&](std::uint32_t at) {
-      auto all = hn::FirstN(Lanes(), kAabbBlock);
-      for (int i = 0; i < D; ++i) {
-        const auto lo = hn::Set(Lanes(), detail::stepped(asked.lo[i], smaller));
-        const auto hi = hn::Set(Lanes(), detail::stepped(asked.hi[i], -smaller));
-        all = hn::And(all, hn::And(hn::Le(hn::LoadU(Lanes(), row.lo[i] + at), hi),
-                                   hn::Le(lo, hn::LoadU(Lanes(), row.hi[i] + at))));
-      }
-      return all;
-    });
+Edges EdgesAt(const BoxRow<D>& row, int axis, std::uint32_t at) {
+  const Floats lo = hn::LoadU(Lanes(), row.lo[axis] + at),
+               hi = hn::LoadU(Lanes(), row.hi[axis] + at);
+  return {lo, hi, lo, hi};
+}
+template <int D>
+Edges EdgesAt(const PackedRow<D>& row, int axis, std::uint32_t at) {
+  const hn::Rebind<std::uint8_t, Lanes> bytes;
+  const hn::Rebind<std::int32_t, Lanes> words;
+  const auto origin = hn::Set(Lanes(), row.origin(axis)), step = hn::Set(Lanes(), row.step(axis));
+  const auto edge = [&](const std::uint8_t* codes) {
+    const auto code = hn::ConvertTo(Lanes(), hn::PromoteTo(words, hn::LoadU(bytes, codes + at)));
+    return hn::MulAdd(code, step, origin);
   };
-  return {bits(0), bits(2)};
+  const Floats lo = edge(row.lo(axis)), hi = edge(row.hi(axis));
+  const Edges edges{lo, hi, hn::Add(lo, step), hn::Sub(hi, step)};
+  if (HWY_LIKELY(!row.is_endless())) return edges;
+  const auto far = hn::Inf(Lanes()), near = hn::Neg(far);
+  const auto least = hn::Set(Lanes(), row.edge(axis, row.kLeast));
+  const auto most = hn::Set(Lanes(), row.edge(axis, row.kMost));
+  const auto below = hn::Lt(lo, least), above = hn::Lt(most, hi);
+  return {hn::IfThenElse(below, near, lo), hn::IfThenElse(above, far, hi),
+          hn::IfThenElse(below, far, edges.sure_lo), hn::IfThenElse(above, near, edges.sure_hi)};
+}
+
+template <class Row, int D = Row::kDimension>
+BlockBits Reached(const Row& row, const FloatBox<D>& asked) {
+  const auto set = [](float x) { return hn::Set(Lanes(), x); };
+  BlockBits bits;
+  bits.maybe = BitsOf([&](std::uint32_t at) {
+    auto all = hn::FirstN(Lanes(), kRowBlock), sure = all;
+    for (int i = 0; i < D; ++i) {
+      const Edges edges = EdgesAt(row, i, at);
+      all = hn::And(
+          all, hn::And(hn::Le(edges.lo, set(asked.hi[i])), hn::Le(set(asked.lo[i]), edges.hi)));
+      sure = hn::And(sure, hn::And(hn::Le(edges.sure_lo, set(asked.sure_hi[i])),
+                                   hn::Le(set(asked.sure_lo[i]), edges.sure_hi)));
+    }
+    bits.surely |= MaskBits(sure) << at;
+    return all;
+  });
+  return bits;
 }
 
 // How far each box is from the centre, at least and at most, in squares.
-template <int D>
-BlockBits InBall(const BoxRow<D>& row, const FloatBall<D>& ball, BlockEntries& entries) {
+template <class Row, int D = Row::kDimension>
+BlockBits InBall(const Row& row, const FloatBall<D>& ball, BlockEntries* entries) {
   const auto set = [](float x) { return hn::Set(Lanes(), x); };
   const auto less = set(1 - 0x1p-20f), more = set(1 + 0x1p-20f), none = hn::Zero(Lanes());
-  const auto bits = [&](bool at_most) {
-    return BitsOf([&](std::uint32_t at) {
-      auto squares = none;
-      for (int i = 0; i < D; ++i) {
-        const auto center = set(ball.center[i]), slack = set(ball.slack[i]);
-        const auto lo = hn::LoadU(Lanes(), row.lo[i] + at);
-        const auto hi = hn::LoadU(Lanes(), row.hi[i] + at);
-        const auto gap = hn::Max(hn::Sub(lo, center), hn::Sub(center, hi));
-        const auto wide =
-            at_most ? hn::Add(hn::Mul(gap, more), slack) : hn::Sub(hn::Mul(gap, less), slack);
-        const auto beside = hn::Max(wide, none);
+  const auto square = set(ball.square);
+  BlockBits bits;
+  bits.maybe = BitsOf([&](std::uint32_t at) {
+    auto least = none, most = none;
+    for (int i = 0; i < D; ++i) {
+      const auto center = set(ball.center[i]), slack = set(ball.slack[i]);
+      const Edges edges = EdgesAt(row, i, at);
+      const auto add = [&](auto& squares, auto beside) {
+        beside = hn::Max(beside, none);
         squares = hn::Add(squares, hn::Mul(beside, beside));
-      }
-      if (!at_most) hn::StoreU(hn::Mul(squares, less), Lanes(), entries.data() + at);
-      return hn::Le(squares, hn::Mul(set(ball.square), at_most ? less : more));
-    });
-  };
-  return {bits(false), bits(true)};
+      };
+      const auto gap = [&](auto lo, auto hi) {
+        return hn::Max(hn::Sub(lo, center), hn::Sub(center, hi));
+      };
+      add(least, hn::Sub(hn::Mul(gap(edges.lo, edges.hi), less), slack));
+      if (entries == nullptr)
+        add(most, hn::Add(hn::Mul(gap(edges.sure_lo, edges.sure_hi), more), slack));
+    }
+    if (entries != nullptr)
+      hn::StoreU(hn::Mul(least, less), Lanes(), entries->data() + at);
+    else
+      bits.surely |= MaskBits(hn::Le(most, hn::Mul(square, less))) << at;
+    return hn::Le(least, hn::Mul(square, more));
+  });
+  return bits;
 }
 
 // The slab method (geometry/ray.hpp), each span once widened and once narrowed by what float may
 // have lost.
-template <int D>
-BlockBits Met(const BoxRow<D>& row, const FloatRay<D>& ray, float limit, BlockEntries& entries) {
+template <class Row, int D = Row::kDimension>
+BlockBits Met(const Row& row, const FloatRay<D>& ray, float limit, BlockEntries* entries) {
   const auto set = [](float x) { return hn::Set(Lanes(), x); };
   const auto less = set(1 - 0x1p-21f), more = set(1 + 0x1p-21f);
   BlockBits bits;
   bits.maybe = BitsOf([&](std::uint32_t at) {
     auto from = set(0), to = set(limit), sure_from = from, sure_to = hn::Mul(to, less);
-    auto all = hn::FirstN(Lanes(), kAabbBlock), sure = all;
+    auto all = hn::FirstN(Lanes(), kRowBlock), sure = all;
     for (int i = 0; i < D; ++i) {
-      const auto lo = hn::LoadU(Lanes(), row.lo[i] + at);
-      const auto hi = hn::LoadU(Lanes(), row.hi[i] + at);
+      Edges edges = EdgesAt(row, i, at);
       if (ray.stands[i]) {
         const auto above = set(ray.above[i]), below = set(ray.below[i]);
-        all = hn::And(all, hn::And(hn::Le(lo, above), hn::Le(below, hi)));
-        sure = hn::And(sure, hn::And(hn::Lt(lo, below), hn::Lt(above, hi)));
+        all = hn::And(all, hn::And(hn::Le(edges.lo, above), hn::Le(below, edges.hi)));
+        sure = hn::And(sure, hn::And(hn::Lt(edges.sure_lo, below), hn::Lt(above, edges.sure_hi)));
         continue;
+      }
+      if (ray.inverse[i] < 0) {
+        std::swap(edges.lo, edges.hi);
+        std::swap(edges.sure_lo, edges.sure_hi);
       }
       const auto inverse = set(ray.inverse[i]), origin = set(ray.origin[i]);
       const auto slack = set(ray.slack[i]);
-      const auto a = hn::Mul(hn::Sub(lo, origin), inverse);
-      const auto b = hn::Mul(hn::Sub(hi, origin), inverse);
-      const auto begin = hn::Min(a, b), end = hn::Max(a, b);
-      const auto late = hn::Add(begin, slack), soon = hn::Sub(end, slack);
-      const auto last = hn::Add(end, slack);
-      from = hn::Max(from, hn::Mul(hn::Sub(begin, slack), less));
+      const auto when = [&](auto edge) { return hn::Mul(hn::Sub(edge, origin), inverse); };
+      const auto last = hn::Add(when(edges.hi), slack);
+      from = hn::Max(from, hn::Mul(hn::Sub(when(edges.lo), slack), less));
       to = hn::Min(to, hn::Max(hn::Mul(last, less), hn::Mul(last, more)));
+      if (entries != nullptr) continue;
+      const auto late = hn::Add(when(edges.sure_lo), slack);
+      const auto soon = hn::Sub(when(edges.sure_hi), slack);
       sure_from = hn::Max(sure_from, hn::Mul(late, more));
       sure_to = hn::Min(sure_to, hn::Min(hn::Mul(soon, less), hn::Mul(soon, more)));
     }
-    hn::StoreU(from, Lanes(), entries.data() + at);
-    sure = hn::And(sure, hn::And(hn::Le(sure_from, sure_to), hn::Lt(sure_from, set(1e30f))));
-    bits.surely |= MaskBits(sure) << at;
+    if (entries != nullptr) {
+      hn::StoreU(from, Lanes(), entries->data() + at);
+    } else {
+      sure = hn::And(sure, hn::And(hn::Le(sure_from, sure_to), hn::Lt(sure_from, set(1e30f))));
+      bits.surely |= MaskBits(sure) << at;
+    }
     return hn::And(all, hn::Le(from, to));
   });
   return bits;
@@ -208,31 +255,32 @@ ScanDone scan_runs(const ScanTask<D>& task, const ScanRoom& room, std::size_t be
   static const auto best = LANTERN_BEST(ScanRuns<D>);
   return best(task, room, begin, end);
 }
-template <int D>
-BlockBits reached_in_block(const BoxRow<D>& row, const FloatBox<D>& asked) {
-  static const auto best = LANTERN_BEST(Reached<D>);
+template <class Row, int D>
+BlockBits reached_in_block(const Row& row, const FloatBox<D>& asked) {
+  static const auto best = LANTERN_BEST(Reached<Row>);
   return best(row, asked);
 }
-template <int D>
-BlockBits reached_in_block(const BoxRow<D>& row, const FloatBall<D>& ball, BlockEntries& entries) {
-  static const auto best = LANTERN_BEST(InBall<D>);
+template <class Row, int D>
+BlockBits reached_in_block(const Row& row, const FloatBall<D>& ball, BlockEntries* entries) {
+  static const auto best = LANTERN_BEST(InBall<Row>);
   return best(row, ball, entries);
 }
-template <int D>
-BlockBits met_in_block(const BoxRow<D>& row, const FloatRay<D>& ray, float limit,
-                       BlockEntries& entries) {
-  static const auto best = LANTERN_BEST(Met<D>);
+template <class Row, int D>
+BlockBits met_in_block(const Row& row, const FloatRay<D>& ray, float limit, BlockEntries* entries) {
+  static const auto best = LANTERN_BEST(Met<Row>);
   return best(row, ray, limit, entries);
 }
 
 template ScanDone scan_runs(const ScanTask<2>&, const ScanRoom&, std::size_t, std::size_t);
 template ScanDone scan_runs(const ScanTask<3>&, const ScanRoom&, std::size_t, std::size_t);
-template BlockBits reached_in_block(const BoxRow<2>&, const FloatBox<2>&);
-template BlockBits reached_in_block(const BoxRow<3>&, const FloatBox<3>&);
-template BlockBits reached_in_block(const BoxRow<2>&, const FloatBall<2>&, BlockEntries&);
-template BlockBits reached_in_block(const BoxRow<3>&, const FloatBall<3>&, BlockEntries&);
-template BlockBits met_in_block(const BoxRow<2>&, const FloatRay<2>&, float, BlockEntries&);
-template BlockBits met_in_block(const BoxRow<3>&, const FloatRay<3>&, float, BlockEntries&);
+#define LANTERN_IN_BLOCK(ROW, D)                                                          \
+  template BlockBits reached_in_block(const ROW<D>&, const FloatBox<D>&);                 \
+  template BlockBits reached_in_block(const ROW<D>&, const FloatBall<D>&, BlockEntries*); \
+  template BlockBits met_in_block(const ROW<D>&, const FloatRay<D>&, float, BlockEntries*);
+LANTERN_IN_BLOCK(BoxRow, 2)
+LANTERN_IN_BLOCK(BoxRow, 3)
+LANTERN_IN_BLOCK(PackedRow, 2)
+LANTERN_IN_BLOCK(PackedRow, 3)
 
 }  // namespace lantern::spatial
 #endif

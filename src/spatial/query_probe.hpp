@@ -9,7 +9,7 @@
 //   kIsOrdered                    whether it meets one sooner than another
 //   entry(Part)                   how soon: what the limit of the walk is compared with
 //   high_first, front_first       which side of a plane it meets first
-//   bits(row, limit, entries)     which of the first kAabbBlock boxes of a row it meets, and no
+//   bits(row, limit, entries)     which of the first kRowBlock boxes of a row it meets, and no
 //                                 later than when
 // Parts may be larger than told, by rounding, never smaller.
 #pragma once
@@ -111,11 +111,11 @@ class RayProbe {
   bool front_first(const Plane<D>& plane) const {
     return glm::dot(plane.normal, ray_.direction) < 0;
   }
-  BlockBits bits(const BoxRow<D>& row, double limit, BlockEntries& entries) const {
+  template <class Row>
+  BlockBits bits(const Row& row, double limit, BlockEntries& entries) const {
     if (!is_usable_) return any_of_block(entries);
-    BlockBits bits = met_in_block(row, in_float_, BoxTable<D>::rounded_up(limit), entries);
-    if (kOrdered) bits.surely = 0;  // where it is met is to be found out
-    return bits;
+    return met_in_block(row, in_float_, BoxTable<D>::rounded_up(limit),
+                        kOrdered ? &entries : nullptr);
   }
 
  private:
@@ -226,8 +226,9 @@ class VolumeProbe {
   static bool high_first(int, double) { return false; }
   static bool front_first(const Plane<D>&) { return false; }
   // Of a frustum and of a ball beyond float those that the box around it meets.
-  BlockBits bits(const BoxRow<D>& row, double, BlockEntries& entries) const {
-    if (kIsBall && ball_.is_usable()) return reached_in_block(row, ball_, entries);
+  template <class Row>
+  BlockBits bits(const Row& row, double, BlockEntries&) const {
+    if (kIsBall && ball_.is_usable()) return reached_in_block(row, ball_, nullptr);
     BlockBits bits = reached_in_block(row, in_float_);
     if (!std::is_same_v<Volume<D>, Box<D>>) bits.surely = 0;
     return bits;
@@ -284,10 +285,11 @@ class PointProbe {
   static double entry(const Part& part) { return std::max(part.square, square_of(part.gaps)); }
   bool high_first(int axis, double at) const { return point_[axis] > at; }
   bool front_first(const Plane<D>& plane) const { return height(point_, plane) > 0; }
-  BlockBits bits(const BoxRow<D>& row, double limit, BlockEntries& entries) const {
+  template <class Row>
+  BlockBits bits(const Row& row, double limit, BlockEntries& entries) const {
     ball_.square = BoxTable<D>::rounded_up(std::clamp(limit, 1e-29, 1e29));
     if (!ball_.is_usable()) return any_of_block(entries);
-    return {reached_in_block(row, ball_, entries).maybe, 0};
+    return reached_in_block(row, ball_, &entries);
   }
 
  private:

@@ -246,7 +246,7 @@ WalkCounts walk_rows(const Tree& tree, const Probe& probe, Limit& limit, Soon& s
   return RowWalk<D, Tree, Probe, Limit, Soon, F>(tree, probe, limit, soon, f).whole();
 }
 
-// f(id, is_sure) for each body that the probe may meet before `limit()`, see each_in_row: by the
+// f(id, is_sure) for each body that the probe may meet before `limit()`, see each_in_block: by the
 // structure's own way, if it has one.
 template <class Tree, int D>
 concept IsAskedByRows = requires(const Tree& t, const VolumeProbe<D, Box>& probe, double (&limit)(),

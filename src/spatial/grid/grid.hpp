@@ -294,10 +294,10 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
                                                                              std::uint32_t to) {
       ++counts.visited;
       counts.compared += to - from;
-      for (std::uint32_t i = from; i < to; i += kAabbBlock) {
-        const std::uint32_t count = std::min(kAabbBlock, to - i);
+      for (std::uint32_t i = from; i < to; i += kRowBlock) {
+        const std::uint32_t count = std::min(kRowBlock, to - i);
         const std::uint32_t first = back ? to - (i - from) - count : i;
-        each_in_row(table_.table().row(first), count, probe, limit, soon, f);
+        each_in_block(table_.table().row(first), count, probe, limit, soon, f);
       }
     };
   }

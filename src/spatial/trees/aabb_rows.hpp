@@ -89,7 +89,7 @@ struct alignas(D == 3 ? 16 : 8) AabbNode {
   }
 };
 
-// An AABB tree in rows: a row holds the boxes of up to kAabbBlock nodes that lie one or more levels
+// An AABB tree in rows: a row holds the boxes of up to kRowBlock nodes that lie one or more levels
 // below its own, and is looked at by a few instructions; the lowest rows hold bodies (Dammertz,
 // Hanika, Keller: "Shallow Bounding Volume Hierarchies for Fast SIMD Ray Tracing of Incoherent
 // Rays", 2008). A row that is full stands for four levels of the tree and more.
@@ -99,21 +99,25 @@ class AabbRows {
   // The rows of the tree with that root, instead of those before. What is rounded is not rounded
   // again.
   void make(std::span<const AabbNode<D>> nodes, NodeHandle root) {
-    boxes_.clear();
-    root_ = nodes[root].bodies() > 0 ? add(nodes, root) : Row{};
+    words_.clear();
+    if (nodes[root].bodies() > 0)
+      add(nodes, root);
+    else
+      words_.push_back(0);
+    words_.resize(words_.size() + kRowBlock / sizeof(std::uint32_t));
   }
 
-  // f(id, is_sure) for each body that the probe may meet before `limit()`, see each_in_row.
+  // f(id, is_sure) for each body that the probe may meet before `limit()`, see each_in_block.
   template <class Probe, class Limit, class Soon, class F>
   WalkCounts each_met(const Probe& probe, Limit& limit, Soon& soon, F& f) const {
     WalkCounts counts;
     if constexpr (Probe::kIsOrdered) {
-      enter(root_, probe, limit, soon, f, counts);
+      enter(0, probe, limit, soon, f, counts);
     } else {
       // One level after the other: what comes next is on its way from memory meanwhile.
-      thread_local std::vector<Row> waiting;
-      waiting.assign(1, root_);
-      auto enters = [&](std::uint32_t below, bool) { waiting.push_back(Row(below)); };
+      thread_local std::vector<std::uint32_t> waiting;
+      waiting.assign(1, 0);
+      auto enters = [&](std::uint32_t below, bool) { waiting.push_back(below); };
       for (std::size_t i = 0; i < waiting.size(); ++i)
         look(waiting[i], probe, limit, soon, f, enters, counts);
     }
@@ -121,26 +125,19 @@ class AabbRows {
   }
 
  private:
-  // In one word, as it stands in the row above: there are fewer than 2^26 places.
-  struct Row {
-    std::uint32_t word = 0;
-    Row() = default;
-    explicit Row(std::uint32_t its) : word(its) {}
-    Row(LeafRun run, bool holds) : word(run.first << 6 | run.count << 1 | std::uint32_t{holds}) {}
-    LeafRun run() const { return {word >> 6, word >> 1 & 31}; }
-    bool holds_bodies() const { return (word & 1) != 0; }
-  };
-  Row add(std::span<const AabbNode<D>> nodes, NodeHandle at) {
-    std::array<NodeHandle, kAabbBlock> below;
-    const bool holds_bodies = nodes[at].bodies() <= kAabbBlock;
+  // Where the row of that node stands among the words: those of bodies and of large nodes behind
+  // their own.
+  std::uint32_t add(std::span<const AabbNode<D>> nodes, NodeHandle at) {
+    std::array<NodeHandle, kRowBlock> below;
+    const bool holds_bodies = nodes[at].bodies() <= kRowBlock;
     std::uint32_t count = 1;
     below[0] = at;
     // The largest is opened, as long as there is room.
     const auto size = [&](NodeHandle i) {
-      const bool opens = !nodes[i].is_leaf() && (holds_bodies || nodes[i].bodies() > kAabbBlock);
+      const bool opens = !nodes[i].is_leaf() && (holds_bodies || nodes[i].bodies() > kRowBlock);
       return opens ? nodes[i].area() : -1;
     };
-    while (count < kAabbBlock) {
+    while (count < kRowBlock) {
       const auto largest = std::max_element(below.begin(), below.begin() + count,
                                             [&](auto a, auto b) { return size(a) < size(b); });
       if (size(*largest) < 0) break;
@@ -148,39 +145,46 @@ class AabbRows {
       *largest = first;
       below[count++] = first + 1;
     }
-    const LeafRun run = boxes_.add(count);
+    const auto first = static_cast<std::uint32_t>(words_.size());
+    words_.resize(first + PackedRow<D>::words(count));
+    std::array<std::uint32_t, kRowBlock> links;
     for (std::uint32_t i = 0; i < count; ++i)
-      boxes_.set(run, i, holds_bodies ? nodes[below[i]].link : add(nodes, below[i]).word,
-                 nodes[below[i]].box());
-    return {run, holds_bodies};
+      links[i] = holds_bodies ? nodes[below[i]].link : add(nodes, below[i]);
+    PackedRow<D>::write(
+        words_.data() + first, count,
+        holds_bodies, [&](std::uint32_t i) -> auto& { return nodes[below[i]]; },
+        [&](std::uint32_t i) { return links[i]; });
+    return first;
   }
 
   template <class Probe, class Limit, class Soon, class F>
-  void enter(Row at, const Probe& probe, Limit& limit, Soon& soon, F& f, WalkCounts& counts) const {
-    auto enters = [&](std::uint32_t below, bool) {
-      enter(Row(below), probe, limit, soon, f, counts);
-    };
+  void enter(std::uint32_t at, const Probe& probe, Limit& limit, Soon& soon, F& f,
+             WalkCounts& counts) const {
+    auto enters = [&](std::uint32_t below, bool) { enter(below, probe, limit, soon, f, counts); };
     look(at, probe, limit, soon, f, enters, counts);
   }
 
   // f of the bodies, `enters` of the rows below.
   template <class Probe, class Limit, class Soon, class F, class Enters>
-  void look(Row at, const Probe& probe, Limit& limit, Soon& soon, F& f, Enters& enters,
+  void look(std::uint32_t at, const Probe& probe, Limit& limit, Soon& soon, F& f, Enters& enters,
             WalkCounts& counts) const {
-    const LeafRun run = at.run();
-    const BoxRow<D> row = boxes_.row(run);
+    const PackedRow<D> row(words_.data() + at);
+    const std::uint32_t count = row.count();
     ++counts.visited;
-    if (at.holds_bodies()) {
-      counts.compared += run.count;
-      each_in_row(row, run.count, probe, limit, soon, f);
+    if (row.holds_bodies()) {
+      counts.compared += count;
+      each_in_block(row, count, probe, limit, soon, f);
       return;
     }
-    const auto fetch = [&](std::uint32_t below) { boxes_.fetch(Row(below).run()); };
-    counts.skipped += run.count - each_in_row(row, run.count, probe, limit, fetch, enters);
+    const auto fetch = [&](std::uint32_t below) {
+      constexpr std::size_t kLine = 16;
+      for (std::size_t i = 0; i < PackedRow<D>::words(kRowBlock); i += kLine)
+        __builtin_prefetch(words_.data() + below + i);
+    };
+    counts.skipped += count - each_in_block(row, count, probe, limit, fetch, enters);
   }
 
-  Row root_;
-  LeafBoxes<D> boxes_;
+  std::vector<std::uint32_t> words_;  // the root first; behind the last some that are read in vain
 };
 
 }  // namespace lantern::spatial

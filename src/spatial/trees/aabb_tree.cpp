@@ -179,10 +179,10 @@ void AabbTree<D>::grow(NodeHandle at, std::span<Node> leaves, std::uint32_t heig
   const auto first = static_cast<NodeHandle>(nodes_.size());
   nodes_.resize(first + 2);
   nodes_[at].link = first;
-  const bool is_of_block = leaves.size() <= kAabbBlock;
+  const bool is_of_block = leaves.size() <= kRowBlock;
   for (const NodeHandle i : {0u, 1u}) {
     const std::span<Node> part = i == 0 ? leaves.first(few) : leaves.subspan(few);
-    if (is_of_block || part.size() > kAabbBlock)
+    if (is_of_block || part.size() > kRowBlock)
       grow(first + i, part, height - 1);
     else
       append(blocks_, Block{first + i, part, height - 1});
@@ -382,7 +382,7 @@ std::uint64_t AabbTree<D>::find_pairs(std::span<const Box<D>> exact, FoundPairs&
 template <int D>
 void AabbTree<D>::pair_within(const Spot& at, const BoxTable<D>& table, RunScanner<D>& runs) const {
   const Node& node = nodes_[at.node];
-  if (node.bodies() <= kAabbBlock) {
+  if (node.bodies() <= kRowBlock) {
     const std::uint32_t end = at.first + node.bodies();
     for (std::uint32_t i = at.first; i < end; ++i) runs.add(i, i + 1, end);
     return;
@@ -398,7 +398,7 @@ void AabbTree<D>::pair_between(const Spot& of_a, const Spot& of_b, const BoxTabl
                                RunScanner<D>& runs) const {
   const Node &a = nodes_[of_a.node], &b = nodes_[of_b.node];
   if (!a.reaches(b)) return;
-  if (a.bodies() <= kAabbBlock && b.bodies() <= kAabbBlock) {
+  if (a.bodies() <= kRowBlock && b.bodies() <= kRowBlock) {
     for (std::uint32_t i = of_a.first; i < of_a.first + a.bodies(); ++i) {
       bool reaches = true;
       for (int axis = 0; axis < D; ++axis)
