@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "geometry/ray.hpp"
 #include "spatial/box_table.hpp"
@@ -87,6 +88,7 @@ class PackedRow {
   static constexpr int kDimension = D;
   static constexpr float kFar = 0x1p126f;
   static constexpr std::uint32_t kLeast = 1, kMost = 254, kEnd = 255;  // codes
+  static constexpr std::uint32_t kHoldsBodies = 32;  // all that is said of no boxes
 
   // Where it stands among words.
   explicit PackedRow(const std::uint32_t* at) : at_(at) {}
@@ -103,6 +105,17 @@ class PackedRow {
     return origin(axis) + static_cast<float>(code) * step(axis);
   }
   std::uint32_t id(std::size_t place) const { return at_[kHead + place]; }
+  std::span<const std::uint32_t> ids() const { return {at_ + kHead, count()}; }
+  Box<D> box(std::size_t place) const {  // what is far ends where double ends
+    constexpr double kLast = std::numeric_limits<double>::max();
+    Box<D> box;
+    for (int i = 0; i < D; ++i) {
+      const std::uint32_t low = lo(i)[place], high = hi(i)[place];
+      box.lo[i] = low < kLeast ? -kLast : edge(i, low);
+      box.hi[i] = high > kMost ? kLast : edge(i, high);
+    }
+    return box;
+  }
   const std::uint8_t* lo(int axis) const {
     return reinterpret_cast<const std::uint8_t*>(at_ + kHead + count()) +
            2 * count() * unsigned(axis);
@@ -144,7 +157,7 @@ class PackedRow {
 
  private:
   static constexpr std::size_t kHead = 1 + D;
-  static constexpr std::uint32_t kHoldsBodies = 32, kIsEndless = 64;
+  static constexpr std::uint32_t kIsEndless = 64;
 
   static bool is_far(double edge) { return !(std::abs(edge) < kFar); }
   // Of the least step with which all fits, and no multiple has more digits than a float.

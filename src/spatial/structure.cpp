@@ -17,7 +17,7 @@ struct Ours {
 };
 constexpr Ours kOurs[] = {
 #define LANTERN_KIND(name) {#name, &name##_entry},
-    LANTERN_STRUCTURES(LANTERN_KIND)
+    LANTERN_ALL_STRUCTURES(LANTERN_KIND)
 #undef LANTERN_KIND
 };
 

@@ -23,17 +23,19 @@ namespace lantern::spatial {
   KIND(lecture_quadtree)         \
   KIND(grid)                     \
   KIND(aabb_tree)
+// And what "auto" alone takes, for who only asks: nobody names it, it takes no part in lessons.
+#define LANTERN_ALL_STRUCTURES(KIND) LANTERN_STRUCTURES(KIND) KIND(wide_bvh)
 
 enum class StructureKind {
   none,       // nobody asks for one
   automatic,  // "auto": whichever suits the bodies, see structure_choice.hpp
 #define LANTERN_KIND(name) name,
   // The last is the first that this program was given; the others are the numbers behind.
-  LANTERN_STRUCTURES(LANTERN_KIND) own
+  LANTERN_ALL_STRUCTURES(LANTERN_KIND) own
 #undef LANTERN_KIND
 };
 
-// All of ours.
+// All of ours that have a name.
 inline constexpr std::array kStructureKinds = {
 #define LANTERN_KIND(name) StructureKind::name,
     LANTERN_STRUCTURES(LANTERN_KIND)

@@ -111,7 +111,7 @@ struct StructureEntry {
   std::unique_ptr<Structure<3>> (*make_3d)(const StructureConfig<3>&);
 };
 #define LANTERN_KIND(name) extern const StructureEntry name##_entry;
-LANTERN_STRUCTURES(LANTERN_KIND)
+LANTERN_ALL_STRUCTURES(LANTERN_KIND)
 #undef LANTERN_KIND
 template <class Tree, int D>
 std::unique_ptr<Structure<D>> made(const StructureConfig<D>& config) {

@@ -161,7 +161,7 @@ StructureChoice<D> choose_structure(Items<D> items, const StructureConfig<D>& co
   StructureChoice<D> choice;
   choice.config = config;
   if (use == Use::questions) {
-    choice.kind = StructureKind::aabb_tree;
+    choice.kind = StructureKind::wide_bvh;
     choice.why = fmt::format("{} bodies are asked, not paired", items.size());
     return choice;
   }

@@ -16,6 +16,7 @@
 #include "spatial/trees/kd_tree.hpp"
 #include "spatial/trees/orthtree.hpp"
 #include "spatial/trees/sort_and_sweep.hpp"
+#include "spatial/trees/wide_bvh.hpp"
 #include "spatial/worlds.hpp"
 
 namespace lantern::spatial {
@@ -60,7 +61,9 @@ class Scene {
     grid.make(items_);
     KdTree<D> kd(testing::KdConfig<D>{config.capacity, config.max_depth});
     AabbTree<D> built({.margin = random_.between(0, 1) * scale_}), inserted;
+    WideBvh<D> wide;
     built.make(items_);
+    wide.make(items_);
     kd.make(items_);
     for (const Item<D>& item : items_) {
       orthtree.insert(item);
@@ -76,6 +79,7 @@ class Scene {
     f(kd, "kd-tree");
     f(grid, "grid");
     f(built, "AABB tree");
+    f(wide, "wide BVH");
     f(inserted, "AABB tree, one by one");
     if constexpr (D == 3) {
       Upright<Quadtree> flat({.bounds = config.bounds,

@@ -89,10 +89,11 @@ struct alignas(D == 3 ? 16 : 8) AabbNode {
   }
 };
 
-// An AABB tree in rows: a row holds the boxes of up to kRowBlock nodes that lie one or more levels
-// below its own, and is looked at by a few instructions; the lowest rows hold bodies (Dammertz,
-// Hanika, Keller: "Shallow Bounding Volume Hierarchies for Fast SIMD Ray Tracing of Incoherent
-// Rays", 2008). A row that is full stands for four levels of the tree and more.
+// An AABB tree in rows: a row holds the boxes of up to kRowBlock bodies or rows, and is looked at
+// by a few instructions (Dammertz, Hanika, Keller: "Shallow Bounding Volume Hierarchies for Fast
+// SIMD Ray Tracing of Incoherent Rays", 2008). Rows are made from below, of the largest branches
+// that have no more: so all are filled about alike, and a row stands for three levels of the tree
+// and more.
 template <int D>
 class AabbRows {
  public:
@@ -100,23 +101,32 @@ class AabbRows {
   // again.
   void make(std::span<const AabbNode<D>> nodes, NodeHandle root) {
     words_.clear();
-    if (nodes[root].bodies() > 0)
-      add(nodes, root);
-    else
-      words_.push_back(0);
+    root_ = 0;
+    if (nodes[root].bodies() > 0) {
+      Waiting waiting;
+      Top top = top_of(nodes, root, waiting);
+      close(top, 0, nodes, root, waiting);
+      root_ = waiting.entries[0].id;
+    } else {
+      words_.assign(PackedRow<D>::words(0), PackedRow<D>::kHoldsBodies);
+    }
     words_.resize(words_.size() + kRowBlock / sizeof(std::uint32_t));
   }
+
+  void shrink() { words_.shrink_to_fit(); }
+  std::uint32_t root() const { return root_; }
+  PackedRow<D> row(std::uint32_t at) const { return PackedRow<D>(words_.data() + at); }
 
   // f(id, is_sure) for each body that the probe may meet before `limit()`, see each_in_block.
   template <class Probe, class Limit, class Soon, class F>
   WalkCounts each_met(const Probe& probe, Limit& limit, Soon& soon, F& f) const {
     WalkCounts counts;
     if constexpr (Probe::kIsOrdered) {
-      enter(0, probe, limit, soon, f, counts);
+      enter(root_, probe, limit, soon, f, counts);
     } else {
       // One level after the other: what comes next is on its way from memory meanwhile.
       thread_local std::vector<std::uint32_t> waiting;
-      waiting.assign(1, 0);
+      waiting.assign(1, root_);
       auto enters = [&](std::uint32_t below, bool) { waiting.push_back(below); };
       for (std::size_t i = 0; i < waiting.size(); ++i)
         look(waiting[i], probe, limit, soon, f, enters, counts);
@@ -125,36 +135,52 @@ class AabbRows {
   }
 
  private:
-  // Where the row of that node stands among the words: those of bodies and of large nodes behind
-  // their own.
-  std::uint32_t add(std::span<const AabbNode<D>> nodes, NodeHandle at) {
-    std::array<NodeHandle, kRowBlock> below;
-    const bool holds_bodies = nodes[at].bodies() <= kRowBlock;
-    std::uint32_t count = 1;
-    below[0] = at;
-    // The largest is opened, as long as there is room.
-    const auto size = [&](NodeHandle i) {
-      const bool opens = !nodes[i].is_leaf() && (holds_bodies || nodes[i].bodies() > kRowBlock);
-      return opens ? nodes[i].area() : -1;
-    };
-    while (count < kRowBlock) {
-      const auto largest = std::max_element(below.begin(), below.begin() + count,
-                                            [&](auto a, auto b) { return size(a) < size(b); });
-      if (size(*largest) < 0) break;
-      const NodeHandle first = nodes[*largest].link;
-      *largest = first;
-      below[count++] = first + 1;
+  // What will stand in a row: a body or a row, and the node whose box it has.
+  struct Entry {
+    NodeHandle node;
+    std::uint32_t id;
+  };
+  // Those of a branch for which there is no row yet stand behind those of the branch before.
+  struct Waiting {
+    std::array<Entry, kRowBlock*(AabbNode<D>::kTallest + 1)> entries;
+    std::size_t size = 0;
+  };
+  struct Top {
+    bool holds_bodies = true;
+    std::uint32_t count = 0;
+  };
+
+  Top top_of(std::span<const AabbNode<D>> nodes, NodeHandle at, Waiting& waiting) {
+    const AabbNode<D>& node = nodes[at];
+    if (node.is_leaf()) {
+      waiting.entries[waiting.size++] = {at, node.link};
+      return {true, 1};
     }
-    const auto first = static_cast<std::uint32_t>(words_.size());
-    words_.resize(first + PackedRow<D>::words(count));
-    std::array<std::uint32_t, kRowBlock> links;
-    for (std::uint32_t i = 0; i < count; ++i)
-      links[i] = holds_bodies ? nodes[below[i]].link : add(nodes, below[i]);
+    Top a = top_of(nodes, node.link, waiting), b = top_of(nodes, node.link + 1, waiting);
+    const auto close_both = [&](bool bodies_only) {
+      if (a.holds_bodies || !bodies_only) close(a, b.count, nodes, node.link, waiting);
+      if (b.holds_bodies || !bodies_only) close(b, 0, nodes, node.link + 1, waiting);
+    };
+    if (a.count + b.count > kRowBlock || a.holds_bodies != b.holds_bodies) close_both(true);
+    if (a.count + b.count > kRowBlock) close_both(false);
+    return {a.holds_bodies, a.count + b.count};
+  }
+  // Makes a row of what waits of the branch of that node, before `behind` others.
+  void close(Top& top, std::uint32_t behind, std::span<const AabbNode<D>> nodes, NodeHandle node,
+             Waiting& waiting) {
+    if (top.count == 1 && !top.holds_bodies) return;
+    const auto end = waiting.entries.begin() + static_cast<std::ptrdiff_t>(waiting.size);
+    const auto first = end - (behind + top.count);
+    const auto row = static_cast<std::uint32_t>(words_.size());
+    words_.resize(row + PackedRow<D>::words(top.count));
     PackedRow<D>::write(
-        words_.data() + first, count,
-        holds_bodies, [&](std::uint32_t i) -> auto& { return nodes[below[i]]; },
-        [&](std::uint32_t i) { return links[i]; });
-    return first;
+        words_.data() + row, top.count,
+        top.holds_bodies, [&](std::uint32_t i) -> auto& { return nodes[first[i].node]; },
+        [&](std::uint32_t i) { return first[i].id; });
+    std::copy(first + top.count, end, first + 1);
+    *first = {node, row};
+    waiting.size -= top.count - 1;
+    top = {false, 1};
   }
 
   template <class Probe, class Limit, class Soon, class F>
@@ -168,7 +194,7 @@ class AabbRows {
   template <class Probe, class Limit, class Soon, class F, class Enters>
   void look(std::uint32_t at, const Probe& probe, Limit& limit, Soon& soon, F& f, Enters& enters,
             WalkCounts& counts) const {
-    const PackedRow<D> row(words_.data() + at);
+    const PackedRow<D> row = this->row(at);
     const std::uint32_t count = row.count();
     ++counts.visited;
     if (row.holds_bodies()) {
@@ -184,7 +210,8 @@ class AabbRows {
     counts.skipped += count - each_in_block(row, count, probe, limit, fetch, enters);
   }
 
-  std::vector<std::uint32_t> words_;  // the root first; behind the last some that are read in vain
+  std::vector<std::uint32_t> words_;  // behind the last row some that are read in vain
+  std::uint32_t root_ = 0;
 };
 
 }  // namespace lantern::spatial

@@ -39,8 +39,6 @@ class AabbTree final : public StructureOf<AabbTree<D>, D>, CountsAllocations {
   static constexpr bool kHoldsOnce = true;
   // A tree that insertions have made higher is built anew.
   static constexpr std::uint32_t kHighest = 100;
-  // Their rows have fewer places than a word can tell.
-  static constexpr std::uint32_t kMostInRows = 1 << 24;
 
   // Throws Refused for a margin that is negative or not finite.
   explicit AabbTree(const StructureConfig<D>& config = {})
@@ -90,13 +88,16 @@ class AabbTree final : public StructureOf<AabbTree<D>, D>, CountsAllocations {
   }
 
   // See query_walk.hpp. With a margin the boxes are not the bodies' own: none of them is sure.
-  bool has_rows() const { return bodies() <= kMostInRows && rows_.is_due(); }
+  bool has_rows() const { return rows_.is_due(); }
   template <class Probe, class Limit, class Soon, class F>
   WalkCounts each_met(const Probe& probe, Limit& limit, Soon& soon, F& f) const {
-    const AabbRows<D>& rows = rows_.made([&](AabbRows<D>& made) { made.make(nodes_, kRoot); });
+    const AabbRows<D>& rows = rows_.made([&](AabbRows<D>& made) { write(made); });
     auto told = [&](BodyId id, bool is_sure) { f(id, is_sure && margin_ == 0); };
     return rows.each_met(probe, limit, soon, told);
   }
+
+  // The tree in rows, instead of what they hold.
+  void write(AabbRows<D>& rows) const { rows.make(nodes_, kRoot); }
 
   // Compared are those bodies whose enlarged boxes overlap: the tree is walked against itself, and
   // where two nodes do not overlap, nothing below them does. Returns the nodes compared with nodes

@@ -6,6 +6,7 @@
 #include "spatial/trees/lecture_quadtree.hpp"
 #include "spatial/trees/orthtree.hpp"
 #include "spatial/trees/sort_and_sweep.hpp"
+#include "spatial/trees/wide_bvh.hpp"
 
 namespace lantern::spatial {
 namespace {
@@ -58,6 +59,15 @@ const StructureEntry sort_and_sweep_entry{{.words = "sort and sweep",
 const StructureEntry brute_force_entry{{.words = "brute force", .is_tree = false, .splits = false},
                                        made<BruteForce<2>>,
                                        made<BruteForce<3>>};
+
+const StructureEntry wide_bvh_entry{{.words = "wide BVH",
+                                     .meets_in_leaves = false,
+                                     .splits = false,
+                                     .is_fitted = true,
+                                     .hugs = true,
+                                     .tells = 0},
+                                    made<WideBvh<2>>,
+                                    made<WideBvh<3>>};
 
 const StructureEntry grid_entry{
     {.words = "grid",
