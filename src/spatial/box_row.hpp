@@ -14,6 +14,21 @@
 
 namespace lantern::spatial {
 
+// A box in float, rounded outward, and by more than a float less than so.
+template <int D>
+struct FloatBox {
+  float lo[D], hi[D], sure_lo[D], sure_hi[D];
+
+  explicit FloatBox(const Box<D>& box) {
+    for (int i = 0; i < D; ++i) {
+      lo[i] = BoxTable<D>::rounded_down(box.lo[i]);
+      hi[i] = BoxTable<D>::rounded_up(box.hi[i]);
+      sure_lo[i] = detail::stepped(lo[i], 2);
+      sure_hi[i] = detail::stepped(hi[i], -2);
+    }
+  }
+};
+
 // The bodies of a leaf, where they stand side by side.
 struct LeafRun {
   std::uint32_t first = 0, count = 0;
@@ -26,32 +41,20 @@ struct LeafRun {
 template <int D>
 class LeafBoxes {
  public:
-  void clear() { resize(0); }
-  void resize(std::size_t places) {
-    places_ = places;
-    words_.resize(kWords * (places + BoxTable<D>::kPadding));
-  }
-  // One more, of so many boxes.
-  LeafRun add(std::uint32_t count) {
-    const auto first = static_cast<std::uint32_t>(places_);
-    resize(places_ + count);
-    return {first, count};
-  }
-  // The box, rounded outward, at a place of a leaf.
-  void set(LeafRun leaf, std::size_t place, BodyId id, const Box<D>& box) {
-    float* at = words_.data() + kWords * leaf.first + place;
-    for (int i = 0; i < D; ++i) {
-      *at = BoxTable<D>::rounded_down(box.lo[i]);
-      at[leaf.count] = BoxTable<D>::rounded_up(box.hi[i]);
-      at += 2 * leaf.count;
+  void resize(std::size_t places) { words_.resize(kWords * (places + BoxTable<D>::kPadding)); }
+  // Of a leaf, if there is one, the item at each place, its box rounded outward.
+  template <class ItemAt>
+  void fill(std::optional<LeafRun> leaf, ItemAt&& item_at) {
+    for (std::uint32_t i = 0; leaf && i < leaf->count; ++i) {
+      const Item<D>& item = item_at(leaf->first + i);
+      const FloatBox<D> box(item.box);
+      float* at = words_.data() + kWords * leaf->first + i;
+      for (int axis = 0; axis < D; ++axis, at += 2 * leaf->count) {
+        at[0] = box.lo[axis];
+        at[leaf->count] = box.hi[axis];
+      }
+      std::memcpy(at, &item.id, sizeof item.id);
     }
-    std::memcpy(at, &id, sizeof id);
-  }
-  // It will soon be looked at.
-  void fetch(LeafRun leaf) const {
-    constexpr std::size_t kLine = 64 / sizeof(float);
-    const float* at = words_.data() + kWords * leaf.first;
-    for (std::size_t i = 0; i < kWords * leaf.count; i += kLine) __builtin_prefetch(at + i);
   }
   BoxRow<D> row(LeafRun leaf) const {
     BoxRow<D> row;
@@ -68,7 +71,6 @@ class LeafBoxes {
  private:
   static constexpr std::size_t kWords = 2 * D + 1;
   static_assert(sizeof(BodyId) == sizeof(float));
-  std::size_t places_ = 0;
   std::vector<float> words_;
 };
 
@@ -176,21 +178,6 @@ class PackedRow {
 };
 
 // --- what of a row is met ---
-
-// A box in float, rounded outward, and by more than a float less than so.
-template <int D>
-struct FloatBox {
-  float lo[D], hi[D], sure_lo[D], sure_hi[D];
-
-  explicit FloatBox(const Box<D>& box) {
-    for (int i = 0; i < D; ++i) {
-      lo[i] = BoxTable<D>::rounded_down(box.lo[i]);
-      hi[i] = BoxTable<D>::rounded_up(box.hi[i]);
-      sure_lo[i] = detail::stepped(lo[i], 2);
-      sure_hi[i] = detail::stepped(hi[i], -2);
-    }
-  }
-};
 
 // A ray in float. Where it enters a box, and leaves it, is known but for `slack` on each axis and a
 // small part of what it is.

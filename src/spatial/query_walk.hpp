@@ -241,10 +241,10 @@ class RowWalk {
   WalkCounts counts_;
 };
 
-template <int D, class Tree, class Probe, class Limit, class Soon, class F>
-WalkCounts walk_rows(const Tree& tree, const Probe& probe, Limit& limit, Soon& soon, F& f) {
-  return RowWalk<D, Tree, Probe, Limit, Soon, F>(tree, probe, limit, soon, f).whole();
-}
+template <class Tree>
+concept HasLeafBoxes = requires(const Tree& tree) {
+  tree.boxes();
+};
 
 // f(id, is_sure) for each body that the probe may meet before `limit()`, see each_in_block: by the
 // structure's own way, if it has one.

@@ -78,6 +78,13 @@ class StructureOf : public Structure<D> {
   void ask(VolumeQuery<D>& query) const final { walk_within<D>(tree(), query); }
   void ask(NearestQuery<D>& query) const final { walk_around<D>(tree(), query); }
 
+  // Of one with leaves in rows.
+  template <class Probe, class Limit, class Soon, class F>
+  WalkCounts each_met(const Probe& probe, Limit& limit, Soon& soon,
+                      F& f) const requires HasLeafBoxes<Tree> {
+    return RowWalk<D, Tree, Probe, Limit, Soon, F>(tree(), probe, limit, soon, f).whole();
+  }
+
   void pair(PairSearch<D>& search) final {
     if constexpr (requires { tree().find_pairs(std::span<const Box<D>>(), search.found); })
       search.by_itself(tree());

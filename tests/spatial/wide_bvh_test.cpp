@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "counted_memory.hpp"
+#include "spatial/query.hpp"
 #include "spatial/worlds.hpp"
 
 namespace lantern::spatial {
@@ -61,6 +62,37 @@ std::vector<Item<D>> spread(std::uint32_t bodies, Random& random) {
   for (BodyId id = 0; id < bodies; ++id)
     items.push_back({id, Box<D>::around(random_point<D>(random, 0, width), Vec<D>(0.5))});
   return items;
+}
+
+// Beyond the last step of a row, and beyond float.
+TEST(WideBvh, BodiesFarOutAreFoundExactly) {
+  Random random(4);
+  const auto point = [&] {
+    Vec<2> p;
+    for (int i = 0; i < 2; ++i)
+      p[i] = (random.bits() % 2 == 0 ? std::pow(10, random.between(36, 40))
+                                     : random.between(0.98, 1.02) * PackedRow<2>::kFar) *
+             (random.bits() % 2 == 0 ? 1 : -1);
+    return p;
+  };
+  const auto box = [&] {
+    const Vec<2> a = point(), b = point();
+    return Box<2>{glm::min(a, b), glm::max(a, b)};
+  };
+  for (int world = 0; world < 20; ++world) {
+    std::vector<Item<2>> items;
+    for (BodyId id = 0; id < 60; ++id) items.push_back({id, box()});
+    WideBvh<2> bvh;
+    bvh.make(items);
+    for (int i = 0; i < 20; ++i) {
+      const Box<2> asked = box();
+      std::vector<BodyId> expected;
+      for (const Item<2>& item : items)
+        if (overlap(item.box, asked)) expected.push_back(item.id);
+      const auto box_of = [&](BodyId id) { return items[id].box; };
+      EXPECT_EQ(overlap_query<2>(bvh, asked, box_of).ids, expected);
+    }
+  }
 }
 
 template <int D>

@@ -24,11 +24,10 @@ struct alignas(D == 3 ? 16 : 8) AabbNode {
 
   // The box, enlarged by the margin and rounded outward.
   static AabbNode leaf(const Item<D>& item, double margin) {
+    const FloatBox<D> box(Box<D>{item.box.lo - margin, item.box.hi + margin});
     AabbNode node;
-    for (int i = 0; i < D; ++i) {
-      node.lo[i] = BoxTable<D>::rounded_down(item.box.lo[i] - margin);
-      node.hi[i] = BoxTable<D>::rounded_up(item.box.hi[i] + margin);
-    }
+    std::copy_n(box.lo, D, node.lo);
+    std::copy_n(box.hi, D, node.hi);
     node.link = item.id;
     node.below = 1 << 7;
     return node;

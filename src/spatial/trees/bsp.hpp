@@ -65,21 +65,13 @@ class Bsp final : public StructureOf<Bsp<D>, D> {
   // --- asked by rows, see query_walk.hpp ---
 
   using Place = NodeHandle;
-  template <class Probe, class Limit, class Soon, class F>
-  WalkCounts each_met(const Probe& probe, Limit& limit, Soon& soon, F& f) const {
-    return walk_rows<D>(*this, probe, limit, soon, f);
-  }
   bool has_rows() const { return leaf_boxes_.is_due(); }
   const LeafBoxes<D>& boxes() const {
     return leaf_boxes_.made([&](LeafBoxes<D>& boxes) {
       boxes.resize(contents_.places());
-      for (const Node& node : nodes_) {
-        const LeafRun leaf{node.contents.first, node.contents.count};
-        for (std::uint32_t i = 0; i < leaf.count; ++i) {
-          const Item<D>& item = items_[contents_.values(node.contents)[i]];
-          boxes.set(leaf, i, item.id, item.box);
-        }
-      }
+      for (NodeHandle i = 0; i < nodes_.size(); ++i)
+        boxes.fill(
+            leaf_run(i), [&](std::uint32_t at) -> auto& { return items_[contents_.value(at)]; });
     });
   }
   Place root() const { return 0; }

@@ -221,19 +221,13 @@ class KdTree final : public StructureOf<KdTree<D>, D>, CountsAllocations {
   // --- asked by rows, see query_walk.hpp ---
 
   using Place = NodeHandle;
-  template <class Probe, class Limit, class Soon, class F>
-  WalkCounts each_met(const Probe& probe, Limit& limit, Soon& soon, F& f) const {
-    return walk_rows<D>(*this, probe, limit, soon, f);
-  }
   bool has_rows() const { return leaf_boxes_.is_due(); }
   const LeafBoxes<D>& boxes() const {
     return leaf_boxes_.made([&](LeafBoxes<D>& boxes) {
       boxes.resize(stored_.size());
-      for (const Node& node : nodes_)
-        for (std::uint32_t i = 0; i < node.count; ++i) {
-          const Item<D>& item = *stored_item(stored_[node.first + i]);
-          boxes.set({node.first, node.count}, i, item.id, item.box);
-        }
+      for (NodeHandle i = 0; i < nodes_.size(); ++i)
+        boxes.fill(
+            leaf_run(i), [&](std::uint32_t at) -> auto& { return *stored_item(stored_[at]); });
     });
   }
   Place root() const { return 0; }

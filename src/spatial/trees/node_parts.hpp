@@ -96,6 +96,7 @@ class LeafArray {
     free_.fill(kNone);
   }
 
+  std::uint32_t value(std::size_t place) const { return values_[place]; }
   // Valid until the next append.
   std::span<const std::uint32_t> values(Run run) const {
     return std::span(values_).subspan(run.count == 0 ? 0 : run.first, run.count);

@@ -107,22 +107,15 @@ class Orthtree final : public StructureOf<Orthtree<D>, D>, CountsAllocations {
     Box<D> bounds;
   };
 
-  template <class Probe, class Limit, class Soon, class F>
-  WalkCounts each_met(const Probe& probe, Limit& limit, Soon& soon, F& f) const {
-    return walk_rows<D>(*this, probe, limit, soon, f);
-  }
   bool has_rows() const { return leaf_boxes_.is_due(); }
   const LeafBoxes<D>& boxes() const {
     return leaf_boxes_.made([&](LeafBoxes<D>& boxes) {
       boxes.resize(contents_.places());
-      for (const Node& node : nodes_) {
-        if (!node.is_leaf()) continue;
-        const LeafRun leaf{node.contents.first, node.contents.count};
-        for (std::uint32_t i = 0; i < leaf.count; ++i) {
-          const Item<D>& item = items_[contents_.values(node.contents)[i]];
-          boxes.set(leaf, i, item.id, item.box);
-        }
-      }
+      for (NodeHandle i = 0; i < nodes_.size(); ++i)
+        boxes.fill(
+            leaf_run(Place{i, 0, {}}), [&](std::uint32_t at) -> auto& {
+              return items_[contents_.value(at)];
+            });
     });
   }
   Place root() const { return {0, 0, config_.bounds}; }
