@@ -17,7 +17,7 @@ struct Ours {
 };
 constexpr Ours kOurs[] = {
 #define LANTERN_KIND(name) {#name, &name##_entry},
-    LANTERN_ALL_STRUCTURES(LANTERN_KIND)
+    LANTERN_STRUCTURES(LANTERN_KIND) LANTERN_KIND(wide_bvh)
 #undef LANTERN_KIND
 };
 
@@ -33,9 +33,11 @@ std::deque<Own>& own_kinds() {
 
 constexpr auto kFirst = static_cast<std::size_t>(kStructureKinds.front());
 constexpr auto kFirstOwn = static_cast<std::size_t>(StructureKind::own);
+static_assert(kFirstOwn - kFirst == kStructureKinds.size(), "no name between ours and own");
 
 // Null for what is none of ours.
 const Ours* ours(StructureKind kind) {
+  if (kind == StructureKind::wide_bvh) return &kOurs[kStructureKinds.size()];
   const auto place = static_cast<std::size_t>(kind);
   return place < kFirst || place >= kFirstOwn ? nullptr : &kOurs[place - kFirst];
 }

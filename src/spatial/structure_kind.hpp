@@ -23,16 +23,15 @@ namespace lantern::spatial {
   KIND(lecture_quadtree)         \
   KIND(grid)                     \
   KIND(aabb_tree)
-// And what "auto" alone takes, for who only asks: nobody names it, it takes no part in lessons.
-#define LANTERN_ALL_STRUCTURES(KIND) LANTERN_STRUCTURES(KIND) KIND(wide_bvh)
 
 enum class StructureKind {
   none,       // nobody asks for one
   automatic,  // "auto": whichever suits the bodies, see structure_choice.hpp
 #define LANTERN_KIND(name) name,
-  // The last is the first that this program was given; the others are the numbers behind.
-  LANTERN_ALL_STRUCTURES(LANTERN_KIND) own
+  // `own` is the first that this program was given; the others are the numbers behind.
+  LANTERN_STRUCTURES(LANTERN_KIND) own,
 #undef LANTERN_KIND
+  wide_bvh = -1  // what "auto" takes for who only asks: nobody names it, no lesson is about it
 };
 
 // All of ours that have a name.

@@ -118,8 +118,9 @@ struct StructureEntry {
   std::unique_ptr<Structure<3>> (*make_3d)(const StructureConfig<3>&);
 };
 #define LANTERN_KIND(name) extern const StructureEntry name##_entry;
-LANTERN_ALL_STRUCTURES(LANTERN_KIND)
+LANTERN_STRUCTURES(LANTERN_KIND)
 #undef LANTERN_KIND
+extern const StructureEntry wide_bvh_entry;
 template <class Tree, int D>
 std::unique_ptr<Structure<D>> made(const StructureConfig<D>& config) {
   return std::make_unique<Tree>(config);
