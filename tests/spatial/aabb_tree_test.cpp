@@ -242,6 +242,19 @@ TEST(AabbTree, StaysLow) {
 
 // In a row each cut is in its middle; where distances grow by and by it would be a chain, which is
 // followed as far as the height allows.
+// Boxes within boxes, each put around all before it: a chain, which is built anew while some of the
+// bodies are out of the tree.
+TEST(AabbTree, HoldsEachBodyOnceThoughItGrowsTooHighWhileTheyAreInsertedAgain) {
+  AabbTree<2> tree({.following = Following::reinsert});
+  std::vector<Item<2>> items;
+  for (BodyId id = 0; id < 150; ++id)
+    items.push_back({id, {Vec<2>(0.0), Vec<2>(std::pow(1.3, id))}});
+  tree.make(items);
+  for (Item<2>& item : items) item.box.hi = Vec<2>(std::pow(1.3, 150 - item.id));
+  tree.update(items);
+  expect_sound(tree, items);
+}
+
 TEST(AabbTree, IsCutWhereBoxesStaySmall) {
   std::vector<Item<2>> row, growing;
   for (BodyId i = 0; i < 256; ++i) row.push_back({i, Box<2>::around({2.0 * i, 0}, Vec<2>(0.5))});

@@ -226,7 +226,7 @@ template <int D>
 void AabbTree<D>::build_of_leaves() {
   leaves_.clear();
   for (std::size_t i = kRoot; i < nodes_.size(); ++i)
-    if (nodes_[i].is_leaf()) append(leaves_, nodes_[i]);
+    if (nodes_[i].bodies() == 1) append(leaves_, nodes_[i]);
   grow_all();
 }
 
@@ -324,6 +324,7 @@ bool AabbTree<D>::keep_those_that_suit(NodeHandle at, const Items<D>& items) {
     return true;
   }
   if (one || two) node = nodes_[one ? first : first + 1];
+  nodes_[first] = nodes_[first + 1] = Node{};  // no leaves, for who looks at all places
   append(free_, first);
   return one || two;
 }
