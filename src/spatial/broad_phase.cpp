@@ -584,25 +584,19 @@ template <int D>
 void BroadPhase<D>::pair_near() {
   const std::vector<Pair>& near = near_.near();
   const std::span<const BodyId> names = names_by_rank();
+  const bool all_stir = dynamic_.states.empty(), all_move = spots_.empty();
+  const auto spot_of = [&](BodyId rank) { return all_move ? Spot{false, rank} : spots_[rank]; };
+  const auto store_of = [&](Spot spot) -> const Store& {
+    return spot.is_static ? static_ : dynamic_;
+  };
+  const auto stirs = [&](Spot spot) { return store_of(spot).state(spot.place).stirs(); };
   pairs_.resize(near.size());
   Pair* next = pairs_.data();
-  if (spots_.empty() && dynamic_.states.empty()) {
-    const Box<D>* boxes = dynamic_.boxes.data();
-    for (const auto [a, b] : near) {
-      *next = {id_at(names, a), id_at(names, b)};
-      next += overlap(boxes[a], boxes[b]);
-    }
-  } else {
-    const auto body_at = [&](BodyId rank) -> std::pair<const Store&, std::size_t> {
-      if (spots_.empty()) return {dynamic_, rank};
-      return {spots_[rank].is_static ? static_ : dynamic_, spots_[rank].place};
-    };
-    for (const auto [a, b] : near) {
-      const auto& [one, i] = body_at(a);
-      const auto& [two, j] = body_at(b);
-      *next = {id_at(names, a), id_at(names, b)};
-      next += overlap(one.boxes[i], two.boxes[j]) && (one.state(i).stirs() || two.state(j).stirs());
-    }
+  for (const auto [a, b] : near) {
+    const Spot one = spot_of(a), two = spot_of(b);
+    *next = {id_at(names, a), id_at(names, b)};
+    next += overlap(store_of(one).boxes[one.place], store_of(two).boxes[two.place]) &
+            (all_stir || stirs(one) || stirs(two));
   }
   pairs_.resize(static_cast<std::size_t>(next - pairs_.data()));
   counters_.pair_tests += near.size();

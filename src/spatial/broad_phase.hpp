@@ -76,9 +76,10 @@ class BroadPhase {
 
   // The same in two parts: first these are all bodies; and then, as often as they move, the pairs.
   // Ids ascend; these alone may be others than they were, and all that stir are among them. So it
-  // costs what these cost: where few of many stir, each asks a tree of what rests, and the
-  // structure itself waits until somebody looks. (Not one that is there to show how it follows its
-  // bodies, and none that a program was given.)
+  // costs what these cost: where few of many stir, each asks a tree of what rests; where many do,
+  // but no farther than they are large, `automatic` mends the pairs of the step before
+  // (near_pairs.hpp). The structure itself waits until somebody looks. (Not one that is there to
+  // show how it follows its bodies, and none that a program was given.)
   void tell(std::span<const Proxy<D>> proxies) { take(proxies); }
   void follow(std::span<const Proxy<D>> changed);
 

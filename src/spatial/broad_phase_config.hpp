@@ -13,9 +13,7 @@ struct BroadPhaseConfig : StructureConfig<D> {
   // That may look for pairs at the same time, where there are enough of them; the pairs and their
   // order are the same for any number. To start threads takes memory anew each time.
   unsigned threads = 1;
-  // Whether `automatic` mends the pairs of the last step where little moves (near_pairs.hpp), when
-  // it is asked for nothing else: see BroadPhase::follow. They are the same pairs.
-  bool mends = true;
+  bool mends = true;  // the pairs of the step before, if `automatic`: see BroadPhase::follow
   // Whether a tree that would grow out of proportion (more than 64 entries a body: many bodies
   // larger than most cells) is built with half of its depth instead, again and again until it does
   // not. Else the depth is as configured, and a tree of more than `most_entries` is refused.
