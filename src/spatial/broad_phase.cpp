@@ -355,6 +355,7 @@ void BroadPhase<D>::with_names(const Store& store, F&& f) {
 
 template <int D>
 void BroadPhase<D>::empty(Store& store) {
+  if (&store == &dynamic_) reaches_stand_ = false;
   store.stands = store.size() == 0;
   store.only_moved = false;
   store.structure->clear();

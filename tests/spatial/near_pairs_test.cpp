@@ -151,6 +151,12 @@ TEST(NearPairs, AreTheSameWhenBodiesComeGoAndAreLookedAt) {
           phase.insert(more, {});
           break;
         }
+        case 6:  // all fall asleep, and wake
+          for (const bool awake : {false, true}) {
+            for (Proxy<2>& box : crowd.boxes) box.awake = awake;
+            phase.update(crowd.boxes);
+          }
+          break;
         default:
           break;
       }
