@@ -95,19 +95,21 @@ TEST(WideBvh, BodiesFarOutAreFoundExactly) {
   }
 }
 
-template <int D>
+template <template <int> class Tree, int D>
 double bytes_a_body() {
   Random random(8);
   const std::vector<Item<D>> items = spread<D>(50'000, random);
   const std::int64_t before = counted_memory::held_bytes;
-  WideBvh<D> bvh;
-  bvh.make(items);
+  Tree<D> tree;
+  tree.make(items);
   return static_cast<double>(counted_memory::held_bytes - before) / static_cast<double>(items.size());
 }
 
 TEST(WideBvh, TakesAFewBytesABody) {
-  EXPECT_LT(bytes_a_body<2>(), 10.5);
-  EXPECT_LT(bytes_a_body<3>(), 13);
+  EXPECT_LT((bytes_a_body<WideBvh, 2>()), 10.5);
+  EXPECT_LT((bytes_a_body<WideBvh, 3>()), 13);
+  EXPECT_LT((bytes_a_body<AabbTree, 2>()), 56) << "the leaves of which it is built are kept";
+  EXPECT_LT((bytes_a_body<AabbTree, 3>()), 73);
 }
 
 TEST(WideBvh, FitsAsLongAsBodiesStayInTheirRoundedBoxes) {

@@ -1,6 +1,8 @@
 // How an AABB tree is built of all its bodies at once, follows them, and finds which overlap.
 #include "spatial/trees/aabb_tree.hpp"
 
+#include "base/check.hpp"
+
 namespace lantern::spatial {
 namespace {
 
@@ -169,20 +171,24 @@ std::size_t AabbTree<D>::cut(std::span<Node> leaves, std::uint32_t height) {
 // Makes the node of these leaves, which are at least one. What lies below blocks is made later, so
 // that the nodes above them, through which every walk goes, stand close together.
 template <int D>
-void AabbTree<D>::grow(NodeHandle at, std::span<Node> leaves, std::uint32_t height) {
-  if (leaves.size() == 1) {
-    nodes_[at] = leaves[0];
+void AabbTree<D>::grow(NodeHandle at, Leaves leaves, std::uint32_t height) {
+  if (leaves.count == 1) {
+    nodes_[at] = nodes_[leaves_at_ + leaves.first];
     return;
   }
-  if (leaves.size() > 1024) stop_if_asked();
-  const std::size_t few = cut(leaves, height);
-  const auto first = static_cast<NodeHandle>(nodes_.size());
-  nodes_.resize(first + 2);
+  if (leaves.count > 1024) stop_if_asked();
+  const std::size_t few =
+      cut(std::span(nodes_).subspan(leaves_at_ + leaves.first, leaves.count), height);
+  LANTERN_CHECK(made_ + 2, <=, leaves_at_ + next_leaf_);
+  const NodeHandle first = made_;
+  made_ += 2;
+  nodes_[first] = nodes_[first + 1] = Node{};
   nodes_[at].link = first;
-  const bool is_of_block = leaves.size() <= kRowBlock;
+  const bool is_of_block = leaves.count <= kRowBlock;
   for (const NodeHandle i : {0u, 1u}) {
-    const std::span<Node> part = i == 0 ? leaves.first(few) : leaves.subspan(few);
-    if (is_of_block || part.size() > kRowBlock)
+    const Leaves part =
+        i == 0 ? Leaves{leaves.first, few} : Leaves{leaves.first + few, leaves.count - few};
+    if (is_of_block || part.count > kRowBlock)
       grow(first + i, part, height - 1);
     else
       append(blocks_, Block{first + i, part, height - 1});
@@ -191,20 +197,22 @@ void AabbTree<D>::grow(NodeHandle at, std::span<Node> leaves, std::uint32_t heig
 }
 
 template <int D>
-void AabbTree<D>::grow_all() {
-  nodes_.assign(2, Node{});
+void AabbTree<D>::grow_all(std::size_t leaves) {
   free_.clear();
   blocks_.clear();
   changed();
   cost_ = 0;
-  if (leaves_.empty()) return;
-  if (nodes_.capacity() < 2 * leaves_.size()) {
-    nodes_.reserve(2 * leaves_.size());
-    ++allocations_;
+  leaves_at_ = nodes_.size() - leaves;
+  next_leaf_ = 0;
+  made_ = 2;
+  nodes_[kRoot] = Node{};
+  grow(kRoot, {0, leaves}, lowest(leaves) + kSpareHeight);
+  const std::size_t above = made_;
+  for (const Block& block : blocks_) {
+    next_leaf_ = block.leaves.first;
+    grow(block.node, block.leaves, block.height);
   }
-  grow(kRoot, leaves_, lowest(leaves_.size()) + kSpareHeight);
-  const std::size_t above = nodes_.size();
-  for (const Block& block : blocks_) grow(block.node, block.leaves, block.height);
+  nodes_.resize(made_);
   // Above the blocks children stand behind their parents.
   for (std::size_t i = above; i-- > kRoot && !blocks_.empty();)
     if (nodes_[i].below == 0) enclose(static_cast<NodeHandle>(i));
@@ -216,18 +224,32 @@ void AabbTree<D>::make(Items<D> items) {
   require_all_valid(items);
   require_places(items.size());
   clear();
-  leaves_.clear();
-  for (const Item<D>& item : items) append(leaves_, Node::leaf(item, margin_));
-  grow_all();
-  splits_ = items.empty() ? 0 : items.size() - 1;
+  if (items.empty()) return;
+  make_room(items.size());
+  auto leaf = nodes_.end() - std::ssize(items);
+  for (const Item<D>& item : items) *leaf++ = Node::leaf(item, margin_);
+  grow_all(items.size());
+  splits_ = items.size() - 1;
+}
+
+// Places for so many leaves at the back, and at the front for the tree of those that wait no more.
+// A block of one leaf takes two places before it is reached; but many of them in a row would make
+// the tree higher than it may be, so that a sixteenth of the leaves is more than enough.
+template <int D>
+void AabbTree<D>::make_room(std::size_t leaves) {
+  const std::size_t places = std::max(nodes_.size(), 2 * leaves + leaves / 16 + 4 * kRowBlock);
+  allocations_ += nodes_.capacity() < places;
+  nodes_.resize(places);
 }
 
 template <int D>
 void AabbTree<D>::build_of_leaves() {
-  leaves_.clear();
-  for (std::size_t i = kRoot; i < nodes_.size(); ++i)
-    if (nodes_[i].bodies() == 1) append(leaves_, nodes_[i]);
-  grow_all();
+  const std::size_t leaves = bodies(), places = nodes_.size();
+  make_room(leaves);
+  auto leaf = nodes_.end();
+  for (std::size_t i = places; i-- > kRoot;)
+    if (nodes_[i].bodies() == 1) *--leaf = nodes_[i];
+  grow_all(leaves);
 }
 
 template <int D>

@@ -277,9 +277,14 @@ class AabbTree final : public StructureOf<AabbTree<D>, D>, CountsAllocations {
 
   // --- building mending and pairing (aabb_tree.cpp) ---
 
+  // Some of the leaves that stand behind a growing tree.
+  struct Leaves {
+    std::size_t first = 0, count = 0;
+  };
+  void make_room(std::size_t leaves);
   void build_of_leaves();
-  void grow_all();
-  void grow(NodeHandle at, std::span<Node> leaves, std::uint32_t height);
+  void grow_all(std::size_t leaves);
+  void grow(NodeHandle at, Leaves leaves, std::uint32_t height);
   std::size_t cut(std::span<Node> leaves, std::uint32_t height);
   void take_out_and_put_back(const Items<D>& items, const EventWatch& watch);
   void tell_leaving(NodeHandle at, const Items<D>& items, const EventWatch& watch) const;
@@ -374,15 +379,18 @@ class AabbTree final : public StructureOf<AabbTree<D>, D>, CountsAllocations {
   BoxTable<D> table_;    // of pairs: a branch is one run of it; with a margin of true boxes
   bool listed_ = false;  // the leaves' own stand there
 
+  // While it grows: at the front of nodes_, and the leaves of which it is built stand at the back.
   struct Block {
     NodeHandle node = 0;
-    std::span<Node> leaves;
+    Leaves leaves;
     std::uint32_t height = 0;
   };
+  NodeHandle made_ = 0;        // places at the front
+  std::size_t leaves_at_ = 0;  // where the first leaf stood
+  std::size_t next_leaf_ = 0;  // those before it stand in the tree
 
   // Scratch, kept for its memory.
   std::vector<Block> blocks_;     // that are still to be made
-  std::vector<Node> leaves_;      // of a tree that is being built
   std::vector<NodeHandle> free_;  // pairs of places that nobody uses
   std::vector<BodyId> left_;      // bodies that are out of the tree
 };
