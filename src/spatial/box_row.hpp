@@ -14,7 +14,7 @@
 
 namespace lantern::spatial {
 
-// A box in float, rounded outward, and by more than a float less than so.
+// A box in float, rounded outward; and two floats smaller on each side, which lies within the box.
 template <int D>
 struct FloatBox {
   float lo[D], hi[D], sure_lo[D], sure_hi[D];
