@@ -270,11 +270,16 @@ void BroadPhase<D>::build(Store& store, std::span<const Box<D>> boxes, Use use,
 }
 
 // What was chosen is chosen again when the bodies have become twice as many or half as many, or
-// each of them is compared with twice as many others.
+// each of them is compared with twice as many others; and what is asked and moves is followed.
 template <int D>
 void BroadPhase<D>::choose(Store& store, Use use) {
   constexpr double kFew = 16;  // comparisons of a body that are of no concern
   const std::size_t bodies = store.size();
+  if (use == Use::questions && store.only_moved && store.kind == StructureKind::wide_bvh) {
+    store.only_moved = false;
+    store.kind = StructureKind::aabb_tree;
+    return make_anew(store);
+  }
   if (store.kind != StructureKind::automatic && store.chosen_use == use &&
       bodies <= 2 * store.chosen_for && 2 * bodies >= store.chosen_for &&
       store.tests <= 2 * store.chosen_tests + kFew)

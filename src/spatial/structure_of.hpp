@@ -56,6 +56,7 @@ class StructureOf : public Structure<D> {
     NoObserver nobody;
     constexpr bool one_by_one = requires { tree().add(Item<D>(), nobody); };
     constexpr bool at_once = requires { tree().make(items); };
+    static_assert(one_by_one || at_once);
     if (at_once && (!one_by_one || way == Build::at_once)) {
       if constexpr (at_once) tree().make(items);
     } else if constexpr (one_by_one) {

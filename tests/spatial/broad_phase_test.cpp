@@ -317,6 +317,24 @@ TEST(BroadPhase, BranchesWhereAllSleepAreSkipped) {
   }
 }
 
+TEST(BroadPhase, WhatIsAskedAndMovesIsFollowed) {
+  BroadPhase<2> phase(grid_config(StructureKind::automatic, 16));
+  std::vector<Proxy<2>> proxies = grid(16);
+  phase.build(proxies);
+  EXPECT_EQ(phase.kind(), StructureKind::wide_bvh);
+  for (std::size_t step = 0; step < 9; ++step) {
+    Box<2>& box = proxies[7 * step].box;
+    box = {box.lo + 0.4, box.hi + 0.4};
+    phase.build(proxies);
+    EXPECT_EQ(phase.kind(), StructureKind::aabb_tree);
+    EXPECT_EQ(phase.counters().dynamic_builds, 2u) << step;
+    for (const Proxy<2>& proxy : proxies) {
+      const Found found = overlap_query<2>(phase.dynamic(), proxy.box);
+      EXPECT_TRUE(std::ranges::binary_search(found.ids, proxy.id)) << proxy.id;
+    }
+  }
+}
+
 TEST(BroadPhase, ASteadyStateAsksForNoMemoryAndReusesNodes) {
   for (const StructureKind kind : kinds<2>()) {
     BroadPhase<2> phase(grid_config(kind, 16));

@@ -19,7 +19,7 @@ class WideBvh final : public StructureOf<WideBvh<D>, D> {
   explicit WideBvh(const StructureConfig<D>& = {}) { clear(); }
 
   // Time: O(n log n).
-  void make(std::span<const Item<D>> items) {
+  void make(Items<D> items) {
     const std::uint64_t allocations = counters_.allocations;
     AabbTree<D> tree;
     tree.make(items);
@@ -61,17 +61,17 @@ class WideBvh final : public StructureOf<WideBvh<D>, D> {
   }
 
   // Each body asks which others are near.
-  std::uint64_t find_pairs(std::span<const Item<D>> exact, FoundPairs& found) const {
+  std::uint64_t find_pairs(std::span<const Box<D>> exact, FoundPairs& found) const {
     std::uint64_t compared = 0;
     std::vector<BodyId> ids;
-    for (const Item<D>& item : exact) {
+    for (BodyId body = 0; body < exact.size(); ++body) {
       stop_if_asked();
       ids.clear();
-      near(item.box, ids);
+      near(exact[body], ids);
       for (const BodyId other : ids) {
-        if (other <= item.id) continue;
+        if (other <= body) continue;
         ++compared;
-        if (overlap(item.box, exact[other].box)) found.add(item.id, other);
+        if (overlap(exact[body], exact[other])) found.add(body, other);
       }
     }
     return compared;
