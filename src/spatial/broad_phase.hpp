@@ -46,6 +46,9 @@ struct PairChain {
   std::vector<Pair> overlapping;  // of these, those whose boxes overlap: the narrow phase's work
 };
 
+template <int D>
+struct OrderedSearch;
+
 // Pairs are those bodies whose boxes overlap (touching does), of which at least one is awake and
 // not static; each once, in order of ids. All kinds give the same pairs.
 //
@@ -279,8 +282,7 @@ class BroadPhase {
   Bodies stirring_bodies_;
   std::vector<BodyId> ids_;
   std::span<const BodyId> found_names_;
-  struct Search;
-  std::unique_ptr<Search> search_;
+  std::unique_ptr<OrderedSearch<D>> search_;
 };
 
 extern template class BroadPhase<2>;

@@ -162,4 +162,10 @@ class PairSearch {
   BoxTable<D> leaf_;
 };
 
+// By bodies' places, which are named by their ranks when pairs are put in order.
+template <int D>
+struct OrderedSearch : PairSearch<D> {
+  PairOrder order;
+};
+
 }  // namespace lantern::spatial
