@@ -6,10 +6,11 @@
 namespace lantern::spatial {
 namespace {
 
-// About what it costs to look for a body's partners by a structure built anew, and for each that is
-// found; to see whether a body is within its reach, and whether a pair of the list overlaps; and to
-// look for the partners of one body.
-constexpr double kBuilt = 120, kFound = 50, kFollowed = 10, kCompared = 6, kAsked = 1500;
+// About what it costs, each: to follow a body, to put it into a structure built anew and look for
+// its partners, a partner found so; a pair of the list, and to put it in order where there are
+// more; to look for the partners of one body, and a partner found so.
+constexpr double kFollowed = 20, kBuilt = 100, kFound = 12;
+constexpr double kCompared = 6, kOrdered = 4, kAsked = 1500, kMet = 60;
 
 template <int D>
 bool lies_in(const Box<D>& box, const Box<D>& reach) {
@@ -27,9 +28,9 @@ double most_of(const auto& v) {
 }  // namespace
 
 // Without reaches one step costs as much as the other.
-bool Horizon::is_due(double next) const {
+bool Horizon::is_due(double next, double plain) const {
   if (at_ == 0) return age_ >= (tried_[1].steps > 0 ? kLong : 1);
-  return next * age_ > work_ || next > tried_[0].mean();
+  return next * age_ > work_ || next > plain;
 }
 
 void Horizon::begin() {
@@ -59,7 +60,8 @@ Mending NearPairs<D>::follow(std::span<const Box<D>> boxes, bool reaches_stand) 
   if (horizon_.steps() > 0) find_left(boxes);
   Mending next = horizon_.steps() == 0 ? Mending::none : Mending::some;
   const bool is_lost = !reaches_stand && !left_.empty();
-  if (steps_known_ >= kKnown && (is_lost || horizon_.is_due(cost_of_mending()))) {
+  if (steps_known_ >= kKnown &&
+      (is_lost || horizon_.is_due(cost_of_mending(), cost_of_finding(pairs_)))) {
     horizon_.begin();
     while (horizon_.steps() > 0 && !begin(boxes)) give_up();
     next = horizon_.steps() == 0 ? Mending::none : Mending::anew;
@@ -119,6 +121,8 @@ bool NearPairs<D>::begin(std::span<const Box<D>> boxes) {
   ahead_ = moves_on ? steps : 0;
   margin_ = 1.5 * std::sqrt(steps) * (moves_on ? turn_ : way_);
   if (margin_ + ahead_ * way_ > 2 * extent_) return false;
+  // At least some more are near each other than overlap now.
+  if (2 * cost_of_comparing(2 * pairs_) > cost_of_finding(pairs_)) return false;
   reaches_.resize(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) enlarge(i, boxes[i]);
   left_.clear();
@@ -150,19 +154,30 @@ void NearPairs<D>::put_in_order() {
 // --- what it costs ---
 
 template <int D>
+double NearPairs<D>::cost_of_finding(double pairs) const {
+  return (kFollowed + kBuilt) * static_cast<double>(before_.size()) + kFound * pairs;
+}
+template <int D>
+double NearPairs<D>::cost_of_comparing(double near) const {
+  return kFollowed * static_cast<double>(before_.size()) + kCompared * near;
+}
+template <int D>
 double NearPairs<D>::cost_of_mending() const {
-  const auto number = [](std::size_t n) { return static_cast<double>(n); };
-  return kFollowed * number(before_.size()) + kCompared * number(near_.size()) +
-         kAsked * number(left_.size()) + (left_.empty() ? 0 : kBuilt * number(all_left_.size()));
+  const auto near = static_cast<double>(near_.size()), left = static_cast<double>(left_.size());
+  const double comparing = cost_of_comparing(near);
+  if (left_.empty()) return comparing;
+  return comparing + kOrdered * near + kBuilt * static_cast<double>(all_left_.size()) +
+         left * (kAsked + kMet * 2 * near / static_cast<double>(before_.size()));
 }
 
 template <int D>
 void NearPairs<D>::pay(Mending done, std::size_t pairs) {
-  const auto number = [](std::size_t n) { return static_cast<double>(n); };
-  horizon_.pay(done == Mending::some
-                   ? cost_of_mending()
-                   : (kFollowed + kBuilt) * number(before_.size()) +
-                         kFound * number(done == Mending::anew ? near_.size() : pairs));
+  pairs_ = static_cast<double>(pairs);
+  const auto near = static_cast<double>(near_.size());
+  // Larger boxes meet more others in vain, too.
+  horizon_.pay(done == Mending::none   ? cost_of_finding(pairs_)
+               : done == Mending::some ? cost_of_mending()
+                                       : cost_of_finding(4 * near - 3 * pairs_));
 }
 
 template <int D>

@@ -31,8 +31,9 @@ class Horizon {
   }
   // Steps for which there will be no reaches, since they did not pay.
   double rests_for() const { return at_ == 0 && tried_[1].steps > 0 ? kLong - age_ : 0; }
-  // Whether to begin anew: a step of this cost would raise the mean of all since it last began.
-  bool is_due(double next) const;
+  // Whether to begin anew: a step of this cost would raise the mean of all since it last began, or
+  // cost more than one without reaches.
+  bool is_due(double next, double plain) const;
   // As far ahead as has cost least so far, or a step farther or less far that was not tried.
   void begin();
 
@@ -93,12 +94,15 @@ class NearPairs {
  private:
   void look_at_motion(std::span<const Box<D>> boxes);
   void find_left(std::span<const Box<D>> boxes);
+  double cost_of_finding(double pairs) const;
+  double cost_of_comparing(double near) const;
   double cost_of_mending() const;
   bool begin(std::span<const Box<D>> boxes);
   void enlarge(std::size_t place, const Box<D>& box);
 
   Horizon horizon_;
   int steps_known_ = 0;
+  double pairs_ = 0;               // of the last step
   double way_ = 0;                 // what nearly no body moves more than in a step, along an axis
   double turn_ = 0;                // the same of what it moves otherwise than in the step before
   double extent_ = 0;              // the mean

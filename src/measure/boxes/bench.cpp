@@ -10,8 +10,9 @@
 namespace lantern::measure {
 namespace {
 
-constexpr double kLeastTurn = 0.002;  // what a turn should last at least
-constexpr int kMostSteps = 64;        // of a turn
+constexpr double kLeastTurn = 0.02;  // what a turn should last at least
+constexpr double kWarm = 0.3;        // what is long enough to be warm, and to know how boxes move
+constexpr int kMostSteps = 64;       // of a turn
 constexpr int kLeastRounds = 3;
 constexpr double kLongStep = 0.1;  // seconds: one is enough to be warm
 
@@ -175,7 +176,10 @@ class StageBench {
     try {
       const double before = bytes_in_use();
       e.run = e.who->start(stage_, setting);
-      for (int i = 0; i < (e.step_seconds > kLongStep ? 2 : 4); ++i) {
+      const CpuStopwatch watch;
+      const std::size_t most = 2 * stage_.frames() + 2;
+      while (e.turn < 2 || (e.step_seconds <= kLongStep && e.turn < 4) ||
+             (e.turn < most && watch.seconds() < kWarm)) {
         e.step_seconds = step(e);
         if (e.turn == 2) judge(e, second_);
       }
