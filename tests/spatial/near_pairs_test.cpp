@@ -13,13 +13,13 @@ namespace {
 
 // Bodies with gaps between their ids, each as near to another as to overlap now and then.
 template <int D>
-struct Crowd {
+struct Swarm {
   Random random;
   double width;
   std::vector<Proxy<D>> boxes = {};
   std::vector<Vec<D>> ways = {};
 
-  Crowd(std::size_t bodies, std::uint64_t seed, bool some_static)
+  Swarm(std::size_t bodies, std::uint64_t seed, bool some_static)
       : random(seed), width(2 * std::pow(static_cast<double>(bodies), 1.0 / D)) {
     for (BodyId i = 0; i < bodies; ++i) {
       const Vec<D> half = random_point<D>(random, 0.25, 0.75);
@@ -50,12 +50,12 @@ struct Crowd {
 template <int D>
 struct Motion {
   const char* name;
-  std::function<void(Crowd<D>&, std::size_t body, int step)> move;
+  std::function<void(Swarm<D>&, std::size_t body, int step)> move;
 };
 
 template <int D>
 std::vector<Motion<D>> motions() {
-  using C = Crowd<D>;
+  using C = Swarm<D>;
   return {
       {"rest", [](C&, std::size_t, int) {}},
       {"jitter", [](C& c, std::size_t i, int) { c.move(i, random_point<D>(c.random, -0.1, 0.1)); }},
@@ -71,7 +71,7 @@ std::vector<Motion<D>> motions() {
       {"far out", [](C& c, std::size_t i, int s) { c.move(i, Vec<D>(s == 9 ? 1e12 : 0.01)); }},
       {"beyond all",
        [](C& c, std::size_t i, int s) { c.move(i, Vec<D>(i % 9 == 0 && s == 9 ? 1e307 : 0.)); }},
-      {"a swarm",
+      {"around one",
        [](C& c, std::size_t i, int) {
          const Vec<D> to = c.boxes[1].box.lo + random_point<D>(c.random, -1, 1);
          if (i % 30 == 0) c.move(i, to - c.boxes[i].box.lo);
@@ -97,13 +97,13 @@ BroadPhaseConfig<D> automatic(bool mends, unsigned threads = 1) {
 template <int D>
 void follows_every_motion(bool some_static, unsigned threads) {
   for (const Motion<D>& motion : motions<D>()) {
-    Crowd<D> crowd(150, 11, some_static);
+    Swarm<D> swarm(150, 11, some_static);
     BroadPhase<D> phase(automatic<D>(true, threads));
-    phase.tell(crowd.boxes);
+    phase.tell(swarm.boxes);
     for (int step = 0; step < 60; ++step) {
-      for (std::size_t i = 0; i < crowd.boxes.size(); ++i) motion.move(crowd, i, step);
-      phase.follow(crowd.boxes);
-      ASSERT_EQ(phase.pairs(), crowd.true_pairs()) << motion.name << ", step " << step;
+      for (std::size_t i = 0; i < swarm.boxes.size(); ++i) motion.move(swarm, i, step);
+      phase.follow(swarm.boxes);
+      ASSERT_EQ(phase.pairs(), swarm.true_pairs()) << motion.name << ", step " << step;
     }
   }
 }
@@ -119,49 +119,49 @@ TEST(NearPairs, AreTheSameHoweverBodiesMove) {
 TEST(NearPairs, AreTheSameWhenBodiesComeGoAndAreLookedAt) {
   Random random(5);
   for (int run = 0; run < 8; ++run) {
-    Crowd<2> crowd(120, 100 + static_cast<std::uint64_t>(run), run % 2 == 0);
+    Swarm<2> swarm(120, 100 + static_cast<std::uint64_t>(run), run % 2 == 0);
     BroadPhase<2> phase(automatic<2>(true));
-    phase.tell(crowd.boxes);
+    phase.tell(swarm.boxes);
     for (int step = 0; step < 80; ++step) {
-      for (std::size_t i = 0; i < crowd.boxes.size(); ++i)
-        crowd.move(i, random_point<2>(random, -0.05, 0.05));
+      for (std::size_t i = 0; i < swarm.boxes.size(); ++i)
+        swarm.move(i, random_point<2>(random, -0.05, 0.05));
       switch (random.whole(0, 30)) {
         case 0:  // one goes
-          crowd.boxes.erase(crowd.boxes.begin() + random.whole(0, 60));
-          phase.tell(crowd.boxes);
+          swarm.boxes.erase(swarm.boxes.begin() + random.whole(0, 60));
+          phase.tell(swarm.boxes);
           break;
         case 1:  // a static one is pushed among others
-          for (Proxy<2>& box : crowd.boxes)
-            if (box.is_static) box.box = crowd.boxes[static_cast<std::size_t>(step)].box;
+          for (Proxy<2>& box : swarm.boxes)
+            if (box.is_static) box.box = swarm.boxes[static_cast<std::size_t>(step)].box;
           break;
         case 2:  // somebody looks
-          phase.build(crowd.boxes);
+          phase.build(swarm.boxes);
           EXPECT_EQ(phase.dynamic().counters().entries > 0, true);
           break;
         case 3:  // all as a whole
-          phase.update(crowd.boxes);
+          phase.update(swarm.boxes);
           break;
         case 4:  // one becomes static, or no longer is
-          crowd.boxes[7].is_static = !crowd.boxes[7].is_static;
-          phase.tell(crowd.boxes);
+          swarm.boxes[7].is_static = !swarm.boxes[7].is_static;
+          phase.tell(swarm.boxes);
           break;
         case 5: {  // one more
-          const Proxy<2> more{crowd.boxes.back().id + 2, crowd.boxes[9].box, false, true};
-          crowd.boxes.push_back(more);
+          const Proxy<2> more{swarm.boxes.back().id + 2, swarm.boxes[9].box, false, true};
+          swarm.boxes.push_back(more);
           phase.insert(more, {});
           break;
         }
         case 6:  // all fall asleep, and wake
           for (const bool awake : {false, true}) {
-            for (Proxy<2>& box : crowd.boxes) box.awake = awake;
-            phase.update(crowd.boxes);
+            for (Proxy<2>& box : swarm.boxes) box.awake = awake;
+            phase.update(swarm.boxes);
           }
           break;
         default:
           break;
       }
-      phase.follow(crowd.boxes);
-      ASSERT_EQ(phase.pairs(), crowd.true_pairs()) << "run " << run << ", step " << step;
+      phase.follow(swarm.boxes);
+      ASSERT_EQ(phase.pairs(), swarm.true_pairs()) << "run " << run << ", step " << step;
     }
   }
 }
@@ -169,70 +169,70 @@ TEST(NearPairs, AreTheSameWhenBodiesComeGoAndAreLookedAt) {
 // Who looks gets a structure of the boxes themselves: it must not be asked who comes near.
 TEST(NearPairs, AreTheSameAfterALook) {
   for (std::uint64_t seed = 1; seed < 5; ++seed) {
-    Crowd<2> crowd(400, seed, false);
+    Swarm<2> swarm(400, seed, false);
     BroadPhase<2> phase(automatic<2>(true));
-    phase.tell(crowd.boxes);
+    phase.tell(swarm.boxes);
     for (int step = 0; step < 100; ++step) {
-      for (std::size_t i = 0; i < crowd.boxes.size(); ++i)
+      for (std::size_t i = 0; i < swarm.boxes.size(); ++i)
         if (i % 80 != 0)
-          crowd.move(i, crowd.ways[i]);
+          swarm.move(i, swarm.ways[i]);
         else if (step % 7 == 1)
-          crowd.move(i, crowd.boxes[i + 9].box.lo - crowd.boxes[i].box.lo + 1.5);
-      if (step % 7 == 0) phase.build(crowd.boxes);
-      phase.follow(crowd.boxes);
-      ASSERT_EQ(phase.pairs(), crowd.true_pairs()) << "seed " << seed << ", step " << step;
+          swarm.move(i, swarm.boxes[i + 9].box.lo - swarm.boxes[i].box.lo + 1.5);
+      if (step % 7 == 0) phase.build(swarm.boxes);
+      phase.follow(swarm.boxes);
+      ASSERT_EQ(phase.pairs(), swarm.true_pairs()) << "seed " << seed << ", step " << step;
     }
   }
 }
 
 // How often the structure is built in the steps from `from` to `to`.
 template <int D>
-std::uint64_t builds(const BroadPhaseConfig<D>& config, int motion, int from, int to,
-                     double larger = 0) {
-  Crowd<D> crowd(1000, 3, false);
-  for (Proxy<D>& proxy : crowd.boxes) proxy.box.hi += larger;
+std::uint64_t builds_of(const BroadPhaseConfig<D>& config, int motion, int from, int to,
+                        double larger = 0) {
+  Swarm<D> swarm(1000, 3, false);
+  for (Proxy<D>& proxy : swarm.boxes) proxy.box.hi += larger;
   BroadPhase<D> phase(config);
-  phase.tell(crowd.boxes);
+  phase.tell(swarm.boxes);
   const auto move = motions<D>()[static_cast<std::size_t>(motion)].move;
   std::uint64_t before = 0;
   for (int step = 0; step < to; ++step) {
     if (step == from) before = phase.counters().dynamic_builds;
-    for (std::size_t i = 0; i < crowd.boxes.size(); ++i) move(crowd, i, step);
-    phase.follow(crowd.boxes);
+    for (std::size_t i = 0; i < swarm.boxes.size(); ++i) move(swarm, i, step);
+    phase.follow(swarm.boxes);
   }
   return phase.counters().dynamic_builds - before;
 }
 TEST(NearPairs, NothingIsBuiltWhereLittleMoves) {
   constexpr int kJitter = 1, kFlyOn = 2, kJump = 6, kFrom = 40, kTo = 120, kSteps = kTo - kFrom;
   for (const int motion : {kJitter, kFlyOn}) {
-    EXPECT_LE(builds(automatic<2>(true), motion, kFrom, kTo), kSteps / 4);
-    EXPECT_LE(builds(automatic<3>(true), motion, kFrom, kTo), kSteps / 4);
-    EXPECT_EQ(builds(automatic<2>(false), motion, kFrom, kTo), kSteps);
+    EXPECT_LE(builds_of(automatic<2>(true), motion, kFrom, kTo), kSteps / 4);
+    EXPECT_LE(builds_of(automatic<3>(true), motion, kFrom, kTo), kSteps / 4);
+    EXPECT_EQ(builds_of(automatic<2>(false), motion, kFrom, kTo), kSteps);
   }
   // Where all jump there is nothing to mend, and no more is done than before.
-  EXPECT_EQ(builds(automatic<2>(true), kJump, kFrom, kTo), kSteps);
+  EXPECT_EQ(builds_of(automatic<2>(true), kJump, kFrom, kTo), kSteps);
   // Nor where each overlaps many: to find them all anew costs less than to compare them one by one.
-  EXPECT_EQ(builds(automatic<2>(true), kJitter, kFrom, kTo, 10), kSteps);
-  EXPECT_LE(builds(automatic<2>(true), kJitter, kFrom, kTo, 1), kSteps / 4);
+  EXPECT_EQ(builds_of(automatic<2>(true), kJitter, kFrom, kTo, 10), kSteps);
+  EXPECT_LE(builds_of(automatic<2>(true), kJitter, kFrom, kTo, 1), kSteps / 4);
   // Who names a structure gets it in each step.
   BroadPhaseConfig<2> named = automatic<2>(true);
   named.kind = StructureKind::grid;
-  EXPECT_EQ(builds(named, kJitter, kFrom, kTo), kSteps);
+  EXPECT_EQ(builds_of(named, kJitter, kFrom, kTo), kSteps);
 }
 
 // Of pairs, that all are near each other, is no reason to refuse what few overlaps would not be.
 TEST(NearPairs, AreNotKeptWhereTheyAreTooMany) {
-  Crowd<2> crowd(200, 9, false);
+  Swarm<2> swarm(200, 9, false);
   BroadPhaseConfig<2> config = automatic<2>(true);
-  config.most_pairs = crowd.true_pairs().size() + 20;
+  config.most_pairs = swarm.true_pairs().size() + 20;
   BroadPhase<2> phase(config);
-  phase.tell(crowd.boxes);
+  phase.tell(swarm.boxes);
   for (int step = 0; step < 50; ++step) {
-    for (std::size_t i = 0; i < crowd.boxes.size(); ++i)
-      crowd.move(i, crowd.ways[i] * (step % 2 == 0 ? 1. : -1.));
-    if (crowd.true_pairs().size() > config.most_pairs) continue;
-    phase.follow(crowd.boxes);
-    ASSERT_EQ(phase.pairs(), crowd.true_pairs()) << step;
+    for (std::size_t i = 0; i < swarm.boxes.size(); ++i)
+      swarm.move(i, swarm.ways[i] * (step % 2 == 0 ? 1. : -1.));
+    if (swarm.true_pairs().size() > config.most_pairs) continue;
+    phase.follow(swarm.boxes);
+    ASSERT_EQ(phase.pairs(), swarm.true_pairs()) << step;
   }
 }
 
