@@ -58,8 +58,9 @@ Mending NearPairs<D>::follow(std::span<const Box<D>> boxes, bool reaches_stand) 
   look_at_motion(boxes);
   left_.clear();
   if (horizon_.steps() > 0) find_left(boxes);
-  Mending next = horizon_.steps() == 0 ? Mending::none : Mending::some;
-  const bool is_lost = !reaches_stand && !left_.empty();
+  Mending next = horizon_.steps() == 0 || reaches_.empty() ? Mending::none : Mending::some;
+  const bool is_lost =
+      horizon_.steps() > 0 && (reaches_.empty() || (!reaches_stand && !left_.empty()));
   if (steps_known_ >= kKnown &&
       (is_lost || horizon_.is_due(cost_of_mending(), cost_of_finding(pairs_)))) {
     horizon_.begin();
@@ -184,6 +185,7 @@ template <int D>
 void NearPairs<D>::give_up() {
   horizon_.pay(kInfinity);
   horizon_.begin();
+  reaches_.clear();
 }
 
 template <int D>

@@ -110,7 +110,7 @@ class NearPairs {
   std::vector<Vec<D>> before_;     // lower corners, a step ago
   std::vector<Vec<D>> moves_;      // of a sample, in the last step
   std::vector<double> ways_, turns_;
-  std::vector<Box<D>> reaches_;
+  std::vector<Box<D>> reaches_;  // none: the list is of no use
   std::vector<std::uint32_t> left_, all_left_;
   std::vector<std::uint8_t> has_left_;
   std::vector<Pair> near_, more_, both_;

@@ -236,5 +236,22 @@ TEST(NearPairs, AreNotKeptWhereTheyAreTooMany) {
   }
 }
 
+// Nor is a list taken for one of today's whose successor was refused.
+TEST(NearPairs, AreForgottenWhereALongerListIsRefused) {
+  for (double share = 1.2; share < 8; share *= 1.15) {
+    Swarm<2> swarm(500, 9, false);
+    BroadPhaseConfig<2> config = automatic<2>(true);
+    config.most_pairs = static_cast<std::uint64_t>(share * double(swarm.true_pairs().size()));
+    BroadPhase<2> phase(config);
+    phase.tell(swarm.boxes);
+    for (int step = 0; step < 40; ++step) {
+      for (std::size_t i = 0; i < swarm.boxes.size(); ++i) swarm.move(i, swarm.ways[i]);
+      if (swarm.true_pairs().size() > config.most_pairs) break;
+      phase.follow(swarm.boxes);
+      ASSERT_EQ(phase.pairs(), swarm.true_pairs()) << share << ", step " << step;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace lantern::spatial
