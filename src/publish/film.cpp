@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <condition_variable>
+#include <cstring>
 #include <deque>
 #include <exception>
 #include <mutex>
@@ -14,10 +15,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/check.hpp"
 #include "base/child.hpp"
 #include "base/error.hpp"
 #include "base/memory.hpp"
 #include "base/printable.hpp"
+#include "render/planes.hpp"
 
 namespace lantern::publish {
 namespace {
@@ -39,6 +42,46 @@ std::string element(std::string_view id, std::uint64_t number) {
   return element(id, big_endian(number));
 }
 
+// As planes.hpp makes them: what MP4 takes, and WebM without transparency.
+bool is_planar(const FilmSettings& s) {
+  return s.kind == FilmKind::mp4 || (s.kind == FilmKind::webm && !s.transparent);
+}
+
+std::size_t picture_bytes(const FilmSettings& s) {
+  if (is_planar(s)) return planes_bytes(s.width, s.height);
+  return std::size_t{4} * static_cast<std::size_t>(s.width) * static_cast<std::size_t>(s.height);
+}
+
+// Matroska, RFC 9559: what stands before the first picture.
+std::string stream_start(const FilmSettings& s) {
+  constexpr std::string_view kUnknownLength = "\x01\xff\xff\xff\xff\xff\xff\xff";
+  const std::string head =
+      element("\x1a\x45\xdf\xa3", element("\x42\x82", "matroska") + element("\x42\x87", 4) +
+                                      element("\x42\x85", 2));  // DocType, versions
+  const auto nanoseconds = static_cast<std::uint64_t>(std::llround(1e9 / s.rate));
+  const std::string info = element("\x15\x49\xa9\x66", element("\x2a\xd7\xb1", nanoseconds));
+  std::string video = element("\xb0", static_cast<std::uint64_t>(s.width)) +
+                      element("\xba", static_cast<std::uint64_t>(s.height)) +
+                      element("\x2e\xb5\x24", is_planar(s) ? "I420" : "RGBA");
+  if (is_planar(s))  // matrix, colours' place, range, transfer, primaries
+    video += element("\x55\xb0", element("\x55\xb1", 1) + element("\x55\xb7", 1) +
+                                     element("\x55\xb8", 2) + element("\x55\xb9", 1) +
+                                     element("\x55\xba", 1) + element("\x55\xbb", 1));
+  const std::string track = element("\xd7", 1) + element("\x73\xc5", 1) +  // number, unique id
+                            element("\x83", 1) +                           // it is video
+                            element("\x86", "V_UNCOMPRESSED") + element("\xe0", video);
+  return head + "\x18\x53\x80\x67" + std::string(kUnknownLength) + info +
+         element("\x16\x54\xae\x6b", element("\xae", track));
+}
+
+std::string stream_picture(std::uint64_t moment, std::size_t bytes) {
+  using namespace std::string_literals;
+  const std::string timestamp = element("\xe7", moment);
+  const std::string about = "\x81\x00\x00\x80"s;  // of track 1, at the cluster's time, a key frame
+  const std::string block = "\xa3" + length(about.size() + bytes) + about;
+  return "\x1f\x43\xb6\x75" + length(timestamp.size() + block.size() + bytes) + timestamp + block;
+}
+
 using Words = std::vector<std::string>;
 
 // Threads of an encoder decide its bytes, so that they are as many on every machine.
@@ -47,33 +90,25 @@ constexpr const char* kThreads = "4";
 void add(Words& words, const Words& more) { words.insert(words.end(), more.begin(), more.end()); }
 
 // As sRGB is looked at in a film: the numbers of BT.709, of which the file says so.
-std::string in_bt709(const char* pixels) {
-  return fmt::format(
-      "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_inp,format={}",
-      pixels);
-}
 const Words kBt709 = {"-color_primaries", "bt709", "-color_trc",   "bt709",
                       "-colorspace",      "bt709", "-color_range", "tv"};
 
 // Presentation programs expect a picture at each moment; in the others a still is one picture.
 void add_mp4(Words& words, const FilmSettings& s) {
-  add(words, {"-vf", fmt::format("{},fps={}", in_bt709("yuv420p"), s.rate), "-c:v", "libx264",
-              "-preset", "medium", "-crf", "18", "-threads", kThreads});
+  add(words, {"-vf", fmt::format("fps={}", s.rate), "-c:v", "libx264", "-preset", "medium", "-crf",
+              "18", "-threads", kThreads});
   add(words, kBt709);
   add(words, {"-movflags", "+faststart", "-f", "mp4"});
 }
 
 void add_webm(Words& words, const FilmSettings& s) {
-  add(words, {"-vf",           in_bt709(s.transparent ? "yuva420p" : "yuv420p"),
-              "-fps_mode",     "vfr",
-              "-c:v",          "libvpx-vp9",
-              "-crf",          "24",
-              "-b:v",          "0",
-              "-deadline",     "good",
-              "-cpu-used",     "5",
-              "-row-mt",       "1",
-              "-tile-columns", "1",
-              "-threads",      kThreads});
+  if (s.transparent)
+    add(words, {"-vf",
+                "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_inp,"
+                "format=yuva420p"});
+  add(words,
+      {"-fps_mode", "vfr", "-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-deadline", "good",
+       "-cpu-used", "5", "-row-mt", "1", "-tile-columns", "1", "-threads", kThreads});
   if (s.transparent) add(words, {"-auto-alt-ref", "0"});  // it knows no alpha
   add(words, kBt709);
   add(words, {"-f", "webm"});
@@ -110,12 +145,7 @@ constexpr FilmFormat kFormats[] = {{"mp4", FilmKind::mp4, add_mp4},
                                    {"webp", FilmKind::webp, add_webp}};
 
 // One is drawn upon, one waits, one is on its way, and the last one may be sent again.
-constexpr std::size_t kImages = 4;
-
-std::size_t picture_bytes(const FilmSettings& settings) {
-  return std::size_t{4} * static_cast<std::size_t>(settings.width) *
-         static_cast<std::size_t>(settings.height);
-}
+constexpr std::size_t kPictures = 4;
 
 // As ffmpeg opens it.
 std::string film_target(const PartFile& file) {
@@ -155,31 +185,6 @@ std::string last_words(std::string said, const std::string& target, const std::s
 
 }  // namespace
 
-std::string film_stream_start(int width, int height, double rate) {
-  constexpr std::string_view kUnknownLength = "\x01\xff\xff\xff\xff\xff\xff\xff";
-  const std::string head =
-      element("\x1a\x45\xdf\xa3", element("\x42\x82", "matroska") + element("\x42\x87", 4) +
-                                      element("\x42\x85", 2));  // DocType, versions
-  const auto nanoseconds = static_cast<std::uint64_t>(std::llround(1e9 / rate));
-  const std::string info = element("\x15\x49\xa9\x66", element("\x2a\xd7\xb1", nanoseconds));
-  const std::string video = element("\xb0", static_cast<std::uint64_t>(width)) +
-                            element("\xba", static_cast<std::uint64_t>(height)) +
-                            element("\x2e\xb5\x24", "RGBA");
-  const std::string track = element("\xd7", 1) + element("\x73\xc5", 1) +  // number, unique id
-                            element("\x83", 1) +                           // it is video
-                            element("\x86", "V_UNCOMPRESSED") + element("\xe0", video);
-  return head + "\x18\x53\x80\x67" + std::string(kUnknownLength) + info +
-         element("\x16\x54\xae\x6b", element("\xae", track));
-}
-
-std::string film_stream_picture(std::uint64_t moment, std::size_t bytes) {
-  using namespace std::string_literals;
-  const std::string timestamp = element("\xe7", moment);
-  const std::string about = "\x81\x00\x00\x80"s;  // of track 1, at the cluster's time, a key frame
-  const std::string block = "\xa3" + length(about.size() + bytes) + about;
-  return "\x1f\x43\xb6\x75" + length(timestamp.size() + block.size() + bytes) + timestamp + block;
-}
-
 std::optional<FilmKind> film_kind(std::string_view ending) {
   const auto found = std::ranges::find(kFormats, ending, &FilmFormat::ending);
   return found == std::end(kFormats) ? std::nullopt : std::optional(found->kind);
@@ -217,7 +222,7 @@ fs::path require_ffmpeg() {
 
 struct Film::State {
   struct Job {
-    std::unique_ptr<Image> image;
+    std::vector<std::uint8_t> picture;
     std::uint64_t moment = 0;
   };
 
@@ -227,7 +232,7 @@ struct Film::State {
         bytes(picture_bytes(s)),
         file(where),
         child(film_command(ffmpeg, s, file), file.descriptor()) {
-    for (std::size_t i = 0; i < kImages; ++i) blank_images.push_back(std::make_unique<Image>());
+    for (std::size_t i = 1; i < kPictures; ++i) blank.emplace_back();
   }
 
   // Also while the thread waits for ffmpeg to read on.
@@ -235,6 +240,7 @@ struct Film::State {
     if (!finished) child.end();
   }
 
+  void take(const Drawn& drawn);
   void give_away(const std::stop_token& stop);
   void send(const Job& job);
   void fail();
@@ -247,14 +253,15 @@ struct Film::State {
   const std::size_t bytes;  // of a picture
   PartFile file;
   Child child;
-  std::unique_ptr<Image> drawn;  // given to be drawn upon
-  std::uint64_t shown = 0;       // pictures
+  std::vector<std::uint8_t> picture;  // shown last,
+  std::uint64_t number = 0;           // the renderer's
+  std::uint64_t shown = 0;            // pictures
   bool begun = false, finished = false;
 
   std::mutex mutex;
   std::condition_variable_any ready;
   std::condition_variable given;
-  std::vector<std::unique_ptr<Image>> blank_images;
+  std::vector<std::vector<std::uint8_t>> blank;
   std::deque<Job> jobs;
   Job last;  // that was sent
   bool busy = false;
@@ -273,12 +280,11 @@ void Film::State::fail() {
 }
 
 void Film::State::send(const Job& job) {
-  const auto& pixels = job.image->rgba;
-  std::string head = begun ? "" : film_stream_start(settings.width, settings.height, settings.rate);
+  std::string head = begun ? "" : stream_start(settings);
   begun = true;
-  head += film_stream_picture(job.moment, pixels.size());
+  head += stream_picture(job.moment, job.picture.size());
   if (!child.write(head) ||
-      !child.write({reinterpret_cast<const char*>(pixels.data()), pixels.size()}))
+      !child.write({reinterpret_cast<const char*>(job.picture.data()), job.picture.size()}))
     fail();
 }
 
@@ -297,7 +303,7 @@ void Film::State::give_away(const std::stop_token& stop) {
     }
     lock.lock();
     busy = false;
-    if (last.image) blank_images.push_back(std::move(last.image));
+    if (!last.picture.empty()) blank.push_back(std::move(last.picture));
     last = std::move(job);
     error = problem;
     given.notify_all();
@@ -306,7 +312,7 @@ void Film::State::give_away(const std::stop_token& stop) {
 }
 
 Film::Film(const fs::path& ffmpeg, const FilmSettings& settings, const FilePlace& place)
-    : state_((require_memory(picture_bytes(settings) * kImages, "pictures of a film",
+    : state_((require_memory(picture_bytes(settings) * kPictures, "pictures of a film",
                              "draw smaller ones (--size)"),
               std::make_unique<State>(ffmpeg, settings, place))) {
   State& s = *state_;
@@ -319,28 +325,39 @@ Film::Film(const fs::path& ffmpeg, const FilmSettings& settings, const FilePlace
 
 Film::~Film() = default;
 
-Image& Film::blank() {
-  State& s = *state_;
-  std::unique_lock lock(s.mutex);
-  if (!s.drawn) {
-    s.given.wait(lock, [&] { return s.error || !s.blank_images.empty(); });
-    s.rethrow_locked();
-    s.drawn = std::move(s.blank_images.back());
-    s.blank_images.pop_back();
+void Film::State::take(const Drawn& drawn) {
+  LANTERN_CHECK(drawn.image.width, ==, settings.width);
+  LANTERN_CHECK(drawn.image.height, ==, settings.height);
+  const std::vector<PixelRect> all = {{0, 0, settings.width, settings.height}};
+  const bool follows = !picture.empty() && drawn.number == number + 1;
+  picture.resize(bytes);
+  number = drawn.number;
+  for (const PixelRect& part : follows ? drawn.parts : all) {
+    if (is_planar(settings)) {
+      put_planes(drawn.image, part, picture);
+      continue;
+    }
+    for (int y = part.y0; y < part.y1; ++y) {
+      const std::size_t at = 4 * (static_cast<std::size_t>(y) * settings.width + part.x0);
+      std::memcpy(&picture[at], &drawn.image.rgba[at], std::size_t{4} * (part.x1 - part.x0));
+    }
   }
-  return *s.drawn;
 }
 
-void Film::show(std::uint64_t moment) {
+void Film::show(const Drawn& drawn, std::uint64_t moment) {
   State& s = *state_;
   ++s.shown;
   if (s.settings.kind == FilmKind::gif)  // ffmpeg keeps them all until it knows their palette
     require_memory(s.shown * s.bytes,
                    fmt::format("{} pictures of a GIF, which have one palette,", s.shown),
                    "draw smaller ones (--size) or fewer (--fps), or name a .webp");
-  const std::lock_guard lock(s.mutex);
+  s.take(drawn);
+  std::unique_lock lock(s.mutex);
+  s.given.wait(lock, [&] { return s.error || !s.blank.empty(); });
   s.rethrow_locked();
-  s.jobs.push_back({std::move(s.drawn), moment});
+  State::Job& job = s.jobs.emplace_back(std::move(s.blank.back()), moment);
+  s.blank.pop_back();
+  job.picture = s.picture;
   s.ready.notify_one();
 }
 

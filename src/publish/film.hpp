@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/file.hpp"
-#include "render/image.hpp"
+#include "render/renderer.hpp"
 #include "rooms.hpp"
 
 namespace lantern::publish {
@@ -34,8 +34,9 @@ fs::path require_ffmpeg();
 // whatever the machine's cores.
 std::vector<std::string> film_words(const FilmSettings& settings, const std::string& file);
 
-// A file that gets its name when it is whole. Each picture goes to ffmpeg once, with its time; a
-// thread gives it away while the next one is drawn, so that only a few are held. All calls belong
+// A file that gets its name when it is whole. Each picture goes to ffmpeg once, with its time, an
+// opaque one as an encoder of films takes it (render/planes.hpp); a thread gives it away while the
+// next one is drawn, so that only a few are held. All calls belong
 // to one thread. Each throws IoError, with ffmpeg's own words, if it has failed by then, and
 // Stopped; then the film is given up.
 class Film {
@@ -45,11 +46,10 @@ class Film {
   // Without finish(): what stood at the place still does, and nothing else is left.
   ~Film();
 
-  // To be drawn upon, of whatever it was before. Waits while too many are under way.
-  Image& blank();
-  // What blank() gave last is shown from this moment on, which is later than the last one, counted
-  // in pictures of the film's rate; the first is shown at 0.
-  void show(std::uint64_t moment);
+  // What was drawn, of the film's size, is shown from this moment on, which is later than the last
+  // one, counted in pictures of the film's rate; the first is shown at 0. Takes over what differs
+  // from the picture before, all if that was not this film's. Waits while too many are under way.
+  void show(const Drawn& drawn, std::uint64_t moment);
   // The last one is shown until this moment. The bytes of the file, which has its name now.
   std::uint64_t finish(std::uint64_t moment);
 

@@ -280,7 +280,7 @@ struct Renderer::State {
   BatchList batches;
   Image picture;              // drawn last, as an Image holds it
   std::vector<bool> changed;  // its rows: since the one before
-  std::int64_t drawn = 0;     // of its pixels
+  std::uint64_t pictures = 0;
 
  private:
   Programs programs{gl, *context, width, height};
@@ -323,8 +323,8 @@ Drawn Renderer::draw(const DrawList& list, const Theme& theme, bool transparent)
   s.picture.height = s.height;
   s.picture.rgba.resize(std::size_t{4} * s.width * s.height);
   s.changed.assign(static_cast<std::size_t>(s.height), is_first);
-  s.drawn = 0;
-  for (const PixelRect& part : parts) s.drawn += part.area();
+  std::int64_t pixels = 0;
+  for (const PixelRect& part : parts) pixels += part.area();
   try {
     if (s.damage.is_all())
       s.draw_all(paper, transparent);
@@ -337,7 +337,7 @@ Drawn Renderer::draw(const DrawList& list, const Theme& theme, bool transparent)
     s.damage.forget();
     throw;
   }
-  return {s.picture, s.changed, s.drawn};
+  return {s.picture, s.changed, parts, pixels, ++s.pictures};
 }
 
 void Renderer::draw(const DrawList& list, const Theme& theme, bool transparent, Image& image) {

@@ -5,6 +5,7 @@
 #include "draw/theme.hpp"
 #include "render/context.hpp"
 #include "render/image.hpp"
+#include "render/instances.hpp"
 
 namespace lantern::render {
 
@@ -12,7 +13,10 @@ namespace lantern::render {
 struct Drawn {
   const Image& image;
   const std::vector<bool>& changed;  // of each row: does it differ from the picture before?
-  std::int64_t pixels = 0;           // that were drawn anew
+  // Outside of these, which do not overlap, it does not.
+  const std::vector<PixelRect>& parts;
+  std::int64_t pixels = 0;   // of the parts: they were drawn anew
+  std::uint64_t number = 0;  // of this renderer's pictures, from 1
 };
 
 class Renderer {

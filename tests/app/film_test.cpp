@@ -70,10 +70,10 @@ TEST_F(AFilm, IsGivenToFfmpegPictureByPicture) {
   const std::string stream = out("talk.mp4");
   const std::size_t pictures = 8 + 7 * 14 + 2;  // the last one tells twice how long it stands
   EXPECT_EQ(pictures_in(stream), pictures);
-  EXPECT_NEAR(static_cast<double>(stream.size()), 64 * 36 * 4 * pictures, 50.0 * pictures);
+  EXPECT_NEAR(static_cast<double>(stream.size()), 64 * 36 * 1.5 * pictures, 50.0 * pictures);
   const std::string args = read_text(folder_ / "bin/ffmpeg.args");
   for (const char* word :
-       {"libx264", "yuv420p,fps=30", "+faststart", "bt709", "title=Ghosts fill a quadtree"})
+       {"libx264", "fps=30", "+faststart", "bt709", "title=Ghosts fill a quadtree"})
     EXPECT_NE(args.find(word), std::string::npos) << word;
   const json said = json::parse(o.out);
   EXPECT_EQ(said["scenarios"][0]["files"], json::array({"talk.mp4"}));

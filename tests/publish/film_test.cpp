@@ -34,11 +34,13 @@ fs::path silent_ffmpeg() {
   return folder / "ffmpeg";
 }
 
-void paint(Film& film, std::uint64_t moment) {
-  Image& image = film.blank();
-  image.rgba.assign(std::size_t{400} * 300 * 4, 7);
-  film.show(moment);
+// The picture of a renderer that has drawn so many, of which `parts` differ from the one before.
+void show(Film& film, std::uint64_t moment, std::uint64_t number, std::uint8_t grey,
+          const std::vector<PixelRect>& parts) {
+  const Image image{400, 300, std::vector<std::uint8_t>(std::size_t{400} * 300 * 4, grey)};
+  film.show({image, std::vector<bool>(300, true), parts, 0, number}, moment);
 }
+void paint(Film& film, std::uint64_t moment) { show(film, moment, moment, 7, {}); }
 
 TEST(Film, OfEachKindIsToldOfInOneWordEach) {
   for (const FilmKind kind :
@@ -69,8 +71,27 @@ TEST(Film, HasItsNameWhenItIsWhole) {
   EXPECT_FALSE(fs::exists(file));
   const std::uint64_t bytes = whole.finish(30);  // and twice more
   EXPECT_EQ(bytes, fs::file_size(file));
-  EXPECT_NEAR(static_cast<double>(bytes), 22 * 400 * 300 * 4, 22 * 100);
+  EXPECT_NEAR(static_cast<double>(bytes), 22 * 400 * 300 * 3 / 2, 22 * 100);
   EXPECT_EQ(std::distance(fs::directory_iterator(file.parent_path()), {}), 2);
+}
+
+// The pictures of what was written, each a grey of one part and one of the rest.
+TEST(Film, TakesOverWhatDiffersUnlessAnotherPictureCameBetween) {
+  const fs::path ffmpeg = silent_ffmpeg(), file = ffmpeg.parent_path() / "x.webp";
+  const std::vector<PixelRect> part = {{0, 0, 32, 16}};
+  Film whole(ffmpeg, film(FilmKind::webp), file);
+  show(whole, 0, 5, 10, part);  // the first one: all, whatever was drawn before
+  show(whole, 1, 6, 20, part);
+  show(whole, 2, 8, 30, part);  // the seventh was not shown here
+  whole.finish(3);
+  const std::string written = read_file(file, std::size_t{1} << 30);
+  const auto count = [&](char grey) {
+    return static_cast<int>(std::count(written.begin(), written.end(), grey));
+  };
+  constexpr int kAll = 400 * 300 * 4, kPart = 32 * 16 * 4, kHeads = 200;
+  EXPECT_NEAR(count(10), 2 * kAll - kPart, kHeads);
+  EXPECT_NEAR(count(20), kPart, kHeads);
+  EXPECT_NEAR(count(30), kAll, kHeads);
 }
 
 TEST(Film, OfOnePaletteNeedsRoomForAllPictures) {

@@ -86,12 +86,17 @@ TEST(Damage, DrawnOverEachOtherIsAsDrawnAlone) {
   EXPECT_LT(pixels, most / 2) << "all was drawn anew";
 }
 
-TEST(Damage, TellsWhichRowsChanged) {
+TEST(Damage, TellsWhichRowsAndPartsChanged) {
   Renderer renderer(Context::create(Backend::automatic), kWidth, kHeight);
   Image before;
   int changed = 0;
+  std::uint64_t number = 0;
   for (const DrawList& list : sequence(5)) {
     const Drawn drawn = renderer.draw(list, *theme_named("light"), false);
+    ASSERT_EQ(drawn.number, ++number);
+    std::int64_t pixels = 0;
+    for (const PixelRect& part : drawn.parts) pixels += part.area();
+    ASSERT_EQ(drawn.pixels, pixels);
     for (int y = 0; y < kHeight && !before.rgba.empty(); ++y) {
       const auto row = std::ptrdiff_t{4} * kWidth * y;
       const bool differs =
@@ -100,7 +105,14 @@ TEST(Damage, TellsWhichRowsChanged) {
       ASSERT_EQ(drawn.changed[static_cast<std::size_t>(y)], differs) << y;
       changed += differs;
     }
-    before = drawn.image;
+    if (before.rgba.empty()) before = drawn.image;
+    for (const PixelRect& part : drawn.parts)
+      for (int y = part.y0; y < part.y1; ++y) {
+        const auto first = std::ptrdiff_t{4} * (kWidth * y + part.x0);
+        std::copy_n(drawn.image.rgba.begin() + first, 4 * (part.x1 - part.x0),
+                    before.rgba.begin() + first);
+      }
+    ASSERT_EQ(before, drawn.image) << "outside of the parts";
   }
   EXPECT_GT(changed, 0);
 }

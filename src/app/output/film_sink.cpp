@@ -88,9 +88,9 @@ class FilmSink : public FileSink {
     as_asked([&] {
       Renderer& renderer = of_.job.renderer(settings_.width, settings_.height, of_.work);
       if (!film_) begin_film(of, moment);
-      renderer.draw(list, of_.job.picture.theme, settings_.transparent, film_->blank());
+      film_->show(renderer.draw(list, of_.job.picture.theme, settings_.transparent),
+                  moment - begun_);
       ++of_.work.frames_drawn;
-      film_->show(moment - begun_);
     });
   }
 
