@@ -5,7 +5,6 @@ set(long_spatial
   Follow.FindsThePairsOfAnUpdate3D
   KdTree.NoPlaneThatPartsNothing
   OrthtreeMemory.AHundredThousandAtOnePlaceNeitherHangNorSwell)
-# Left out under sanitizers only: the release build does these, too.
 set(long_physics
   WildWorlds/EachMethod.AreTameInSpace/direct
   WildWorlds/EachMethod.AreTameInSpace/impulse
