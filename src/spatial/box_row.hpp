@@ -41,19 +41,23 @@ struct LeafRun {
 template <int D>
 class LeafBoxes {
  public:
-  void resize(std::size_t places) { words_.resize(kWords * (places + BoxTable<D>::kPadding)); }
-  // Of a leaf, if there is one, the item at each place, its box rounded outward.
-  template <class ItemAt>
-  void fill(std::optional<LeafRun> leaf, ItemAt&& item_at) {
-    for (std::uint32_t i = 0; leaf && i < leaf->count; ++i) {
-      const Item<D>& item = item_at(leaf->first + i);
-      const FloatBox<D> box(item.box);
-      float* at = words_.data() + kWords * leaf->first + i;
-      for (int axis = 0; axis < D; ++axis, at += 2 * leaf->count) {
-        at[0] = box.lo[axis];
-        at[leaf->count] = box.hi[axis];
+  // Of nodes whose leaves lie in so many places: the item at each place, its box rounded outward.
+  // leaf_of(node) is an optional<LeafRun>.
+  template <class LeafOf, class ItemAt>
+  void fill(std::size_t places, std::size_t nodes, LeafOf&& leaf_of, ItemAt&& item_at) {
+    words_.resize(kWords * (places + BoxTable<D>::kPadding));
+    for (std::uint32_t node = 0; node < nodes; ++node) {
+      const std::optional<LeafRun> leaf = leaf_of(node);
+      for (std::uint32_t i = 0; leaf && i < leaf->count; ++i) {
+        const Item<D>& item = item_at(leaf->first + i);
+        const FloatBox<D> box(item.box);
+        float* at = words_.data() + kWords * leaf->first + i;
+        for (int axis = 0; axis < D; ++axis, at += 2 * leaf->count) {
+          at[0] = box.lo[axis];
+          at[leaf->count] = box.hi[axis];
+        }
+        std::memcpy(at, &item.id, sizeof item.id);
       }
-      std::memcpy(at, &item.id, sizeof item.id);
     }
   }
   BoxRow<D> row(LeafRun leaf) const {
@@ -76,6 +80,9 @@ class LeafBoxes {
 
 // Boxes of a row that are looked at together.
 inline constexpr std::uint32_t kRowBlock = 16;
+// For who looks for all that is met, at once: how far, and what is told of bodies to be looked at.
+inline constexpr auto kNoLimit = [] { return 0.0; };
+inline constexpr auto kNothingSoon = [](BodyId) {};
 
 // Up to kRowBlock boxes whose edges take a byte each: the steps from the row's origin, outward
 // (Benthin, Wald, Woop, Afra: "Compressed-Leaf Bounding Volume Hierarchies", 2018).

@@ -407,7 +407,7 @@ template <int D>
 std::size_t BroadPhase<D>::own_places() const {
   const auto of_store = [](const Store& s) { return s.places() + s.ranks.capacity(); };
   return pairs_.capacity() + sorted_.capacity() + all_ids_.capacity() + ids_.capacity() +
-         of_store(static_) + of_store(dynamic_) + stirring_bodies_.places() + stirring_.capacity() +
+         of_store(static_) + of_store(dynamic_) + few_bodies_.places() + stirring_.capacity() +
          near_.places() + spots_.capacity() + changed_.capacity() + search_->places() +
          search_->order.places();
 }

@@ -279,7 +279,7 @@ class BroadPhase {
   std::vector<std::array<std::uint32_t, 2>> changed_;
   bool ranked_ = false, numbered_ = false;  // see rank_all
   std::vector<BodyId> all_ids_;
-  Bodies stirring_bodies_;
+  Bodies few_bodies_;
   std::vector<BodyId> ids_;
   std::span<const BodyId> found_names_;
   std::unique_ptr<OrderedSearch<D>> search_;

@@ -124,11 +124,11 @@ void BroadPhase<D>::find_pairs_of_few() {
     resting_ = std::move(tree);
     put_to_rest_ = 0;
   }
-  stirring_bodies_.clear();
+  few_bodies_.clear();
   for (const std::size_t place : stirring_)
-    stirring_bodies_.push_back({dynamic_.id(place), dynamic_.boxes[place]}, {});
-  begin_search(stirring_bodies_.boxes, {}, stirring_bodies_.ids);
-  few().build(stirring_bodies_.boxes, Build::at_once);
+    few_bodies_.push_back({dynamic_.id(place), dynamic_.boxes[place]}, {});
+  begin_search(few_bodies_.boxes, {}, few_bodies_.ids);
+  few().build(few_bodies_.boxes, Build::at_once);
   few_->pair(*search_);
   counters_.pair_tests = search_->tests;
   name_by_ranks([&](BodyId i) { return stirring_[i]; });
@@ -195,9 +195,9 @@ void BroadPhase<D>::mend_near() {
   if (near_.left().empty()) return;
   const std::span<const Box<D>> reaches = near_.reaches();
   const std::span<const std::uint32_t> all_left = near_.all_left();
-  stirring_bodies_.clear();
-  for (const std::uint32_t place : all_left) stirring_bodies_.boxes.push_back(reaches[place]);
-  few().build(stirring_bodies_.boxes, Build::at_once);
+  few_bodies_.clear();
+  for (const std::uint32_t place : all_left) few_bodies_.boxes.push_back(reaches[place]);
+  few().build(few_bodies_.boxes, Build::at_once);
   const auto each_near = [&](const Structure<D>& structure, const Box<D>& reach, auto&& f) {
     ids_.clear();
     structure.near(reach, ids_);

@@ -146,9 +146,12 @@ template <int D>
 void NearPairs<D>::put_in_order() {
   std::ranges::sort(more_);
   more_.erase(std::ranges::unique(more_).begin(), more_.end());
-  both_.clear();
-  std::ranges::set_union(near_, more_, std::back_inserter(both_));
-  std::swap(near_, both_);
+  // From behind, so that both lists need no third; those that were there already stand twice then.
+  std::size_t i = near_.size(), j = more_.size();
+  near_.resize(i + j);
+  for (std::size_t next = i + j; j > 0;)
+    near_[--next] = i > 0 && more_[j - 1] < near_[i - 1] ? near_[--i] : more_[--j];
+  near_.erase(std::ranges::unique(near_).begin(), near_.end());
   more_.clear();
 }
 
@@ -192,7 +195,7 @@ template <int D>
 std::size_t NearPairs<D>::places() const {
   return before_.capacity() + moves_.capacity() + ways_.capacity() + turns_.capacity() +
          reaches_.capacity() + left_.capacity() + all_left_.capacity() + has_left_.capacity() +
-         near_.capacity() + more_.capacity() + both_.capacity();
+         near_.capacity() + more_.capacity();
 }
 
 template class NearPairs<2>;

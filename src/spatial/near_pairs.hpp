@@ -113,7 +113,7 @@ class NearPairs {
   std::vector<Box<D>> reaches_;  // none: the list is of no use
   std::vector<std::uint32_t> left_, all_left_;
   std::vector<std::uint8_t> has_left_;
-  std::vector<Pair> near_, more_, both_;
+  std::vector<Pair> near_, more_;
 };
 
 }  // namespace lantern::spatial

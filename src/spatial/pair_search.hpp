@@ -92,9 +92,14 @@ class PairSearch {
       tests += tree.find_pairs(boxes_, found);
       drop_still_pairs();
     } else {
-      for (std::uint32_t i = 0; i < boxes_.size(); ++i)
-        if (stirs(i)) ask(tree, i);
+      by_asking(tree);
     }
+  }
+  template <class Tree>
+  void by_asking(const Tree& tree) {
+    nodes_visited = tree.work().nodes;
+    for (std::uint32_t i = 0; i < boxes_.size(); ++i)
+      if (stirs(i)) ask(tree, i);
   }
 
   // Places for which there is memory.

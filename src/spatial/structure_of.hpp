@@ -41,6 +41,7 @@ class StructureOf : public Structure<D> {
   static constexpr bool kHoldsOnce = false;  // each body lies in one leaf
   static constexpr bool kFindsLeaves =
       false;  // it reckons which leaves are reached, and skips none
+  static constexpr bool kAsksForPairs = false;  // for those of each body
 
   bool insert(const Item<D>& item, const EventWatch& watch = {}) final {
     NoObserver nobody;
@@ -87,7 +88,9 @@ class StructureOf : public Structure<D> {
   }
 
   void pair(PairSearch<D>& search) final {
-    if constexpr (requires { tree().find_pairs(std::span<const Box<D>>(), search.found); })
+    if constexpr (Tree::kAsksForPairs)
+      search.by_asking(tree());
+    else if constexpr (requires { tree().find_pairs(std::span<const Box<D>>(), search.found); })
       search.by_itself(tree());
     else
       search.in_leaves(tree());

@@ -15,18 +15,7 @@ namespace {
 
 using testing::kSorts;
 using testing::Sort;
-
-template <int D>
-std::vector<Pair> true_pairs(const std::vector<Proxy<D>>& proxies) {
-  std::vector<Pair> pairs;
-  for (const Proxy<D>& a : proxies)
-    for (const Proxy<D>& b : proxies)
-      if (a.id < b.id && overlap(a.box, b.box) &&
-          ((a.awake && !a.is_static) || (b.awake && !b.is_static)))
-        pairs.push_back({a.id, b.id});
-  std::sort(pairs.begin(), pairs.end());
-  return pairs;
-}
+using testing::true_pairs;
 
 template <int D>
 std::vector<Proxy<D>> random_proxies(Sort sort, std::size_t bodies, Random& random) {

@@ -4,9 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "base/random.hpp"
-#include "geometry/random_vec.hpp"
-#include "spatial/broad_phase.hpp"
+#include "spatial/worlds.hpp"
 
 namespace lantern::spatial {
 namespace {
@@ -33,17 +31,6 @@ struct Swarm {
   void move(std::size_t i, const Vec<D>& by) {
     if (!boxes[i].is_static && boxes[i].awake)
       boxes[i].box = {boxes[i].box.lo + by, boxes[i].box.hi + by};
-  }
-
-  std::vector<Pair> true_pairs() const {
-    std::vector<Pair> pairs;
-    for (const Proxy<D>& a : boxes)
-      for (const Proxy<D>& b : boxes)
-        if (a.id < b.id && overlap(a.box, b.box) &&
-            ((a.awake && !a.is_static) || (b.awake && !b.is_static)))
-          pairs.push_back({a.id, b.id});
-    std::ranges::sort(pairs);
-    return pairs;
   }
 };
 
@@ -103,7 +90,7 @@ void follows_every_motion(bool some_static, unsigned threads) {
     for (int step = 0; step < 60; ++step) {
       for (std::size_t i = 0; i < swarm.boxes.size(); ++i) motion.move(swarm, i, step);
       phase.follow(swarm.boxes);
-      ASSERT_EQ(phase.pairs(), swarm.true_pairs()) << motion.name << ", step " << step;
+      ASSERT_EQ(phase.pairs(), testing::true_pairs(swarm.boxes)) << motion.name << ", step " << step;
     }
   }
 }
@@ -161,7 +148,7 @@ TEST(NearPairs, AreTheSameWhenBodiesComeGoAndAreLookedAt) {
           break;
       }
       phase.follow(swarm.boxes);
-      ASSERT_EQ(phase.pairs(), swarm.true_pairs()) << "run " << run << ", step " << step;
+      ASSERT_EQ(phase.pairs(), testing::true_pairs(swarm.boxes)) << "run " << run << ", step " << step;
     }
   }
 }
@@ -180,7 +167,7 @@ TEST(NearPairs, AreTheSameAfterALook) {
           swarm.move(i, swarm.boxes[i + 9].box.lo - swarm.boxes[i].box.lo + 1.5);
       if (step % 7 == 0) phase.build(swarm.boxes);
       phase.follow(swarm.boxes);
-      ASSERT_EQ(phase.pairs(), swarm.true_pairs()) << "seed " << seed << ", step " << step;
+      ASSERT_EQ(phase.pairs(), testing::true_pairs(swarm.boxes)) << "seed " << seed << ", step " << step;
     }
   }
 }
@@ -224,15 +211,15 @@ TEST(NearPairs, NothingIsBuiltWhereLittleMoves) {
 TEST(NearPairs, AreNotKeptWhereTheyAreTooMany) {
   Swarm<2> swarm(200, 9, false);
   BroadPhaseConfig<2> config = automatic<2>(true);
-  config.most_pairs = swarm.true_pairs().size() + 20;
+  config.most_pairs = testing::true_pairs(swarm.boxes).size() + 20;
   BroadPhase<2> phase(config);
   phase.tell(swarm.boxes);
   for (int step = 0; step < 50; ++step) {
     for (std::size_t i = 0; i < swarm.boxes.size(); ++i)
       swarm.move(i, swarm.ways[i] * (step % 2 == 0 ? 1. : -1.));
-    if (swarm.true_pairs().size() > config.most_pairs) continue;
+    if (testing::true_pairs(swarm.boxes).size() > config.most_pairs) continue;
     phase.follow(swarm.boxes);
-    ASSERT_EQ(phase.pairs(), swarm.true_pairs()) << step;
+    ASSERT_EQ(phase.pairs(), testing::true_pairs(swarm.boxes)) << step;
   }
 }
 
@@ -241,14 +228,14 @@ TEST(NearPairs, AreForgottenWhereALongerListIsRefused) {
   for (double share = 1.2; share < 8; share *= 1.15) {
     Swarm<2> swarm(500, 9, false);
     BroadPhaseConfig<2> config = automatic<2>(true);
-    config.most_pairs = static_cast<std::uint64_t>(share * double(swarm.true_pairs().size()));
+    config.most_pairs = static_cast<std::uint64_t>(share * double(testing::true_pairs(swarm.boxes).size()));
     BroadPhase<2> phase(config);
     phase.tell(swarm.boxes);
     for (int step = 0; step < 40; ++step) {
       for (std::size_t i = 0; i < swarm.boxes.size(); ++i) swarm.move(i, swarm.ways[i]);
-      if (swarm.true_pairs().size() > config.most_pairs) break;
+      if (testing::true_pairs(swarm.boxes).size() > config.most_pairs) break;
       phase.follow(swarm.boxes);
-      ASSERT_EQ(phase.pairs(), swarm.true_pairs()) << share << ", step " << step;
+      ASSERT_EQ(phase.pairs(), testing::true_pairs(swarm.boxes)) << share << ", step " << step;
     }
   }
 }

@@ -11,7 +11,7 @@
 
 #include "base/random.hpp"
 #include "geometry/random_vec.hpp"
-#include "spatial/pairs.hpp"
+#include "spatial/broad_phase.hpp"
 
 namespace lantern::spatial::testing {
 
@@ -170,6 +170,19 @@ std::set<BodyId> near_in(const Structure<D>& structure, const Box<D>& box) {
   std::vector<BodyId> ids;
   structure.near(box, ids);
   return {ids.begin(), ids.end()};
+}
+
+// What a broad phase of these must find, by comparing all.
+template <int D>
+std::vector<Pair> true_pairs(const std::vector<Proxy<D>>& proxies) {
+  std::vector<Pair> pairs;
+  for (const Proxy<D>& a : proxies)
+    for (const Proxy<D>& b : proxies)
+      if (a.id < b.id && overlap(a.box, b.box) &&
+          ((a.awake && !a.is_static) || (b.awake && !b.is_static)))
+        pairs.push_back({a.id, b.id});
+  std::ranges::sort(pairs);
+  return pairs;
 }
 
 }  // namespace lantern::spatial::testing

@@ -199,13 +199,11 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
     hold();
     const std::size_t before = ids.size();
     const VolumeProbe<D, Box> probe(box);
-    auto limit = [] { return 0.0; };
-    auto soon = [](BodyId) {};
     auto near = [&](std::uint32_t place, bool is_sure) {
       if (is_sure || overlap(items_.boxes[place], box)) ids.push_back(items_.id(place));
     };
     WalkCounts counts;
-    table_.each_near(box, look(probe, limit, soon, near, counts));
+    table_.each_near(box, look(probe, kNoLimit, kNothingSoon, near, counts));
     return counts.visited + counts.compared - (ids.size() - before);  // in vain
   }
 

@@ -224,10 +224,9 @@ class KdTree final : public StructureOf<KdTree<D>, D>, CountsAllocations {
   bool has_rows() const { return leaf_boxes_.is_due(); }
   const LeafBoxes<D>& boxes() const {
     return leaf_boxes_.made([&](LeafBoxes<D>& boxes) {
-      boxes.resize(stored_.size());
-      for (NodeHandle i = 0; i < nodes_.size(); ++i)
-        boxes.fill(
-            leaf_run(i), [&](std::uint32_t at) -> auto& { return *stored_item(stored_[at]); });
+      boxes.fill(
+          stored_.size(), nodes_.size(), [&](NodeHandle i) { return leaf_run(i); },
+          [&](std::uint32_t at) -> auto& { return *stored_item(stored_[at]); });
     });
   }
   Place root() const { return 0; }

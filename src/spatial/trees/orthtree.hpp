@@ -110,12 +110,9 @@ class Orthtree final : public StructureOf<Orthtree<D>, D>, CountsAllocations {
   bool has_rows() const { return leaf_boxes_.is_due(); }
   const LeafBoxes<D>& boxes() const {
     return leaf_boxes_.made([&](LeafBoxes<D>& boxes) {
-      boxes.resize(contents_.places());
-      for (NodeHandle i = 0; i < nodes_.size(); ++i)
-        boxes.fill(
-            leaf_run(Place{i, 0, {}}), [&](std::uint32_t at) -> auto& {
-              return items_[contents_.value(at)];
-            });
+      boxes.fill(
+          contents_.places(), nodes_.size(), [&](NodeHandle i) { return leaf_run({i, 0, {}}); },
+          [&](std::uint32_t at) -> auto& { return items_[contents_.value(at)]; });
     });
   }
   Place root() const { return {0, 0, config_.bounds}; }

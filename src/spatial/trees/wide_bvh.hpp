@@ -15,6 +15,7 @@ class WideBvh final : public StructureOf<WideBvh<D>, D> {
  public:
   static constexpr Zones kZones = Zones::fitted;
   static constexpr bool kHoldsOnce = true;
+  static constexpr bool kAsksForPairs = true;
 
   explicit WideBvh(const StructureConfig<D>& = {}) { clear(); }
 
@@ -46,10 +47,9 @@ class WideBvh final : public StructureOf<WideBvh<D>, D> {
   // Those whose rounded boxes the box overlaps, each once.
   std::uint64_t near(const Box<D>& box, std::vector<BodyId>& ids) const override {
     const std::size_t before = ids.size();
-    const auto limit = [] { return 0.0; };
-    const auto soon = [](BodyId) {};
     auto meet = [&](BodyId id, bool) { ids.push_back(id); };
-    const WalkCounts counts = rows_.each_met(VolumeProbe<D, Box>(box), limit, soon, meet);
+    const WalkCounts counts =
+        rows_.each_met(VolumeProbe<D, Box>(box), kNoLimit, kNothingSoon, meet);
     return counts.visited + counts.skipped + counts.compared - (ids.size() - before);
   }
 
@@ -60,22 +60,6 @@ class WideBvh final : public StructureOf<WideBvh<D>, D> {
     return rows_.each_met(probe, limit, soon, f);
   }
 
-  // Each body asks which others are near.
-  std::uint64_t find_pairs(std::span<const Box<D>> exact, FoundPairs& found) const {
-    std::uint64_t compared = 0;
-    std::vector<BodyId> ids;
-    for (BodyId body = 0; body < exact.size(); ++body) {
-      stop_if_asked();
-      ids.clear();
-      near(exact[body], ids);
-      for (const BodyId other : ids) {
-        if (other <= body) continue;
-        ++compared;
-        if (overlap(exact[body], exact[other])) found.add(body, other);
-      }
-    }
-    return compared;
-  }
   std::uint64_t meet(FunctionRef<bool(BodyId)> awake, FunctionRef<void(BodyId, BodyId)> f) const {
     std::uint64_t tests = 0;
     std::vector<BodyId> room, ids;
