@@ -361,11 +361,16 @@ std::vector<Passage> passages(const DrawList& a, const DrawList& b) {
 }
 
 DrawList between(const DrawList& a, const DrawList& b, double t, Motion motion) {
+  return between(a, b, t, motion, passages(a, b));
+}
+
+DrawList between(const DrawList& a, const DrawList& b, double t, Motion motion,
+                 std::span<const Passage> passages) {
   if (t <= 0) return a;
   if (t >= 1) return b;
   DrawList list;
   list.page = b.page;
-  for (const Passage& passage : passages(a, b)) {
+  for (const Passage& passage : passages) {
     stop_if_asked();
     const double seen = progress(passage.fade, t, motion);
     const double opacity = passage.leaves ? 1 - seen : seen;

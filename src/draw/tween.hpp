@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -69,6 +70,9 @@ std::vector<Passage> passages(const DrawList& a, const DrawList& b);
 // The picture at `t`, from 0, which is `a` itself, to 1, which is `b` itself. No labels: what moves
 // may pass over what stands.
 DrawList between(const DrawList& a, const DrawList& b, double t, Motion motion = Motion::eased);
+// The same for who asks more than once and has their passages.
+DrawList between(const DrawList& a, const DrawList& b, double t, Motion motion,
+                 std::span<const Passage> passages);
 
 // What an in-between does with one shape, or with two that are the same thing.
 

@@ -233,6 +233,7 @@ std::string picture_of(const RenderJob& job, const Pipeline::Config& as, const F
 
 void FrameWalk::go_on(const Frame& frame, const Staging& staging) {
   before_ = std::exchange(here_, Stop{frame});
+  way_.reset();
   staging_ = &staging;
 }
 
@@ -244,7 +245,9 @@ const DrawList& FrameWalk::page_of(Stop& stop) {
 DrawList FrameWalk::in_between(double t) {
   stop_if_asked();
   ++work_.in_betweens;
-  return between(page_before(), page(), t, InBetweens::motion(before_->frame, here_->frame));
+  const DrawList &a = page_before(), &b = page();
+  if (!way_) way_ = passages(a, b);
+  return between(a, b, t, InBetweens::motion(before_->frame, here_->frame), *way_);
 }
 
 Destination::Destination(const std::string& words, bool sheet)

@@ -172,6 +172,7 @@ class FrameWalk {
   Work& work_;
   const Staging* staging_ = nullptr;
   std::optional<Stop> before_, here_;
+  std::optional<std::vector<Passage>> way_;  // between the two, once it was asked for
 };
 
 // Where the pictures of a run go, which of its frames are wanted, and at which size.
