@@ -90,7 +90,8 @@ void follows_every_motion(bool some_static, unsigned threads) {
     for (int step = 0; step < 60; ++step) {
       for (std::size_t i = 0; i < swarm.boxes.size(); ++i) motion.move(swarm, i, step);
       phase.follow(swarm.boxes);
-      ASSERT_EQ(phase.pairs(), testing::true_pairs(swarm.boxes)) << motion.name << ", step " << step;
+      ASSERT_EQ(phase.pairs(), testing::true_pairs(swarm.boxes))
+          << motion.name << ", step " << step;
     }
   }
 }
@@ -148,7 +149,8 @@ TEST(NearPairs, AreTheSameWhenBodiesComeGoAndAreLookedAt) {
           break;
       }
       phase.follow(swarm.boxes);
-      ASSERT_EQ(phase.pairs(), testing::true_pairs(swarm.boxes)) << "run " << run << ", step " << step;
+      ASSERT_EQ(phase.pairs(), testing::true_pairs(swarm.boxes))
+          << "run " << run << ", step " << step;
     }
   }
 }
@@ -167,7 +169,8 @@ TEST(NearPairs, AreTheSameAfterALook) {
           swarm.move(i, swarm.boxes[i + 9].box.lo - swarm.boxes[i].box.lo + 1.5);
       if (step % 7 == 0) phase.build(swarm.boxes);
       phase.follow(swarm.boxes);
-      ASSERT_EQ(phase.pairs(), testing::true_pairs(swarm.boxes)) << "seed " << seed << ", step " << step;
+      ASSERT_EQ(phase.pairs(), testing::true_pairs(swarm.boxes))
+          << "seed " << seed << ", step " << step;
     }
   }
 }
@@ -228,7 +231,8 @@ TEST(NearPairs, AreForgottenWhereALongerListIsRefused) {
   for (double share = 1.2; share < 8; share *= 1.15) {
     Swarm<2> swarm(500, 9, false);
     BroadPhaseConfig<2> config = automatic<2>(true);
-    config.most_pairs = static_cast<std::uint64_t>(share * double(testing::true_pairs(swarm.boxes).size()));
+    config.most_pairs =
+        static_cast<std::uint64_t>(share * double(testing::true_pairs(swarm.boxes).size()));
     BroadPhase<2> phase(config);
     phase.tell(swarm.boxes);
     for (int step = 0; step < 40; ++step) {

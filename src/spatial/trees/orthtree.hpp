@@ -111,7 +111,10 @@ class Orthtree final : public StructureOf<Orthtree<D>, D>, CountsAllocations {
   const LeafBoxes<D>& boxes() const {
     return leaf_boxes_.made([&](LeafBoxes<D>& boxes) {
       boxes.fill(
-          contents_.places(), nodes_.size(), [&](NodeHandle i) { return leaf_run({i, 0, {}}); },
+          contents_.places(), nodes_.size(),
+          [&](NodeHandle i) {
+            return leaf_run({i, 0, {}});
+          },
           [&](std::uint32_t at) -> auto& { return items_[contents_.value(at)]; });
     });
   }
