@@ -254,7 +254,7 @@ struct Film::State {
   PartFile file;
   Child child;
   std::vector<std::uint8_t> picture;  // shown last,
-  std::uint64_t number = 0;           // the renderer's
+  std::uint64_t number = 0;           // of it
   std::uint64_t shown = 0;            // pictures
   bool begun = false, finished = false;
 
@@ -329,7 +329,7 @@ void Film::State::take(const Drawn& drawn) {
   LANTERN_CHECK(drawn.image.width, ==, settings.width);
   LANTERN_CHECK(drawn.image.height, ==, settings.height);
   const std::vector<PixelRect> all = {{0, 0, settings.width, settings.height}};
-  const bool follows = !picture.empty() && drawn.number == number + 1;
+  const bool follows = !picture.empty() && drawn.before == number;
   picture.resize(bytes);
   number = drawn.number;
   for (const PixelRect& part : follows ? drawn.parts : all) {

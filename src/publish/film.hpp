@@ -36,9 +36,9 @@ std::vector<std::string> film_words(const FilmSettings& settings, const std::str
 
 // A file that gets its name when it is whole. Each picture goes to ffmpeg once, with its time, an
 // opaque one as an encoder of films takes it (render/planes.hpp); a thread gives it away while the
-// next one is drawn, so that only a few are held. All calls belong
-// to one thread. Each throws IoError, with ffmpeg's own words, if it has failed by then, and
-// Stopped; then the film is given up.
+// next one is drawn, so that only a few are held. All calls belong to one thread. Each throws
+// IoError, with ffmpeg's own words, if it has failed by then, and Stopped; then the film is given
+// up.
 class Film {
  public:
   // `ffmpeg` as require_ffmpeg() gives it; no film_problem(). Makes no folder.

@@ -1,6 +1,7 @@
 // The fragment shaders, each compiled when it is worth it.
 #include "render/renderer.hpp"
 
+#include <atomic>
 #include <cstring>
 #include <utility>
 
@@ -280,7 +281,7 @@ struct Renderer::State {
   BatchList batches;
   Image picture;              // drawn last, as an Image holds it
   std::vector<bool> changed;  // its rows: since the one before
-  std::uint64_t pictures = 0;
+  std::uint64_t number = 0;   // of it
 
  private:
   Programs programs{gl, *context, width, height};
@@ -337,7 +338,9 @@ Drawn Renderer::draw(const DrawList& list, const Theme& theme, bool transparent)
     s.damage.forget();
     throw;
   }
-  return {s.picture, s.changed, parts, pixels, ++s.pictures};
+  static std::atomic<std::uint64_t> all = 0;
+  const std::uint64_t before = std::exchange(s.number, ++all);
+  return {s.picture, s.changed, parts, pixels, s.number, before};
 }
 
 void Renderer::draw(const DrawList& list, const Theme& theme, bool transparent, Image& image) {

@@ -15,8 +15,9 @@ struct Drawn {
   const std::vector<bool>& changed;  // of each row: does it differ from the picture before?
   // Outside of these, which do not overlap, it does not.
   const std::vector<PixelRect>& parts;
-  std::int64_t pixels = 0;   // of the parts: they were drawn anew
-  std::uint64_t number = 0;  // of this renderer's pictures, from 1
+  std::int64_t pixels = 0;  // of the parts: they were drawn anew
+  // Of all that any renderer drew, from 1, and that of its renderer's picture before, or 0.
+  std::uint64_t number = 0, before = 0;
 };
 
 class Renderer {

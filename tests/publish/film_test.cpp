@@ -34,13 +34,13 @@ fs::path silent_ffmpeg() {
   return folder / "ffmpeg";
 }
 
-// The picture of a renderer that has drawn so many, of which `parts` differ from the one before.
-void show(Film& film, std::uint64_t moment, std::uint64_t number, std::uint8_t grey,
-          const std::vector<PixelRect>& parts) {
+// The picture of this number, of which `parts` differ from that of the number before.
+void show(Film& film, std::uint64_t moment, std::uint64_t before, std::uint64_t number,
+          std::uint8_t grey, const std::vector<PixelRect>& parts) {
   const Image image{400, 300, std::vector<std::uint8_t>(std::size_t{400} * 300 * 4, grey)};
-  film.show({image, std::vector<bool>(300, true), parts, 0, number}, moment);
+  film.show({image, std::vector<bool>(300, true), parts, 0, number, before}, moment);
 }
-void paint(Film& film, std::uint64_t moment) { show(film, moment, moment, 7, {}); }
+void paint(Film& film, std::uint64_t moment) { show(film, moment, moment, moment + 1, 7, {}); }
 
 TEST(Film, OfEachKindIsToldOfInOneWordEach) {
   for (const FilmKind kind :
@@ -80,9 +80,9 @@ TEST(Film, TakesOverWhatDiffersUnlessAnotherPictureCameBetween) {
   const fs::path ffmpeg = silent_ffmpeg(), file = ffmpeg.parent_path() / "x.webp";
   const std::vector<PixelRect> part = {{0, 0, 32, 16}};
   Film whole(ffmpeg, film(FilmKind::webp), file);
-  show(whole, 0, 5, 10, part);  // the first one: all, whatever was drawn before
-  show(whole, 1, 6, 20, part);
-  show(whole, 2, 8, 30, part);  // the seventh was not shown here
+  show(whole, 0, 4, 5, 10, part);    // the first one: all, whatever was drawn before
+  show(whole, 1, 5, 9, 20, part);    // others drew, but not this renderer
+  show(whole, 2, 10, 11, 30, part);  // the tenth was not shown here
   whole.finish(3);
   const std::string written = read_file(file, std::size_t{1} << 30);
   const auto count = [&](char grey) {

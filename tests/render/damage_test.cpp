@@ -93,7 +93,8 @@ TEST(Damage, TellsWhichRowsAndPartsChanged) {
   std::uint64_t number = 0;
   for (const DrawList& list : sequence(5)) {
     const Drawn drawn = renderer.draw(list, *theme_named("light"), false);
-    ASSERT_EQ(drawn.number, ++number);
+    ASSERT_EQ(drawn.before, std::exchange(number, drawn.number));
+    ASSERT_GT(drawn.number, drawn.before);
     std::int64_t pixels = 0;
     for (const PixelRect& part : drawn.parts) pixels += part.area();
     ASSERT_EQ(drawn.pixels, pixels);
