@@ -360,12 +360,8 @@ std::vector<Passage> passages(const DrawList& a, const DrawList& b) {
   return Passages(a, b).made();
 }
 
-DrawList between(const DrawList& a, const DrawList& b, double t, Motion motion) {
-  return between(a, b, t, motion, passages(a, b));
-}
-
-DrawList between(const DrawList& a, const DrawList& b, double t, Motion motion,
-                 std::span<const Passage> passages) {
+DrawList between(const DrawList& a, const DrawList& b, std::span<const Passage> passages, double t,
+                 Motion motion) {
   if (t <= 0) return a;
   if (t >= 1) return b;
   DrawList list;

@@ -67,12 +67,10 @@ struct Passage {
 // words, which are those of `b` throughout.
 std::vector<Passage> passages(const DrawList& a, const DrawList& b);
 
-// The picture at `t`, from 0, which is `a` itself, to 1, which is `b` itself. No labels: what moves
-// may pass over what stands.
-DrawList between(const DrawList& a, const DrawList& b, double t, Motion motion = Motion::eased);
-// The same for who asks more than once and has their passages.
-DrawList between(const DrawList& a, const DrawList& b, double t, Motion motion,
-                 std::span<const Passage> passages);
+// The picture at `t`, from 0, which is `a` itself, to 1, which is `b` itself, by their passages. No
+// labels: what moves may pass over what stands.
+DrawList between(const DrawList& a, const DrawList& b, std::span<const Passage> passages, double t,
+                 Motion motion);
 
 // What an in-between does with one shape, or with two that are the same thing.
 

@@ -144,7 +144,7 @@ constexpr FilmFormat kFormats[] = {{"mp4", FilmKind::mp4, add_mp4},
                                    {"apng", FilmKind::apng, add_apng},
                                    {"webp", FilmKind::webp, add_webp}};
 
-// One is drawn upon, one waits, one is on its way, and the last one may be sent again.
+// The one shown last; one waits, one is on its way, and the last one may be sent again.
 constexpr std::size_t kPictures = 4;
 
 // As ffmpeg opens it.

@@ -82,22 +82,17 @@ class PairSearch {
     });
   }
 
-  // Of one in which bodies need not share a leaf to meet. Where most of them sleep, each of the
-  // others asks alone.
+  // Of one in which bodies need not share a leaf to meet. Where most of them sleep, or the tree has
+  // no way of its own, each of the others asks alone.
   template <class Tree>
   void by_itself(Tree& tree) {
     nodes_visited = tree.work().nodes;
     constexpr std::size_t kFew = 8;
-    if (stirring_ == boxes_.size() || kFew * stirring_ > boxes_.size()) {
-      tests += tree.find_pairs(boxes_, found);
-      drop_still_pairs();
-    } else {
-      by_asking(tree);
-    }
-  }
-  template <class Tree>
-  void by_asking(const Tree& tree) {
-    nodes_visited = tree.work().nodes;
+    if constexpr (!Tree::kAsksForPairs)
+      if (stirring_ == boxes_.size() || kFew * stirring_ > boxes_.size()) {
+        tests += tree.find_pairs(boxes_, found);
+        return drop_still_pairs();
+      }
     for (std::uint32_t i = 0; i < boxes_.size(); ++i)
       if (stirs(i)) ask(tree, i);
   }

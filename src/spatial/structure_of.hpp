@@ -88,9 +88,8 @@ class StructureOf : public Structure<D> {
   }
 
   void pair(PairSearch<D>& search) final {
-    if constexpr (Tree::kAsksForPairs)
-      search.by_asking(tree());
-    else if constexpr (requires { tree().find_pairs(std::span<const Box<D>>(), search.found); })
+    if constexpr (Tree::kAsksForPairs ||
+                  requires { tree().find_pairs(std::span<const Box<D>>(), search.found); })
       search.by_itself(tree());
     else
       search.in_leaves(tree());

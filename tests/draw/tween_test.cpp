@@ -16,6 +16,10 @@
 namespace lantern::draw {
 namespace {
 
+DrawList between(const DrawList& a, const DrawList& b, double t, Motion motion = Motion::eased) {
+  return between(a, b, passages(a, b), t, motion);
+}
+
 constexpr double kTimes[] = {0.02, 0.2, 0.35, 0.5, 0.65, 0.8, 0.98};
 
 // A thing of one rectangle.

@@ -247,7 +247,7 @@ DrawList FrameWalk::in_between(double t) {
   ++work_.in_betweens;
   const DrawList &a = page_before(), &b = page();
   if (!way_) way_ = passages(a, b);
-  return between(a, b, t, InBetweens::motion(before_->frame, here_->frame), *way_);
+  return between(a, b, *way_, t, InBetweens::motion(before_->frame, here_->frame));
 }
 
 Destination::Destination(const std::string& words, bool sheet)
