@@ -76,6 +76,9 @@ std::vector<Vec<2>> turned_outline(const FrameBody& body, const Box<2>& place);
 // The surface of a half-space through this point of the page; the solid is behind it.
 Plane<2> page_surface(const FrameBody& body, const Vec<2>& through);
 
+// Its colour: of a sleeping one, of furniture that never moves, or its own.
+Role fill_of(const FrameBody& body);
+
 // Draws the body so that it fills `place` (page units). Eyes and mouth turn along its velocity.
 // Below some 14 units across, and when `plain`, a body is one simple shape.
 void draw_character(const FrameBody& body, const Box<2>& place, bool plain, DrawList& list);

@@ -32,13 +32,6 @@ Vec<2> direction(const FrameBody& body, const Vec<2>& calm) {
   return {body.velocity.x / speed, -body.velocity.y / speed};
 }
 
-Role fill_of(const FrameBody& body) {
-  if (body.dimmed) return Role::panel;
-  if (body.asleep) return Role::asleep;
-  const bool furniture = body.look == Look::box || body.look == Look::disc;
-  return body.is_static && furniture ? Role::static_body : body_role(body.color);
-}
-
 bool is_round(Look look) { return look != Look::box && look != Look::bat && look != Look::item; }
 
 // What the step has ruled out is dotted.
@@ -210,6 +203,13 @@ void draw_look(const FrameBody& body, const Figure& f, const Box<2>& place, Draw
 }
 
 }  // namespace
+
+Role fill_of(const FrameBody& body) {
+  if (body.dimmed) return Role::panel;
+  if (body.asleep) return Role::asleep;
+  const bool furniture = body.look == Look::box || body.look == Look::disc;
+  return body.is_static && furniture ? Role::static_body : body_role(body.color);
+}
 
 void draw_emblem(int color, const Vec<2>& center, double radius, DrawList& list) {
   const Role role = body_mark_role(color);

@@ -177,14 +177,17 @@ void tell_place(const Counter& counter, double noun_left, double baseline, Label
   labels.tell_place(target_of_count(counter.depicts[0]), {{left - 4, noun.lo.y - 6}, noun.hi});
 }
 
-// One below the other; the longest form of each ends at the margin. Gives the left end.
+// One below the other, like a table: numbers end where nouns begin, and the longest of these ends
+// at the margin. Gives the left end.
 double draw_column(const std::vector<Counter>& counters, const Box<2>& band, double baseline,
                    Labels& labels) {
   const bool three = counters.size() > 2;
   const double step = three ? 34 : kLine;
   double left = band.hi.x, y = three ? baseline - 12 : baseline;
+  const double x = band.hi.x - greatest_of<double>(0, counters, [](const Counter& counter) {
+                     return counter.noun_width();
+                   });
   for (const Counter& counter : counters) {
-    const double x = band.hi.x - counter.noun_width();
     draw_number(counter, counter.style(), {x - 9, y}, band, labels);
     labels.add(counter.noun, {{x, y}, 0}, counter.style(), band);
     tell_place(counter, x, y, labels);

@@ -208,14 +208,28 @@ bool shows_name(const Frame& frame, const FrameBody& body) {
   return named <= kFewBodies || names(frame.caption, body.name);
 }
 
+std::string side_word(const FrameNode& parent, std::uint32_t slot) {
+  const Vec<3> normal = parent.plane ? parent.plane->normal : Vec<3>(0);
+  const auto is_along = [&](int axis) {
+    return normal[axis] != 0 && normal[(axis + 1) % 3] == 0 && normal[(axis + 2) % 3] == 0;
+  };
+  for (const int axis : {0, 1})
+    if (is_along(axis)) {
+      const bool less = (slot == 0) == (normal[axis] > 0);
+      return axis == 0 ? (less ? "left" : "right") : less ? "below" : "above";
+    }
+  return slot == 0 ? "back" : "front";
+}
+
 std::vector<std::string> leaf_names(const Frame& frame, const FrameNode& leaf) {
-  const std::size_t dot = leaf.label.rfind('.');
-  if (traits_of(frame.structure).names != NodeNames::sides || dot == std::string::npos)
+  if (traits_of(frame.structure).names != NodeNames::sides || leaf.parent == kNone)
     return {leaf.label};
+  const FrameNode& parent = frame.nodes[leaf.parent];
+  const std::string side = side_word(parent, leaf.slot);
+  if (parent.parent == kNone) return {side};
   if (leaf.mark != Mark::lit && !leaf.over_capacity) return {};
-  const std::string side = leaf.label.substr(dot + 1);
-  if (leaf.parent == kNone || frame.nodes[leaf.parent].plane_name.empty()) return {side};
-  return {frame.nodes[leaf.parent].plane_name + ": " + side, side};
+  if (parent.plane_name.empty()) return {side};
+  return {parent.plane_name + ": " + side, side};
 }
 
 bool shows_id(const Staging& staging, const FrameNode& node) {

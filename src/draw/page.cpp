@@ -25,17 +25,15 @@ void add_rule(DrawList& list, double y, double margin) {
   list.crisp_line({margin, y}, {list.page.x - margin, y}, {Role::rule, 1.6});
 }
 
-// "step 4 of 9" from the right, each number in cells for as many digits as the last step has.
-// Gives the left end.
+// "step 4 of 9" from the right. Gives the left end.
 double draw_step(const Frame& frame, const Box<2>& band, Labels& labels) {
   if (frame.steps == 0) return band.hi.x;
-  const double number = Labels::width_of(frame.steps, kQuiet);
   const double space = text_width(" ", kQuiet);
   double x = band.hi.x;
   for (const auto& [word, count] : {std::pair{"of", std::int64_t{frame.steps}},
                                     std::pair{"step", frame.step + std::int64_t{1}}}) {
     labels.add_number(count, {x, kTitleLine}, kQuiet, band);
-    x -= number + space;
+    x -= Labels::width_of(count, kQuiet) + space;
     labels.add(word, {{x, kTitleLine}, 1}, kQuiet, band);
     x -= text_width(word, kQuiet) + space;
   }

@@ -92,12 +92,13 @@ void draw_world(const Frame& frame, const Staging& staging, const Box<2>& panel,
 
 // The structure or atlas as a node-link diagram, and under it what it was told and what it counts.
 // All nodes that the group's frames have stand in one layout; where that is too large for the panel
-// a frame's tree is condensed (tree_fold.hpp); a node is never narrower than kLeastNode. Two trees,
+// all nodes are small squares, or else a frame's tree is condensed (tree_fold.hpp); nodes are never
+// narrower than kLeastNode, small ones than kLeastSmallNode. Two trees,
 // of what never moves and of what does, stand side by side or one above the other; sort and sweep
 // has no tree and shows its intervals.
 void draw_tree(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
                Labels& labels);
-inline constexpr double kLeastNode = 34;
+inline constexpr double kLeastNode = 34, kLeastSmallNode = 8;
 // The intervals of sort and sweep along the axis that it sorted by, one row a body in the order of
 // the sweep. A pair that it compares is linked where the later interval begins; where one body is
 // lit, the sweep stands at its beginning, and the intervals that are open there are marked.

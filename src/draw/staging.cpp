@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "frame/parts/panels.hpp"
+#include "frame/parts/atlas.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -121,8 +121,9 @@ std::vector<const Frame*> Staging::some_frames(std::size_t most) const {
 bool Staging::is_one_group(const Frame& before, const Frame& next) {
   const bool same_world = before.dimension == next.dimension &&
                           before.bounds.lo == next.bounds.lo && before.bounds.hi == next.bounds.hi;
-  const bool other_part = before.part != next.part && before.get<FrameStructure>().settings !=
-                                                          next.get<FrameStructure>().settings;
+  const bool other_part = before.part != next.part && (before.get<FrameStructure>().settings !=
+                                                           next.get<FrameStructure>().settings ||
+                                                       next.find<FrameTextures>());
   const bool same_sides =
       std::ranges::equal(before.sides, next.sides, [](const Frame& a, const Frame& b) {
         return a.get<FrameSide>().name == b.get<FrameSide>().name && is_one_group(a, b);
@@ -182,6 +183,7 @@ void Staging::add_nodes(const Frame& frame) {
 void AxisRanges::see(const frame::Frame& frame) {
   const frame::FrameChart& chart = frame.get<FrameChart>();
   for (const frame::FrameBar& bar : chart.bars) chart_.add(bar.value, chart.logarithmic);
+  if (chart.bars.size() > bars_.size()) bars_ = chart.bars;
   for (const frame::FrameSeries& series : chart.series)
     for (const Vec<2>& p : series.points) {
       chart_.add(p.y, chart.logarithmic);

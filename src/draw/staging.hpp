@@ -2,6 +2,7 @@
 // drawn, so that what has not changed does not move.
 #pragma once
 
+#include <algorithm>
 #include <any>
 #include <cstdint>
 #include <functional>
@@ -17,6 +18,7 @@
 #include "draw/axis.hpp"
 #include "draw/keys.hpp"
 #include "frame/frame.hpp"
+#include "frame/parts/panels.hpp"
 #include "geometry/box.hpp"
 
 namespace lantern::draw {
@@ -54,6 +56,7 @@ class AxisRanges {
   Ends chart() const { return ends_of(chart_); }      // of charts' values
   Ends chart_x() const { return ends_of(chart_x_); }  // of what they are drawn against
   double trace() const { return trace_; }             // the most of a sparkline
+  const std::vector<frame::FrameBar>& bars() const { return bars_; }  // all that come to be
   // That a part's sparkline goes on for.
   std::optional<double> seconds_of(const std::string& part) const;
 
@@ -63,6 +66,7 @@ class AxisRanges {
   }
 
   PlotRange chart_, chart_x_;
+  std::vector<frame::FrameBar> bars_;
   double trace_ = 0;
   std::map<std::string, double> seconds_;  // by part
 };
@@ -75,7 +79,7 @@ class Staging {
   explicit Staging(const Frame& frame) : Staging(std::vector{&frame}, {}) {}
 
   // Belongs `next` to the group of `before`? It does while panels, structure and world stay; a new
-  // part begins a group if its settings are others.
+  // part begins a group if its settings are others, or packs an atlas on.
   static bool is_one_group(const Frame& before, const Frame& next);
 
   const std::vector<const Frame*>& frames() const { return frames_; }
@@ -97,6 +101,13 @@ class Staging {
   bool tells_settings(const Frame& frame) const { return settings_told_.contains(frame.index); }
 
   const AxisRanges& axes() const { return axes_; }
+
+  // Does the foot of some frame have this count?
+  bool is_headed(std::string_view count) const {
+    return std::ranges::any_of(frames_, [&](const Frame* frame) {
+      return std::ranges::find(frame->headline, count) != frame->headline.end();
+    });
+  }
 
   // The largest that this count gets; 0 if no frame has it.
   std::int64_t most(const std::string& count) const;

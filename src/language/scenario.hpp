@@ -314,9 +314,11 @@ struct Step {
   std::optional<Display> display;   // of this step alone; none: the scenario's
   std::optional<ViewSpec> view;     // from here on, as is the camera; none: as before
   std::optional<CameraSpec> camera;
-  double orbit = 0;                   // radians that the camera goes round its target meanwhile
-  std::vector<NoteSpec> notes;        // on all frames of the step
+  double orbit = 0;             // radians that the camera goes round its target meanwhile
+  std::vector<NoteSpec> notes;  // on all frames of the step
+  std::optional<std::vector<LitSpec>> lit;  // on the step's own frames; none: what the step does
   std::vector<std::string> headline;  // counts and measures put in front from here on; or empty
+  std::vector<Panel> panels;          // of the scenario's, shown from here on; or empty
   std::vector<RulerSpec> rulers;      // on every frame of the step
   std::optional<CodeSpec> code;       // from here on; none: as before, with no line lit
   bool ending = false;                // its last frame is the sequence's take-away

@@ -36,6 +36,12 @@ struct CameraSpec {
   SourcePosition where;
 };
 
+// What is lit: a body by its name, or a node by its label.
+struct LitSpec {
+  std::string name;
+  SourcePosition where;
+};
+
 // A few words beside what they are about.
 struct NoteSpec {
   std::string text;  // with {count}, as a caption

@@ -80,6 +80,7 @@ FrameMaker::FrameMaker(const Scenario& scenario, Pace pace, const Stage& stage,
       sink_(sink),
       wants_(wants),
       headline_(scenario.headline),
+      panels_(scenario.panels),
       comparison_(empty_comparison(scenario)),
       looks_(scenario) {
   LANTERN_CHECK(counts_are_known(), ==, true);
@@ -115,6 +116,7 @@ void FrameMaker::begin(const Step& step, std::uint32_t index) {
   looks_.begin(step, stage_.time);
   begin_code();
   if (!step.headline.empty()) headline_ = step.headline;
+  if (!step.panels.empty()) panels_ = step.panels;
   lengths_before_.clear();
   for (const RulerSpec& ruler : step.rulers) {
     const auto ends = ends_of(ruler, stage_.engine.get());
@@ -165,7 +167,7 @@ Frame FrameMaker::picture(const Touched& now, std::string_view event, bool midst
   frame.step = step_index_;
   frame.steps = static_cast<std::uint32_t>(scenario_.steps.size());
   frame.event = event;
-  frame.panels = scenario_.panels;
+  frame.panels = panels_;
   frame.cast = static_cast<std::uint32_t>(scenario_.bodies.size());
   if (!scenario_.world.land.empty()) frame.add<FrameLand>().land = scenario_.world.land;
   frame.time = stage_.time;
@@ -188,6 +190,7 @@ Frame FrameMaker::picture(const Touched& now, std::string_view event, bool midst
   add_comparison(frame);
   add_rulers(frame);
   lighting_.light({traits_of(step_->verb), focus, midst}, frame);
+  if (step_->lit && !midst) light_named(frame);
   light_room(frame);
   add_notes(frame);
   if (plotter_) frame.add<FrameChart>() = plotter_->chart();
@@ -385,11 +388,13 @@ void FrameMaker::add_rulers(Frame& frame) const {
 
 // The leaves of an atlas that are large enough.
 void FrameMaker::light_room(Frame& frame) const {
-  if (const auto* ask = std::get_if<AskRoom>(&step_->verb))
-    for (FrameNode& node : frame.nodes)
-      if (node.leaf && node.bodies.empty() && node.box.size().x >= ask->width &&
-          node.box.size().y >= ask->height)
-        node.mark = Mark::lit;
+  const auto* ask = std::get_if<AskRoom>(&step_->verb);
+  if (!ask) return;
+  frame.add<FrameTextures>().asked = {ask->width, ask->height};
+  for (FrameNode& node : frame.nodes)
+    if (node.leaf && node.bodies.empty() && node.box.size().x >= ask->width &&
+        node.box.size().y >= ask->height)
+      node.mark = Mark::lit;
 }
 
 std::optional<std::string> FrameMaker::text_of(std::string_view name, const Frame& frame) const {
@@ -401,6 +406,17 @@ std::optional<std::string> FrameMaker::text_of(std::string_view name, const Fram
 }
 
 // Those whose bodies and nodes are there by now.
+void FrameMaker::light_named(Frame& frame) {
+  const LitSpec* strange = light_only(*step_->lit, frame);
+  if (strange && reported_.insert(strange).second)
+    report_.unmet.add([&] {
+      return diagnose(scenario_, strange->where,
+                      fmt::format("'{}' is to be lit on frame {}, and is neither a body nor a node "
+                                  "there{}",
+                                  strange->name, report_.frames, on_side()));
+    });
+}
+
 void FrameMaker::add_notes(Frame& frame) {
   for (const NoteSpec& spec : step_->notes) {
     FrameNote note{fill(spec.text, frame), spec.of, {}, kNone, {}, spec.point};

@@ -69,6 +69,7 @@ class FrameMaker {
   std::uint32_t next_index();
   void tell_faults();
   void tell_splits(Frame& frame);
+  void light_named(Frame& frame);
   void add_notes(Frame& frame);
   void require_notes(const Frame& frame);
   void dim(Frame& frame) const;
@@ -101,14 +102,15 @@ class FrameMaker {
   std::string part_;
   std::string refused_names_;
   std::vector<std::string> headline_;
+  std::vector<Panel> panels_;
   Lighting lighting_;
   std::vector<std::optional<double>> lengths_before_;  // of the step's rulers
   WorldWork last_work_;                                // at the last frame that was given
   std::optional<Finding> finding_;                     // of this step
   std::optional<QueryNumbers> counted_;                // of the last ray, view or region
   FrameComparison comparison_;
-  std::string answer_;                     // of its last row, until it is filled in
-  std::set<const Expectation*> reported_;  // an unmet one is reported once
+  std::string answer_;              // of its last row, until it is filled in
+  std::set<const void*> reported_;  // what does not hold is reported once
   // Of the last frame that was given: its structure, time and divided nodes.
   StructureKind last_structure_ = StructureKind::none;
   double last_time_ = 0;

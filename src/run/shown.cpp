@@ -123,6 +123,23 @@ void Lighting::light(const Cause& cause, Frame& frame) const {
   light_edges(frame);
 }
 
+const LitSpec* light_only(const std::vector<LitSpec>& lit, Frame& frame) {
+  put_out(frame);
+  const LitSpec* strange = nullptr;
+  std::set<BodyId> ids;
+  for (const LitSpec& spec : lit) {
+    bool found = false;
+    for (FrameBody& body : frame.bodies)
+      if (body.name == spec.name) found = body.lit = ids.insert(body.id).second;
+    for (FrameNode& node : frame.nodes)
+      if (node.label == spec.name) node.mark = Mark::lit, found = true;
+    if (!found && !strange) strange = &spec;
+  }
+  for (FramePair& p : frame.pairs) p.lit = ids.contains(p.pair.a) && ids.contains(p.pair.b);
+  pass_to(frame);
+  return strange;
+}
+
 void Lighting::light_nodes(const Cause& cause, bool few, Frame& frame) const {
   const bool marked = std::ranges::any_of(
       frame.nodes, [](const FrameNode& node) { return node.mark != Mark::quiet; });

@@ -37,6 +37,10 @@ class Lighting {
   std::vector<std::uint64_t> places_;  // of nodes, of the last frame that was not in the midst
 };
 
+// Lights these bodies and nodes, with the ways down to them, and nothing else. Gives the first name
+// that the frame does not have.
+const LitSpec* light_only(const std::vector<LitSpec>& lit, Frame& frame);
+
 // Where frames are looked at from, and what of the world they show, from step to step.
 class Looks {
  public:

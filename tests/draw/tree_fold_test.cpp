@@ -101,7 +101,7 @@ TEST(TreeLayout, NodesNeverOverlapNorShrinkBelowLegibility) {
       EXPECT_LE(layout.boxes.size(), 300u) << "the cost of a diagram must not grow with the tree";
       for (std::size_t i = 0; i < layout.boxes.size(); ++i) {
         const Box<2>& box = layout.boxes[i];
-        EXPECT_GE(box.size().x, kLeastNode) << frame.title;
+        EXPECT_GE(box.size().x, layout.scale.small ? kLeastSmallNode : kLeastNode) << frame.title;
         EXPECT_TRUE(holds(shrunk(panel, -0.01), box)) << frame.title << " leaves its panel";
         for (std::size_t j = i + 1; j < layout.boxes.size(); ++j)
           EXPECT_FALSE(overlap(box, layout.boxes[j])) << frame.title << ": " << i << ", " << j;

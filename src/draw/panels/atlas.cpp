@@ -73,6 +73,7 @@ class AtlasView : PanelPicture {
       }
     if (packed.size() == kMostTextures) labels_.add_note("not all textures are drawn", image_);
     for (const FrameTexture* texture : packed) draw_plate(texture->name, place_of(*texture));
+    draw_asked();
     for (const FrameNode* node : free_leaves()) name_free(*node);
     parts_ = kMostPatternParts;
     if (has_strip(frame_)) draw_strip();
@@ -154,6 +155,39 @@ class AtlasView : PanelPicture {
       if (!holds(shrunk(box, 6), Labels::extent(text, anchor, style))) continue;
       if (try_write(text, {anchor}, style)) return;
     }
+  }
+
+  // What a room is asked for, or was refused for want of one, laid over the free leaf that comes
+  // nearest to it: what does not fit can be seen to stick out.
+  void draw_asked() {
+    const FrameTextures& all = frame_.get<FrameTextures>();
+    const auto refused = std::ranges::find_if(all.textures, &FrameTexture::refused);
+    Vec<2> asked = all.asked;
+    if (asked.x == 0 && refused != all.textures.end()) asked = {refused->width, refused->height};
+    const FrameNode* best = nullptr;
+    double most = 0;
+    for (const FrameNode* node : free_leaves()) {
+      const Vec<2> share = flat(node->box).size() / glm::max(asked, 1.0);
+      if (const double least = std::min(share.x, share.y); least > most) most = least, best = node;
+    }
+    if (asked.x == 0 || !best) return;
+    const Box<2> leaf = on_page(flat(best->box));
+    const Vec<2> size = asked * scale_;
+    const bool fits = most >= 1;
+    const Vec<2> beside = fits ? leaf.lo : Vec<2>(leaf.lo.x, leaf.center().y - size.y / 2);
+    const Vec<2> corner = glm::max(image_.lo, glm::min(beside, image_.hi - size));
+    const Role role = fits ? Role::lit : Role::warning;
+    const DrawList::Scope scope(list_, "atlas/asked");
+    list_.rect({corner, corner + size}, Role::none, {Role::panel, 8});
+    list_.rect({corner, corner + size}, Role::none, {role, 4, 9});
+    const TextStyle style{kLabel, Weight::semibold, fits ? Role::lit_ink : Role::warning};
+    const std::string words =
+        fmt::format("{:.0f} × {:.0f}{}", asked.x, asked.y, fits ? "" : " does not fit");
+    const Vec<2> at = corner + Vec<2>(size.x * (fits ? 0.5 : 0.33), fits ? 24 : size.y / 2);
+    const Box<2> plate = plate_of(words, at, style, {6, 5});
+    if (!holds(image_, plate) || !labels_.is_free(plate, panel_)) return;
+    list_.rect(plate, Role::panel, {}, 5);
+    write(words, centred(at, style), style);
   }
 
   // An image of its own, while it is drawn from.

@@ -42,11 +42,15 @@ std::string title_of(const FrameChart& chart) {
   return name + (name.empty() || chart.y_unit.empty() ? "" : ", ") + chart.y_unit;
 }
 
+// Each bar has its place from the beginning on: one that is still to come only its name.
 class Bars : PanelPicture {
  public:
   explicit Bars(const PanelPicture& on) : PanelPicture(on) {
-    std::erase_if(bars_, [](const FrameBar& bar) { return !std::isfinite(bar.value); });
-    for (FrameBar& bar : bars_) bar.label = chart_words(bar.label);
+    for (const FrameBar& bar : chart_.bars) bars_.push_back({bar});
+    const std::vector<FrameBar>& all = staging_.axes().bars();
+    for (std::size_t i = bars_.size(); i < all.size(); ++i) bars_.push_back({all[i], true});
+    std::erase_if(bars_, [](const Row& row) { return !std::isfinite(row.value); });
+    for (Row& row : bars_) row.label = chart_words(row.label);
     std::ranges::stable_sort(bars_, {}, &FrameBar::group);
   }
 
@@ -70,6 +74,10 @@ class Bars : PanelPicture {
   }
 
  private:
+  struct Row : FrameBar {
+    bool is_to_come = false;
+  };
+
   std::string title() const {
     const std::string name = title_of(chart_);
     if (!chart_.logarithmic) return name;
@@ -103,6 +111,8 @@ class Bars : PanelPicture {
   void find_room() {
     if (fits(kGoodRow)) return;
     gap_ = kLeastGroupGap;
+    if (fits(kLeastRow)) return;
+    std::erase_if(bars_, &Row::is_to_come);
     if (fits(kLeastRow)) return;
     ticks_ = false;
     const std::size_t all = bars_.size();
@@ -157,8 +167,14 @@ class Bars : PanelPicture {
     return plot_role(look_of_structure(bar.label).value_or(bar.line));
   }
 
-  void draw_bar(const FrameBar& bar, double top) {
+  void draw_bar(const Row& bar, double top) {
     const double thick = std::min(0.7 * row_, 52.0), middle = top + row_ / 2;
+    const double room = area_.lo.x - panel_.lo.x - kAfter;
+    TextStyle style = type_.name;
+    if (bar.is_to_come) style.role = Role::quiet_ink;
+    write(shortened(bar.label, room, style), centred({area_.lo.x - kAfter, middle}, style, 1),
+          style);
+    if (bar.is_to_come) return;
     const double from = x_of(zero()), to = x_of(bar.value);
     if (chart_.logarithmic) {
       draw_dot(bar, {to, middle}, std::min(0.24 * row_, 13.0));
@@ -167,9 +183,6 @@ class Bars : PanelPicture {
                        {std::max(from, to), middle + thick / 2}};
       if (box.size().x > 0.5) list_.rect(box, color_of(bar), {Role::body_line, 1.2}, 2);
     }
-    const double room = area_.lo.x - panel_.lo.x - kAfter;
-    write(shortened(bar.label, room, type_.name),
-          centred({area_.lo.x - kAfter, middle}, type_.name, 1), type_.name);
     const double left = std::max(from, to) + kAfter + (chart_.logarithmic ? 13 : 0);
     write(shortened(value_text(bar.value), panel_.hi.x - left, type_.title),
           centred({left, middle}, type_.title, 0), type_.title);
@@ -186,7 +199,7 @@ class Bars : PanelPicture {
   PlotPaper paper_{panel_, kChartType, list_, labels_};
   const PlotType& type_ = paper_.type;
   Box<2>& area_ = paper_.place.area;
-  std::vector<FrameBar> bars_ = chart_.bars;
+  std::vector<Row> bars_;
   std::string note_;
   double row_ = kLeastRow, gap_ = kGroupGap;
   bool ticks_ = true;

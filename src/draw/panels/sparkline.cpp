@@ -1,8 +1,8 @@
 // A thin strip under what moves: one count over the time so far. The ends of its axes are those of
 // the whole part where they are known, else powers of two.
 //
-//   12 pairs |- - - - - - - - - | 64
-//            |__|~|_o___________| 4 s
+//   12 pairs  64 |- - - - - - - - - |
+//              0 |__|~|_o___________| 4 s
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -61,9 +61,9 @@ void draw_sparkline(const Frame& frame, const Staging& staging, const Box<2>& pl
   const auto digits = static_cast<std::int64_t>(number_text(most).size());
   const double number = Labels::number_width(digits, kStrong);
   const std::string top = number_text(most), end = number_text(seconds, 2) + " s";
-  const double after = std::max(text_width(top, kQuiet), text_width(end, kQuiet)) + 14;
+  const double after = text_width(end, kQuiet) + 14, before = text_width(top, kQuiet) + 12;
   const double words = std::max(text_width(one, kQuiet), text_width(many, kQuiet));
-  const Box<2> area{place.lo + Vec<2>(number + 8 + words + 18, kSparkEdge),
+  const Box<2> area{place.lo + Vec<2>(number + 8 + words + 26 + before, kSparkEdge),
                     place.hi - Vec<2>(after, kSparkEdge)};
   if (area.size().x < 60) return;
 
@@ -73,7 +73,8 @@ void draw_sparkline(const Frame& frame, const Staging& staging, const Box<2>& pl
   labels.add(now.y == 1 ? one : many, {{place.lo.x + number + 8, middle}, 0}, kQuiet, place);
   list.crisp_line(area.lo, {area.hi.x, area.lo.y}, {Role::rule, 1.4, 5});
   list.crisp_line({area.lo.x, area.hi.y}, area.hi, {Role::cell_line_2, 1.8});
-  labels.add(top, centred({area.hi.x + 12, area.lo.y}, kQuiet, 0), kQuiet, place);
+  for (const auto& [text, y] : {std::pair{top, area.lo.y}, std::pair{std::string("0"), area.hi.y}})
+    labels.add(text, centred({area.lo.x - 10, y}, kQuiet, 1), kQuiet, place);
   labels.add(end, centred({area.hi.x + 12, area.hi.y}, kQuiet, 0), kQuiet, place);
 
   const auto at = [&](const Vec<2>& p) {

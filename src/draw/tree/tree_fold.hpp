@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "base/hash.hpp"
+#include "draw/body_shapes.hpp"
 #include "frame/parts/asked.hpp"
 #include "frame/parts/atlas.hpp"
-#include "draw/body_shapes.hpp"
 
 namespace lantern::draw {
 

@@ -18,6 +18,10 @@ constexpr double kLargest = 1.2;
 constexpr std::uint32_t kFewLevels = 4;
 // Of a condensed tree: the first is comfortable, the others are for ways that must be open.
 constexpr double kFoldScales[] = {0.6, 0.5, 0.4, 0.3, 0.25};
+// Of a tree that is shown whole though its words have no room.
+constexpr double kSmallScales[] = {0.8,  0.66, 0.55, 0.48, 0.42,  0.36,  0.31,
+                                   0.26, 0.22, 0.19, 0.16, 0.135, 0.115, 0.1};
+constexpr double kLeastSmallRow = 17;  // from row to row
 constexpr std::size_t kMostBranches = 300;
 constexpr double kUnderLeaf = 34;    // for the label under the last row
 constexpr double kBetweenRows = 38;  // at least; a leaf's label and an edge's elbow fit in
@@ -28,6 +32,7 @@ constexpr std::uint32_t kLeastRows = 4;
 
 double width_of(const Branch& branch, const FrameNode& node, bool atlas, const TreeScale& scale,
                 const TreeWords& words) {
+  if (scale.small) return scale.box_width;
   const BranchText content = text_of(branch, node, atlas, scale, words);
   if (branch.kind == Branch::Kind::levels)  // the text stands beside a line
     return 2 * (text_width(content.text, scale.text, Weight::regular) + 16);
@@ -98,6 +103,14 @@ Spread spread(const std::vector<Branch>& branches, const Wanted& wanted, const T
   return s;
 }
 
+// Do they fit at scale `s` as small ones?
+bool fits_small(const std::vector<Branch>& branches, const Wanted& wanted, const Vec<2>& room,
+                double s) {
+  const std::uint32_t rows = row_count(branches);
+  return branches.size() <= kMostBranches && rows * kLeastSmallRow + kUnderLeaf <= room.y &&
+         spread(branches, wanted, {s, rows, room.y, true}, {}).width <= room.x;
+}
+
 // Do they fit at scale `s`, whose measures are those of `rows` rows?
 bool fits(const std::vector<Branch>& branches, const Wanted& wanted, const Vec<2>& room, double s,
           std::uint32_t rows, const TreeWords& words = {}) {
@@ -122,6 +135,13 @@ TreeWords best_words(const std::vector<Branch>& branches, const Wanted& wanted,
 double best_scale(const std::vector<Branch>& branches, const Wanted& wanted, const Vec<2>& room) {
   for (const double s : kScales)
     if (fits(branches, wanted, room, s, row_count(branches))) return s;
+  return 0;
+}
+
+double best_small_scale(const std::vector<Branch>& branches, const Wanted& wanted,
+                        const Vec<2>& room) {
+  for (const double s : kSmallScales)
+    if (fits_small(branches, wanted, room, s)) return s;
   return 0;
 }
 
@@ -156,7 +176,7 @@ std::vector<double> label_rooms(const TreeLayout& layout, const Wanted& wanted,
       if (i == k || branches[i].row != branches[k].row) continue;
       const double away = std::abs(layout.boxes[i].center().x - center);
       if (open[i]) room = std::min(room, away - kBesideEdge);
-      if (has_label_below(branches[i], wanted.nodes[branches[i].node]))
+      if (has_label_below(branches[i], wanted.nodes[branches[i].node], layout.scale))
         room = std::min(room, away / 2 - kBesideLabel);
     }
     rooms.push_back(2 * room);
@@ -168,8 +188,8 @@ std::vector<double> label_rooms(const TreeLayout& layout, const Wanted& wanted,
 // where the tree does not show all of its nodes: these come and go, and it must stand still.
 void place(const Wanted& wanted, const TreeStage& stage, TreeLayout& layout) {
   const Box<2>& panel = stage.panel;
-  layout.scale = TreeScale(stage.scale, stage.rows, panel.size().y);
-  if (stage.alone) layout.words = best_words(layout.branches, wanted, stage);
+  layout.scale = TreeScale(stage.scale, stage.rows, panel.size().y, stage.small);
+  if (stage.alone && !stage.small) layout.words = best_words(layout.branches, wanted, stage);
   const Spread sideways = spread(layout.branches, wanted, layout.scale, layout.words);
   const double around = layout.scale.box_height + layout.scale.under;
   const double most = 190 * std::max(1.0, stage.scale / kLargest);
@@ -187,7 +207,8 @@ void place(const Wanted& wanted, const TreeStage& stage, TreeLayout& layout) {
   }
   std::vector<bool> labelled(row_count(layout.branches));
   for (const Branch& branch : layout.branches)
-    if (has_label_below(branch, wanted.nodes[branch.node])) labelled[branch.row] = true;
+    if (has_label_below(branch, wanted.nodes[branch.node], layout.scale))
+      labelled[branch.row] = true;
   layout.labels_between = !stage.whole && !stage.alone;
   for (const Branch& branch : layout.branches)
     if (branch.row > 0 && labelled[branch.row - 1]) layout.labels_between = true;
@@ -229,8 +250,9 @@ double fold_scale(const UnionTree& tree, const std::vector<TreeOfFrame>& trees, 
 
 }  // namespace
 
-TreeScale::TreeScale(double s, std::uint32_t rows, double height)
-    : box_width(std::max(kLeastNode, 84 * s)),
+TreeScale::TreeScale(double s, std::uint32_t rows, double height, bool is_small)
+    : small(is_small),
+      box_width(std::max(kLeastNode, 84 * s)),
       box_height(std::clamp((height - kUnderLeaf - kBetweenRows * (rows - 1)) / rows, kLeastHeight,
                             std::max(kLeastHeight, full_height(s)))),
       gap(std::max(9.0, 34 * s)),
@@ -238,7 +260,14 @@ TreeScale::TreeScale(double s, std::uint32_t rows, double height)
       radius(std::max(6.0, 9 * s)),
       text(std::clamp(20 * s, kLeastLabel, 30.0)),
       label(kLeastLabel),
-      under(kUnderLeaf) {}
+      under(kUnderLeaf) {
+  if (!small) return;
+  box_width = 84 * s;
+  gap = std::max(2.5, 0.3 * box_width);
+  box_height = std::clamp(0.5 * (height - under) / rows, 8.0, 1.15 * box_width);
+  icon = std::min(box_width, box_height) - 5;
+  radius = 0.16 * box_width;
+}
 
 std::string short_label(const std::string& label) {
   const std::size_t dot = label.rfind('.');
@@ -247,7 +276,8 @@ std::string short_label(const std::string& label) {
 
 bool is_long_way(const std::string& label) { return std::ranges::count(label, '.') > 2; }
 
-bool has_label_below(const Branch& branch, const FrameNode& node) {
+bool has_label_below(const Branch& branch, const FrameNode& node, const TreeScale& scale) {
+  if (!scale.names_all()) return node.leaf && (branch.mark == Mark::lit || node.over_capacity);
   if (branch.kind == Branch::Kind::folded) return true;
   if (branch.kind != Branch::Kind::node || !node.leaf) return false;
   return !node.label.empty() || branch.copies > 1 || node.over_capacity;
@@ -257,6 +287,10 @@ std::vector<Vec<2>> TreeLayout::edge(std::size_t branch) const {
   const Box<2>& above = boxes[branches[branch].parent];
   const Vec<2> from{above.center().x, above.hi.y};
   const Vec<2> to{boxes[branch].center().x, boxes[branch].lo.y};
+  if (scale.small && from.x != to.x) {
+    const double y = std::round(to.y - 0.45 * (to.y - from.y));
+    return {from, {from.x, y}, {to.x, y}, to};
+  }
   if (!labels_between) return {from, to};
   const double fan = from.y + scale.under;
   if (to.y - fan >= kLeastFan) return {from, {from.x, fan}, to};
@@ -272,6 +306,7 @@ BranchText text_of(const Branch& branch, const FrameNode& node, bool atlas, cons
   if (branch.kind == Kind::folded)
     return {fmt::format("+{}{}", branch.count, words.nodes ? " nodes" : ""), 0};
   if (branch.kind == Kind::levels) return {fmt::format("{} levels", branch.count), 0};
+  if (scale.small) return {};
   if (!node.leaf) {
     if (branch.copies > 1) return {fmt::format("×{}{}", branch.copies, each), 0};
     if (atlas) return {};  // an atlas's inner node shows its cut
@@ -302,7 +337,10 @@ TreeStage stage_tree(const UnionTree& tree, const std::vector<TreeOfFrame>& tree
     const std::vector<std::string> ways = all_ways(tree);
     const Wanted wanted{nodes, ways, tree, atlas};
     std::vector<Branch> branches = TreeFold(nodes, atlas, {}).whole();
-    if (const double s = best_scale(branches, wanted, room); s > 0) {
+    double s = best_scale(branches, wanted, room);
+    stage.small = s == 0;
+    if (stage.small) s = best_small_scale(branches, wanted, room);
+    if (s > 0) {
       stage.scale = s;
       stage.rows = tree.rows();
       stage.whole = true;
@@ -311,6 +349,7 @@ TreeStage stage_tree(const UnionTree& tree, const std::vector<TreeOfFrame>& tree
       return stage;
     }
   }
+  stage.small = false;
   stage.rows = std::min(tree.rows(), most_rows(room.y));
   stage.scale = fold_scale(tree, trees, atlas, stage.rows, room);
   return stage;
@@ -353,7 +392,7 @@ double tree_size_in(const Staging& staging, const Box<2>& panel) {
                       !staging.frames()[0]->get<FrameTextures>().textures.empty()};
   const std::vector<Branch> branches = TreeFold(nodes, wanted.atlas, {}).whole();
   const double s = best_scale(branches, wanted, room);
-  if (s == 0) return folded;
+  if (s == 0) return folded;  // or small
   const double width = spread(branches, wanted, TreeScale(1, tree.rows(), room.y), {}).width;
   // Rows come first: where they stand closer than their labels need, the tree is hard to read.
   constexpr double kAround = 16, kFacts = 36;  // margins, and the line of counts under the tree

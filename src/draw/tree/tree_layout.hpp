@@ -13,9 +13,12 @@
 namespace lantern::draw {
 
 // Measures at one scale; 1 is the size for a small tree. Boxes are as high as `rows` rows of them
-// leave room for in `height`.
+// leave room for in `height`. A `small` tree shows every node as a square with hardly a word, so
+// that one of a hundred nodes stands whole: a leaf's bodies are stripes of their colours, and where
+// squares are close only what is lit has its name.
 struct TreeScale {
-  TreeScale(double s, std::uint32_t rows, double height);
+  TreeScale(double s, std::uint32_t rows, double height, bool small = false);
+  bool small = false;
   double box_width;  // of a node with little in it
   double box_height;
   double gap;   // between neighbours
@@ -24,6 +27,7 @@ struct TreeScale {
   double text;
   double label;  // size of the type under a leaf
   double under;  // for that label, under the last row
+  bool names_all() const { return !small || box_width + gap >= 43; }
 };
 
 // Which words there is room for.
@@ -45,7 +49,7 @@ BranchText text_of(const Branch& branch, const FrameNode& node, bool atlas, cons
 bool is_long_way(const std::string& label);
 
 // Whether something is written under the branch's box.
-bool has_label_below(const Branch& branch, const FrameNode& node);
+bool has_label_below(const Branch& branch, const FrameNode& node, const TreeScale& scale);
 
 struct TreeLayout {
   std::vector<Branch> branches;
@@ -59,7 +63,7 @@ struct TreeLayout {
   std::uint32_t last_row = 0;   // of the group's tree
 
   // The corners of the line from a branch's parent to it. Where labels stand between the rows it
-  // goes straight down past them first.
+  // goes straight down past them first; in a small tree it goes down, across and down.
   std::vector<Vec<2>> edge(std::size_t branch) const;
 };
 
@@ -70,6 +74,7 @@ struct TreeStage {
   double scale = 1;
   std::uint32_t rows = 1;
   bool whole = false;  // `all` holds the union's places
+  bool small = false;  // which only small nodes fit into
   bool alone = false;  // the group is one frame
   TreeLayout all = {};
 };

@@ -22,8 +22,8 @@ struct Fact {
   bool new_line = false;
 };
 
-// Counts first, each in its place on all frames of the group; then, in lines of their own, what the
-// tree was told, where that is new.
+// Counts first, but for those that the foot has, each in its place on all frames of the group;
+// then, in lines of their own, what the tree was told, where that is new.
 std::vector<Fact> facts_of(const Frame& frame, const Staging& staging, const Box<2>& panel) {
   constexpr double kLeastForSettings = 330;  // height; on a lower one the rows need the room
   std::vector<Fact> facts;
@@ -33,8 +33,8 @@ std::vector<Fact> facts_of(const Frame& frame, const Staging& staging, const Box
   const std::pair<const char*, const char*> counted[] = {
       {"nodes", "node"}, {"leaves", "leaf"}, {"entries", "entry"}};
   for (const auto& [many, one] : counted)
-    if (const auto n = frame.count(many))
-      facts.push_back({*n == 1 ? one : many, n, many, staging.most(many)});
+    if (const auto n = staging.is_headed(many) ? std::nullopt : frame.count(many); n)
+      facts.push_back({*n == 1 ? one : many, *n, many, staging.most(many)});
   if (!frame.display.settings || !staging.tells_settings(frame) ||
       panel.size().y < kLeastForSettings)
     return facts;

@@ -17,12 +17,15 @@ class TreeView : PanelPicture {
       : PanelPicture(on), layout_(lay_out_tree(frame_, tree, stage)) {
     for (const Branch& branch : branches())  // rows come in order
       if (branch.row == says_holds_.size()) says_holds_.push_back(has_room_for_holds(branch.row));
+    for (const Branch& branch : branches()) leads_to_lit_.push_back(branch.mark == Mark::lit);
+    for (std::size_t i = branches().size(); i-- > 1;)
+      if (leads_to_lit_[i]) leads_to_lit_[branches()[i].parent] = true;
   }
 
   void draw() {
     for (const bool lit : {false, true})
       for (std::size_t i = 1; i < branches().size(); ++i)
-        if (is_lit_edge(branches()[i]) == lit) draw_edge(i, lit);
+        if (is_lit_edge(i) == lit) draw_edge(i, lit);
     for (std::size_t i = 0; i < branches().size(); ++i) draw_branch(i);
     for (std::size_t i = 0; i < branches().size(); ++i)
       if (branches()[i].kind != Branch::Kind::levels) labels_.block(layout_.boxes[i]);
@@ -60,10 +63,11 @@ class TreeView : PanelPicture {
     return {list_, node_key(what, frame_.nodes, node), parent_key(what, frame_.nodes, node)};
   }
 
-  bool is_lit_edge(const Branch& branch) const {
-    return branch.parent != kNone && branch.mark == Mark::lit &&
-           branches()[branch.parent].mark != Mark::quiet;
+  // The whole way down to what is lit, not its last step alone.
+  bool is_lit_edge(std::size_t i) const {
+    return leads_to_lit_[i] && branches()[i].mark != Mark::quiet;
   }
+  bool is_small() const { return layout_.scale.small; }
 
   void draw_edge(std::size_t i, bool lit) {
     const Role role = lit ? Role::lit : cell_line_role(node_of(branches()[i]).depth - 1);
@@ -72,6 +76,7 @@ class TreeView : PanelPicture {
     for (std::size_t k = 1; k < corners.size(); ++k) {
       const Vec<2>&a = corners[k - 1], &b = corners[k];
       const bool upright_or_level = a.x == b.x || a.y == b.y;
+      if (is_small()) labels_.block({glm::min(a, b) - 1.5, glm::max(a, b) + 1.5});
       list_.shapes.emplace_back(LineShape{a, b, {role, lit ? 2.8 : 2.0}, upright_or_level});
     }
   }
@@ -111,6 +116,7 @@ class TreeView : PanelPicture {
       if (branch.copies == 1) labels_.tell_place(target_of_node(node.label), box);
       labels_.tell_body(box);
     }
+    if (is_small()) return draw_small(i);
     if (is_atlas() && branch.kind == Branch::Kind::node && !node_of(branch).leaf)
       draw_cut(node_of(branch), box, outline.role);
     else
@@ -122,6 +128,51 @@ class TreeView : PanelPicture {
       if (place != kNone) draw_met(place, box.lo + Vec<2>(2, -11), panel_, list_, labels_);
     }
     if (frame_.sleeps(node)) draw_zz(box.lo + Vec<2>(-9, -9), 24, 1.8, list_);
+  }
+
+  // In a small node: its bodies as stripes of their colours, and what fits of its marks.
+  void draw_small(std::size_t i) {
+    constexpr double kForMarks = 26;
+    constexpr std::size_t kMostStripes = 4;
+    const FrameNode& node = node_of(branches()[i]);
+    const Box<2>& box = layout_.boxes[i];
+    const std::size_t stripes = std::min(node.leaf ? node.bodies.size() : 0, kMostStripes);
+    if (stripes == 1 && layout_.scale.icon >= 12)
+      draw_icon(node.bodies[0], branches()[i],
+                Box<2>::around(box.center(), Vec<2>(0.5 * layout_.scale.icon)));
+    else if (stripes > 0) {
+      const auto places = split(shrunk(box, 2.6), 0, std::vector<double>(stripes, 1.0), 1);
+      for (std::size_t k = 0; k < stripes; ++k)
+        list_.rect(places[k], color_of(node.bodies[k]), {}, 1);
+    }
+    if (!node.leaf && says_name_inside(i)) {
+      const TextStyle style{kLeastLabel, Weight::semibold, Role::ink};
+      write(node.label, centred(box.center(), style), style);
+    }
+    const bool has_room = box.size().x >= kForMarks;
+    if (node.over_capacity && has_room) draw_badge(box);
+    if (is_topmost_skipped(node, frame_)) {
+      if (has_room)
+        draw_skipped({box.hi.x - 2, box.lo.y - 1}, list_);
+      else
+        list_.line(box.lo, box.hi, {Role::quiet_ink, 1.6});
+    }
+    if (frame_.sleeps(node) && has_room) draw_zz(box.lo + Vec<2>(-9, -9), 24, 1.8, list_);
+  }
+
+  bool says_name_inside(std::size_t i) const {
+    const std::string& label = node_of(branches()[i]).label;
+    const Vec<2> room = layout_.boxes[i].size() - Vec<2>(8, 4);
+    return !label.empty() && room.y >= kLeastLabel * 0.8 &&
+           text_width(label, kLeastLabel, Weight::semibold) <= room.x;
+  }
+
+  Role color_of(BodyId id) const {
+    if (is_atlas())
+      return body_role(
+          std::ranges::find(frame_.get<FrameTextures>().textures, id, &FrameTexture::id)->color);
+    const FrameBody* body = body_of(bodies_, id);
+    return body ? fill_of(*body) : Role::quiet_ink;
   }
 
   // A dashed line where levels are left out.
@@ -205,7 +256,8 @@ class TreeView : PanelPicture {
     const FrameNode& node = node_of(branch);
     const DrawList::Scope scope = named("tree/name", i);
     if (branch.kind == Branch::Kind::levels) return label_levels(branch, layout_.boxes[i].center());
-    if (!has_label_below(branch, node)) return;
+    if (is_small()) return label_small(i);
+    if (!has_label_below(branch, node, layout_.scale)) return;
     TextStyle style{layout_.scale.label, Weight::semibold, Role::quiet_ink, Role::paper};
     if (branch.mark == Mark::lit) style.role = Role::lit_ink;
     if (node.over_capacity && node.leaf) style.role = Role::warning;
@@ -217,6 +269,30 @@ class TreeView : PanelPicture {
       if (text_width(text, style) <= room && try_write(text, {under}, style)) return;
     if (branch.copies == 1 && short_label(node.label).empty())
       try_write(shortened(node.label, room, style), {under}, style);
+  }
+
+  // Of a small tree: names, and a node's place on a ray's way, where there is room.
+  void label_small(std::size_t i) {
+    const Branch& branch = branches()[i];
+    const FrameNode& node = node_of(branch);
+    const Box<2>& box = layout_.boxes[i];
+    const Vec<2> c = box.center();
+    if (const std::uint32_t place = node.met != kNone ? node.met : node.order; place != kNone)
+      for (const Vec<2>& at : {Vec<2>(c.x, box.hi.y + 17), Vec<2>(c.x, box.lo.y - 17)})
+        if (draw_met(place, at, panel_, list_, labels_)) return;
+    const bool warns = node.over_capacity && node.leaf, lit = branch.mark == Mark::lit;
+    if (!warns && !lit && !(node.leaf && layout_.scale.names_all())) return;
+    const TextStyle style{layout_.scale.label, Weight::semibold,
+                          warns ? Role::warning
+                          : lit ? Role::lit_ink
+                                : Role::quiet_ink,
+                          Role::paper};
+    if (!node.leaf && says_name_inside(i)) return;
+    const Anchor under{{c.x, box.hi.y + 4 + 0.78 * style.size}, 0.5};
+    const Anchor right = centred({box.hi.x + 6, c.y}, style, 0);
+    const Anchor left = centred({box.lo.x - 6, c.y}, style, 1);
+    for (const std::string& text : label_choices(branch))
+      if (!text.empty() && try_write(text, {under, right, left}, style)) return;
   }
 
   // Where rows stand too close for words between them: in the gap to a neighbour, if that is wide
@@ -290,19 +366,15 @@ class TreeView : PanelPicture {
     return true;
   }
 
-  // Which side of the plane a child is.
+  // Which side of the plane a child is; a leaf says so by its name.
   std::string side_of(const Branch& branch) const {
-    const bool behind = node_of(branch).slot == 0;
-    if (is_level(frame_)) return "";  // its lines have no names to tell them by
-    if (traits_of(frame_.structure).names == NodeNames::sides)
-      return behind ? "behind" : "in front";
-    if (node_of(branch).parent == kNone) return "";
-    const FrameNode& parent = frame_.nodes[node_of(branch).parent];
-    if (!traits_of(frame_.structure).is_fitted || !parent.plane) return "";
-    const Vec<3>& normal = parent.plane->normal;
-    if (normal.x != 0) return behind ? "left" : "right";
-    if (normal.y != 0) return behind ? "below" : "above";
-    return behind ? "behind" : "in front";
+    const FrameNode& node = node_of(branch);
+    if (is_level(frame_) || node.parent == kNone) return "";  // lines without names
+    const FrameNode& parent = frame_.nodes[node.parent];
+    const StructureTraits& traits = traits_of(frame_.structure);
+    if (traits.names == NodeNames::sides)
+      return !node.leaf || leaf_names(frame_, node).empty() ? side_word(parent, node.slot) : "";
+    return traits.is_fitted && parent.plane ? side_word(parent, node.slot) : "";
   }
 
   void label_edge(std::size_t i) {
@@ -322,7 +394,8 @@ class TreeView : PanelPicture {
   }
 
   TreeLayout layout_;
-  std::vector<bool> says_holds_;  // by row
+  std::vector<bool> says_holds_;    // by row
+  std::vector<bool> leads_to_lit_;  // by branch
   BodiesById bodies_ = by_id(frame_.bodies);
 };
 

@@ -29,9 +29,10 @@ struct FrameTexture {
 struct FrameTextures {
   static constexpr std::string_view kName = "textures";
   std::vector<FrameTexture> textures;
+  Vec<2> asked{0.0};  // the size that the step asks a room for; 0: it does not
 
   static auto fields(auto& r, auto&& v) {
-    return v.when(!r.textures.empty(), "textures", r.textures);
+    return v.when(!r.textures.empty(), "textures", r.textures).drawn(r.asked);
   }
   void add_state(Hash& hash) const;
 };

@@ -129,6 +129,13 @@ TableDoc step_table() {
           range(1, 40), or_else("adds none")),
       key(KeyType::texts, "headline", "The scenario's `headline` from here on.",
           or_else("as before")),
+      key(KeyType::texts, "lit",
+          "What is lit on the step's frames, but for those of events: bodies by their names, nodes "
+          "by their labels, with the way down to them. `[]` lights nothing.",
+          range(0, 100), or_else("what the step does")),
+      key(&Step::panels, "panels",
+          "Those of the scenario's own `panels` that are shown from here on.",
+          or_else("as before")),
       key(KeyType::tables, "ruler", "Lengths that are measured on the step's frames.",
           at_most(kMostRulers), holds("step.ruler")),
       key(KeyType::table, "code",

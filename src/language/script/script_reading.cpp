@@ -119,6 +119,10 @@ class ScriptReader {
     read_look(table, step, draft_);
     read_notes(table, step, draft_, state_);
     step.headline = read_headline(table, draft_, &state_);
+    check_panels(table, step);
+    if (table.has("lit")) step.lit.emplace();
+    for (const Named& name : table.names("lit"))
+      step.lit->push_back({name.name, draft_.position(name.where)});
     step.rulers = read_rulers(table, script_);
     read_code(table, step, draft_);
     note_ending(table, step);
@@ -133,6 +137,17 @@ class ScriptReader {
   const ScriptState& state() const { return state_; }
 
  private:
+  // All that frames show is known from the file's beginning on, so steps choose among that.
+  void check_panels(const TableReader& table, const Step& step) {
+    const std::vector<Panel>& all = draft_.scenario.panels;
+    std::size_t i = 0;
+    for (const Named& written : table.names("panels"))
+      if (const Panel panel = step.panels[i++]; std::ranges::find(all, panel) == all.end())
+        draft_.problems.add(written.where,
+                            fmt::format("'{}' is not among the scenario's panels", written.name),
+                            "name all of them at the top: panels = [\"world\", …]");
+  }
+
   // Only the last step ends the sequence.
   void note_ending(const TableReader& table, const Step& step) {
     if (ending_ && !told_ending_) {
