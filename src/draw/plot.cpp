@@ -65,8 +65,9 @@ class Drawing {
     paper_.place.strip = edge_height([](const PlotPoint& p) { return p.beyond; }, 6);
     paper_.place.ground = edge_height([&](const PlotPoint& p) { return is_on_ground(p); }, 10);
     y_ = y_axis(ticks_in(1));
-    area_.hi.x -= plot_.names == PlotNames::column ? column_width(column(), paper_, plot_.over_time)
-                                                   : 0.9 * plot_.size;
+    area_.hi.x -= plot_.names == PlotNames::column
+                      ? column_width(widest_column(), paper_, plot_.over_time)
+                      : 0.9 * plot_.size;
     paper_.reserve_y(y_);
     area_.hi = glm::max(area_.hi, area_.lo + 10.0);
     x_ = plot_.over_time && plot_.seconds
@@ -148,16 +149,28 @@ class Drawing {
   // A number is finer than the ticks are, or what has changed would not be seen.
   std::vector<ColumnName> column() const {
     std::vector<ColumnName> names;
-    const int decimals = y_.decimals() > 1 && y_.decimals() < 7 ? y_.decimals() + 1 : 0;
     for (const PlotSeries& series : plot_.series) {
       ColumnName& name = names.emplace_back();
       if (plot_.series.size() > 1) name.name = series.name;
       const auto newest = std::find_if(series.points.rbegin(), series.points.rend(),
                                        [&](const PlotPoint& p) { return is_drawn(p); });
       if (newest == series.points.rend()) continue;
-      const double y = newest->at.y;
-      name.number = decimals > 0 ? number_text(y, decimals) : short_number(y);
+      name.number = number_beside(newest->at.y);
     }
+    return names;
+  }
+  std::string number_beside(double y) const {
+    const int decimals = y_.decimals() > 1 && y_.decimals() < 7 ? y_.decimals() + 1 : 0;
+    return decimals > 0 ? number_text(y, decimals) : short_number(y);
+  }
+  // With the longest number of the sequence, so that the axes keep their length.
+  std::vector<ColumnName> widest_column() const {
+    std::vector<ColumnName> names = column();
+    if (!plot_.range) return names;
+    for (ColumnName& name : names)
+      for (const double y : {plot_.range->first, plot_.range->second})
+        if (const std::string number = number_beside(y); number.size() > name.number.size())
+          name.number = number;
     return names;
   }
 

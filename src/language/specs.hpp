@@ -215,11 +215,12 @@ struct LevelSpec {
 inline constexpr std::string_view kTimeAxis = "time";
 
 struct ChartSpec {
-  std::string x;                // a count or measure, or "time"; empty for bars
-  std::vector<std::string> y;   // counts and measures; of bars one
-  bool logarithmic = false;     // but for time
-  bool each_part = false;       // over time: lines begin anew with each part
-  std::optional<double> least;  // of the y axis; none: what is there
+  std::string x;                    // a count or measure, or "time"; empty for bars
+  std::vector<std::string> y;       // counts and measures; of bars one
+  std::vector<std::string> labels;  // of the lines; none: what `y` says
+  bool logarithmic = false;         // but for time
+  bool each_part = false;           // over time: lines begin anew with each part
+  std::optional<double> least;      // of the y axis; none: what is there
   std::optional<double> most;
   bool over_time() const { return x == kTimeAxis; }
   SourcePosition where;

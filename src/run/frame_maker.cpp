@@ -387,14 +387,20 @@ void FrameMaker::add_rulers(Frame& frame) const {
 }
 
 // The leaves of an atlas that are large enough.
+// The free leaves that were asked: lit where there is room, passed where there is none.
 void FrameMaker::light_room(Frame& frame) const {
   const auto* ask = std::get_if<AskRoom>(&step_->verb);
-  if (!ask) return;
-  frame.add<FrameTextures>().asked = {ask->width, ask->height};
+  if (ask) frame.add<FrameTextures>().asked = {ask->width, ask->height};
+  const auto* pack = std::get_if<Pack>(&step_->verb);
+  const auto is_refused = [&](std::size_t texture) {
+    return frame.get<FrameTextures>().textures[texture].refused;
+  };
+  if (!ask && !(pack && std::ranges::any_of(pack->textures, is_refused))) return;
   for (FrameNode& node : frame.nodes)
-    if (node.leaf && node.bodies.empty() && node.box.size().x >= ask->width &&
-        node.box.size().y >= ask->height)
-      node.mark = Mark::lit;
+    if (node.leaf && node.bodies.empty())
+      node.mark = ask && node.box.size().x >= ask->width && node.box.size().y >= ask->height
+                      ? Mark::lit
+                      : Mark::passed;
 }
 
 std::optional<std::string> FrameMaker::text_of(std::string_view name, const Frame& frame) const {

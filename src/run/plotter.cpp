@@ -60,11 +60,12 @@ Plotter::Plotter(const Scenario& scenario) : scenario_(scenario), spec_(*scenari
   chart_.least = spec_.least;
   chart_.most = spec_.most;
   if (over_time()) chart_.seconds = script_seconds(scenario, spec_.each_part ? &part_ : nullptr);
-  if (name_by_sides(scenario)) return;
-  if (spec_.x.empty())
+  if (scenario.sides.empty() && spec_.x.empty())
     chart_.y_name = spec_.y[0], chart_.y_unit = unit_of(spec_.y[0]);
-  else
+  else if (!name_by_sides(scenario))
     name_series(scenario);
+  for (std::size_t i = 0; i < std::min(spec_.labels.size(), chart_.series.size()); ++i)
+    chart_.series[i].label = spec_.labels[i];
 }
 
 // Where all lines tell the same of different sides, each has its side's name; so do bars.

@@ -47,6 +47,8 @@ inline constexpr CountDoc kStructureCounts[] = {
      "Tests of a body against a node or plane since the tree was built; of `sort_and_sweep`, "
      "comparisons while sorting; of a `grid`, bodies put into their cells; of an `aabb_tree`, when "
      "it last followed its bodies."},
+    {"tests", when::inside, "test in all/tests in all",
+     "`box_tests` and `pair_tests` together: all that finding the pairs has taken."},
     {"splits", when::structure, "", "Leaves that split since the tree was built."},
     {"static_builds", when::split, "static build/static builds",
      "How often the structure of what never moves was built."},
@@ -373,6 +375,7 @@ void picture_structure(const StructureSpec& spec, const World<D>& world, bool te
   frame.add_count("overlaps", chain.overlapping.size());
   const bool inside = !traits_of(spec.kind).is_own;
   if (inside) frame.add_count("box_tests", c.box_tests);
+  if (inside) frame.add_count("tests", c.box_tests + chain.met);
   frame.add_count("splits", c.splits);
   if (inside) frame.add_count("nodes_reused", c.nodes_reused);
   if (inside) frame.add_count("allocations", c.allocations);

@@ -169,6 +169,53 @@ TEST(TreeView, CountsStandWhereTheyDidAndInFrontOfNothing) {
   }
 }
 
+TEST(TreeLayout, ShowsAllNodesAsSquaresWhereWordsHaveNoRoom) {
+  const Frame frame = samples::coincident(4);
+  const TreeLayout layout = lay_out_alone(frame, {{0, 0}, {420, 500}});
+  EXPECT_TRUE(layout.scale.small);
+  EXPECT_EQ(layout.branches.size(), frame.nodes.size());
+}
+
+TEST(TreeLayout, SquaresStayWhereTheyAreWhileTheTreeGrows) {
+  const std::vector<Frame> frames{samples::coincident(2), samples::coincident(4)};
+  const Staging staging(frames);
+  const UnionTree& tree = staging.trees()[0];
+  const TreeStage stage =
+      stage_tree(tree, {{frames[0].nodes, {}}, {frames[1].nodes, {}}}, false, {{0, 0}, {420, 500}});
+  const TreeLayout few = lay_out_tree(frames[0], tree, stage),
+                   many = lay_out_tree(frames[1], tree, stage);
+  ASSERT_TRUE(many.scale.small);
+  ASSERT_LT(few.ways.size(), many.ways.size());
+  for (std::size_t i = 0; i < few.ways.size(); ++i) {
+    const auto same = std::ranges::find(many.ways, few.ways[i]) - many.ways.begin();
+    EXPECT_EQ(few.boxes[i].lo, many.boxes[std::size_t(same)].lo) << few.ways[i];
+  }
+}
+
+TEST(TreeView, LightsTheWholeWayDown) {
+  Frame frame = samples::ghosts(4);
+  for (FrameNode& node : frame.nodes) node.mark = Mark::quiet;
+  const auto lit_edges = [&] {
+    DrawList list;
+    Labels labels(list);
+    draw_tree(frame, Staging(frame), {{0, 0}, {740, 580}}, list, labels);
+    std::set<std::string> edges;
+    for (std::size_t i = 0; i < list.runs.size(); ++i)
+      if (list.runs[i].key.starts_with("tree/edge/") && list.runs[i].first < list.shapes.size())
+        if (const auto* line = std::get_if<LineShape>(&list.shapes[list.runs[i].first]))
+          if (line->stroke.role == Role::lit) edges.insert(list.runs[i].key);
+    return edges.size();
+  };
+  EXPECT_EQ(lit_edges(), 0u);
+  for (std::uint32_t i = 0; i < frame.nodes.size(); ++i) {
+    if (frame.nodes[i].depth != 2) continue;
+    frame.nodes[i].mark = Mark::lit;
+    frame.nodes[frame.nodes[i].parent].mark = Mark::passed;
+    break;
+  }
+  EXPECT_EQ(lit_edges(), 2u);
+}
+
 TEST(TreeLayout, SmallTreesAreNotFolded) {
   const TreeLayout layout = lay_out_alone(samples::ghosts(4), {{0, 0}, {740, 580}});
   EXPECT_EQ(layout.branches.size(), 9u);

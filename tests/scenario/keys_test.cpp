@@ -962,6 +962,14 @@ std::vector<KeyCase> key_cases() {
     cases.push_back({table, "ending", {"true", "false"}, bad_truth()});
     cases.push_back({table, "ruler", {}, {{"@1", "[[step.ruler]]"}}});
     cases.push_back({table, "headline", {}, bad_headline()});
+    cases.push_back({table,
+                     "lit",
+                     {"[]", "[\"red\"]"},
+                     {{"@1", "must be a list"}, {"[@1]", "a list of texts"}}});
+    cases.push_back({table,
+                     "panels",
+                     {},
+                     {{"@\"world\"", "must be a list"}, {"[@\"wrld\"]", "did you mean 'world'?"}}});
     cases.push_back({table, "expect", {"{}"}, bad_table("[expect]")});
     cases.push_back({table, "always", {"{}"}, bad_table("[expect]")});
     cases.push_back({table, "display", {"{}"}, bad_table("[display]")});

@@ -148,6 +148,47 @@ TEST(Told, AreTheNumbersThatACaptionQuotes) {
   EXPECT_TRUE(frames[1].ending);
 }
 
+TEST(Lighting, IsWhatAStepNames) {
+  const std::string both = "do = \"insert\"\nbodies = [\"a\", \"b\", \"c\"]";
+  const auto frames = frames_of(scene("", kThree,
+                                      {both, "do = \"show\"\nlit = [\"a\", \"4\"]",
+                                       "do = \"remove\"\nbodies = [\"c\"]\nlit = []"}));
+  EXPECT_TRUE(body(frames[1], "a").lit);
+  EXPECT_FALSE(body(frames[1], "b").lit);
+  EXPECT_EQ(lit_leaves(frames[1]), Names{"4"});
+  EXPECT_EQ(node(frames[1], "root").mark, Mark::passed) << "the way down to it";
+  EXPECT_FALSE(lights_anything(frames[2]));
+}
+
+TEST(Lighting, OfWhatIsNotThereIsAnUnmetPromise) {
+  Work work;
+  const auto report =
+      direct(scene("", kThree, {"do = \"insert\"\nbodies = [\"a\"]\nlit = [\"a\", \"1.3\"]"}),
+             Pace::step, work, [](const Frame&) { return true; });
+  ASSERT_EQ(report.unmet.count(), 1u);
+  EXPECT_NE(report.unmet.told()[0].message.find("'1.3' is to be lit on frame 0"),
+            std::string::npos);
+}
+
+TEST(Panels, OfAStepStayUntilOthersAreNamed) {
+  const std::string text =
+      "panels = [\"world\", \"tree\", \"ledger\"]\n" +
+      world_text("size = [16, 16]",
+                 kTreeOfTwo + kThree +
+                     steps({"do = \"show\"\npanels = [\"world\"]", "do = \"show\"",
+                            "do = \"show\"\npanels = [\"tree\", \"world\"]"}));
+  const auto frames = frames_of(good(text));
+  EXPECT_EQ(frames[0].panels, std::vector{panel_named("world")});
+  EXPECT_EQ(frames[1].panels, frames[0].panels);
+  EXPECT_EQ(frames[2].panels, (std::vector{panel_named("tree"), panel_named("world")}));
+}
+
+TEST(Panels, OfAStepAreAmongTheScenarios) {
+  expect_mistakes("panels = [\"world\"]\n" + world_text("size = [16, 16]", kTreeOfTwo + kThree) +
+                      "[[step]]\ndo = \"show\"\npanels = [\"world\", @\"tree\"]\n",
+                  {"'tree' is not among the scenario's panels"});
+}
+
 TEST(Told, OnlyTheLastStepIsAnEnding) {
   expect_mistakes(world_text("size = [16, 16]", kTreeOfTwo + kThree) +
                       "[[step]]\ndo = \"show\"\n@ending = true\n[[step]]\ndo = \"show\"\n",

@@ -227,7 +227,7 @@ Plot plot_of(const FrameChart& chart, const AxisRanges& axes) {
   });
   for (const FrameSeries& series : chart.series) {
     PlotSeries& line = plot.series.emplace_back();
-    line.name = chart_words(series.name);
+    line.name = series.label.empty() ? chart_words(series.name) : series.label;
     line.look = static_cast<int>(plot.series.size()) - 1;
     line.color = series.color;
     if (const auto look = of_structures ? look_of_structure(line.name) : std::nullopt)

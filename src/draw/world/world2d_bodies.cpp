@@ -211,15 +211,16 @@ void name_bodies(const World2D& w) {
 }
 
 std::size_t draw_crowd(const World2D& w) {
-  constexpr double kSquare = 18;
+  constexpr std::size_t kMostMarks = 4000;
+  constexpr double kMostCrowdMark = 18;  // across
+  const double square = w.frame.bodies.size() > kMostMarks ? kMostCrowdMark : 3;
   std::set<std::pair<long, long>> taken;
   for (const FrameBody& body : w.frame.bodies) {
     if (is_half_space(body) || is_outside(body, w.frame)) continue;
     const Vec<2> p = w.map.to_page(body.box.center());
-    const auto square = std::pair{std::lround(p.x / kSquare), std::lround(p.y / kSquare)};
-    if (!taken.insert(square).second) continue;
+    if (!taken.insert({std::lround(p.x / square), std::lround(p.y / square)}).second) continue;
     const Box<2> box = page_box(body, w.map);
-    const Vec<2> half{std::min(box.size().x, kSquare) / 2, std::min(box.size().y, kSquare) / 2};
+    const Vec<2> half = glm::min(box.size(), kMostCrowdMark) * 0.5;
     draw_character(body, Box<2>::around(box.center(), half), true, w.list);
   }
   return taken.size();

@@ -13,8 +13,9 @@ struct FrameSeries {
   std::string name;            // of the count or measure, or of the body it is of
   std::vector<Vec<2>> points;  // in the order of the steps
   int color = 0;               // of the body; 0: whichever is next
+  std::string label = {};      // that the scenario gives it, or empty
 
-  static auto fields(auto& r, auto&& v) { return v.drawn(r.name, r.points, r.color); }
+  static auto fields(auto& r, auto&& v) { return v.drawn(r.name, r.points, r.color, r.label); }
 };
 
 // How often each structure, or each step, counted something, as bars.

@@ -52,6 +52,11 @@ void read_lines(const TableReader& table, ChartSpec& chart, Draft& draft) {
                          fmt::format("{} stands twice in 'y'", in_quotes(number.name)));
     chart.y.push_back(number.name);
   }
+  for (const Named& label : table.names("labels")) chart.labels.push_back(label.name);
+  if (!chart.labels.empty() && chart.labels.size() != chart.y.size())
+    table.bad_value("labels",
+                    fmt::format("{} labels for {} lines", chart.labels.size(), chart.y.size()),
+                    "one for each of 'y'");
   constexpr std::size_t kMostLines = 8;  // as many as a theme has colours
   if (chart.y.size() > kMostLines)
     table.bad_value(
@@ -92,6 +97,8 @@ TableDoc chart_table() {
       key(KeyType::text, "bars", "The count that bars show, instead of lines.", range(1, 64)),
       key(KeyType::texts, "y", "Counts and measures, each a line; of one body as `energy.bob`.",
           or_else("none")),
+      key(KeyType::texts, "labels", "What the lines are called, one for each of `y`.",
+          or_else("what `y` says")),
       key(&C::logarithmic, "logarithmic", "Logarithmic axes; time never has one."),
       key(&C::least, "least", "Where the y axis begins; lines leave the picture below it.",
           range(-1e12, 1e12), or_else("where the lines do")),
