@@ -92,11 +92,8 @@ std::vector<Counter> default_counters(const Frame& frame) {
   const auto add = [&](std::int64_t n, const char* one, const char* many, const char* name) {
     counters.push_back(counted(n, n == 1 ? one : many, many, {name}));
   };
-  // With contacts only those of them are tested whose boxes overlap.
-  if (pairs && frame.count("contacts"))
+  if (pairs)
     add(*pairs, "candidate pair", "candidate pairs", "pairs");
-  else if (pairs)
-    add(*pairs, "pair to test", "pairs to test", "pairs");
   else if (bodies)
     add(*bodies, "body", "bodies", "bodies");
   if (const auto all = frame.count("testable_pairs"); all && !counters.empty())

@@ -25,7 +25,7 @@ DrawList draw_frame(const Frame& frame, const Staging& staging, const Vec<2>& pa
 // The same of a frame that stands alone.
 DrawList draw_frame(const Frame& frame, const Vec<2>& page, Work& work);
 
-// The numbers beside the caption, as "3 pairs to test", the main one first; at most three.
+// The numbers beside the caption, as "3 candidate pairs", the main one first; at most three.
 std::vector<std::string> counter_texts(const Frame& frame);
 
 // Does the world panel show any body that is no ground? What another body hides counts as shown,

@@ -19,7 +19,7 @@ constexpr const char* kTexts[] = {
     "{2} does not reach {1}.",
     "{3} is made, because something enters it.",
     "{3} stores {0} and now holds {4}, more than its limit of {5}.",
-    "{3} holds {4}, its limit is {5}: it splits.",
+    "{3} holds {4}, its limit is {5}: it must split.",
     "{3} hands {0} down to its children.",
     "{3} holds {4}, its limit is {5}. But it lies at depth {6}, and no node may lie deeper: it "
     "stays a leaf.",

@@ -30,7 +30,7 @@ inline constexpr CountDoc kStructureCounts[] = {
      Most::parts},
     {"most_in_leaf", when::structure, "in the fullest leaf", "Bodies in the fullest leaf.",
      Most::bodies},
-    {"pairs", when::structure, "",
+    {"pairs", when::structure, "candidate pair/candidate pairs",
      "Unique candidate pairs: bodies that share a leaf; of structures that compare boxes without "
      "leaves (`sort_and_sweep`, `grid`, `aabb_tree`) those that are compared.",
      Most::pairs},

@@ -163,10 +163,10 @@ TEST(Switches, LeaveOutWhatTheySay) {
     return page_of(changed);
   };
   const DrawList all = page_of(frame);
-  ASSERT_TRUE(says(all, frame.title) && says(all, "pairs to test") && says(all, "capacity 2"));
+  ASSERT_TRUE(says(all, frame.title) && says(all, "candidate pairs") && says(all, "capacity 2"));
   ASSERT_TRUE(says(all, frame.bodies[0].name));
   EXPECT_FALSE(says(list_with([](Display& d) { d.title = false; }), frame.title));
-  EXPECT_FALSE(says(list_with([](Display& d) { d.counters = false; }), "pairs to test"));
+  EXPECT_FALSE(says(list_with([](Display& d) { d.counters = false; }), "candidate pairs"));
   EXPECT_FALSE(says(list_with([](Display& d) { d.settings = false; }), "capacity 2"));
   EXPECT_FALSE(
       says(list_with([](Display& d) { d.names = ShownNames::none; }), frame.bodies[0].name));

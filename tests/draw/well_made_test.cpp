@@ -78,9 +78,9 @@ std::vector<std::string> faults_of(const std::vector<Frame>& frames) {
 // Those that are not well made yet. None may join them, and one that is mended leaves.
 const std::set<std::string> kToBeMended = {};
 
-class EverySequence : public testing::TestWithParam<std::string> {};
+class EveryCourse : public testing::TestWithParam<std::string> {};
 
-TEST_P(EverySequence, IsWellMade) {
+TEST_P(EveryCourse, IsWellMade) {
   const std::vector<std::string> faults = faults_of(run::frames_of(GetParam()));
   if (kToBeMended.contains(GetParam()))
     EXPECT_FALSE(faults.empty()) << GetParam() << " is mended: take it off the list";
@@ -89,7 +89,7 @@ TEST_P(EverySequence, IsWellMade) {
                                 << faults.front();
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenarios, EverySequence, testing::ValuesIn(run::all_scenarios()),
+INSTANTIATE_TEST_SUITE_P(Scenarios, EveryCourse, testing::ValuesIn(run::all_scenarios()),
                          [](const auto& each) { return each.param; });
 
 }  // namespace

@@ -49,7 +49,7 @@ TEST(Facts, GhostsAreTheSameByStepAndByEvent) {
 
 TEST(Facts, EventsAreToldInWords) {
   const auto events = frames_of("ghost_quadtree", Pace::event);
-  EXPECT_EQ(at(events, "split").caption, "The root holds 3, its limit is 2: it splits.");
+  EXPECT_EQ(at(events, "split").caption, "The root holds 3, its limit is 2: it must split.");
   for (const char* event : {"test", "store", "split", "hand_down"}) at(events, event);
 }
 

@@ -48,7 +48,7 @@ std::string key_text(PairState state, std::uint64_t n, const Frame& frame) {
       frame.count("contacts").has_value() && frame.phase != frame::StepPhase::broad;
   const bool one = n == 1;
   const char* const overlap = one ? "box overlap" : "box overlaps";
-  const char* const candidate = one ? "candidate" : "candidates";
+  const char* const candidate = one ? "candidate pair" : "candidate pairs";
   const char* const words[] = {"static, never tested",
                                looked ? "ruled out" : "not looked at",
                                compared ? overlap : candidate,

@@ -110,8 +110,8 @@ void hatch(const Box<2>& box, DrawList& list) {
 void hatch_unmade(const World2D& w) {
   constexpr double kLeastHatched = 30;
   constexpr std::size_t kMostShapes = 1200;
-  for (const Box<2>& quarter : unmade_quarters(w.frame)) {
-    const Box<2> box = seen_of(w.map.to_page(quarter), w.map);
+  for (const Unmade& unmade : unmade_quarters(w.frame)) {
+    const Box<2> box = seen_of(w.map.to_page(unmade.quarter), w.map);
     if (std::min(box.size().x, box.size().y) < kLeastHatched) continue;
     if (w.list.shapes.size() > kMostShapes) return;
     w.list.crisp_rect(box, Role::paper);
@@ -147,8 +147,8 @@ void fill_cells(World2D& w) {
   if (nearly_all_lit(w.frame)) return;
   std::vector<Painted> painted = painted_of(w.frame);
   std::erase_if(painted, [&](const Painted& p) {
-    // The whole world in one tone would tell nothing: it has its outline.
-    return p.node == 0 || is_no_cell(w.frame, w.frame.nodes[p.node]) ||
+    // What the whole world has been passed for tells nothing.
+    return (p.node == 0 && p.tone != Mark::lit) || is_no_cell(w.frame, w.frame.nodes[p.node]) ||
            !is_drawn(cell_of(w, w.frame.nodes[p.node]));
   });
   if (painted.size() > kMostFills) return;  // some alone would say what is not so

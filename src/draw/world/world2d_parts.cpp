@@ -134,16 +134,20 @@ bool label_cell(const World2D& w, const FrameNode& node, const std::string& name
 void label_unmade(const World2D& w) {
   const TextStyle style{kLabel, Weight::regular, Role::quiet_ink, Role::paper};
   constexpr std::size_t kMostNamed = 3;  // then the hatching is known
-  std::vector<Box<2>> quarters = unmade_quarters(w.frame);
-  std::ranges::stable_sort(quarters, std::greater(), [](const Box<2>& q) { return q.size().x; });
+  std::vector<Unmade> unmade = unmade_quarters(w.frame);
+  std::ranges::stable_sort(unmade, std::greater(),
+                           [](const Unmade& one) { return one.quarter.size().x; });
   std::size_t named = 0;
-  for (const Box<2>& quarter : quarters) {
+  for (const Unmade& one : unmade) {
     if (named == kMostNamed) return;
-    const Box<2> box = w.map.to_page(quarter);
+    const Box<2> box = w.map.to_page(one.quarter);
     const Anchor anchor{{box.center().x, box.center().y + 6}, 0.5};
-    const Box<2> extent = Labels::extent("not made", anchor, style);
-    if (!touches(w.covered, extent) && holds(shrunk(box, 8), extent))
-      named += w.labels.try_add("not made", {anchor}, style, w.map.picture());
+    for (const std::string& words : {one.label + " not made", std::string("not made")}) {
+      const Box<2> extent = Labels::extent(words, anchor, style);
+      if (touches(w.covered, extent) || !holds(shrunk(box, 8), extent)) continue;
+      named += w.labels.try_add(words, {anchor}, style, w.map.picture());
+      break;
+    }
   }
 }
 
@@ -207,8 +211,8 @@ Role ground_at(const Grounds& grounds, const Vec<2>& point) {
   return Role::panel;
 }
 
-std::vector<Box<2>> unmade_quarters(const Frame& frame) {
-  std::vector<Box<2>> quarters;
+std::vector<Unmade> unmade_quarters(const Frame& frame) {
+  std::vector<Unmade> quarters;
   if (frame.structure != StructureKind::quadtree) return quarters;
   std::vector<unsigned> made(frame.nodes.size());  // a bit for each child
   for (const FrameNode& node : frame.nodes)
@@ -226,7 +230,8 @@ std::vector<Box<2>> unmade_quarters(const Frame& frame) {
       const Vec<2> middle = quarter.center();
       ((slot & 1u) != 0 ? quarter.lo : quarter.hi).x = middle.x;
       ((slot & 2u) == 0 ? quarter.lo : quarter.hi).y = middle.y;
-      quarters.push_back(quarter);
+      const std::string way = node.parent == kNone ? "" : node.label + ".";
+      quarters.push_back({quarter, way + std::to_string(slot + 1)});
     }
   }
   return quarters;

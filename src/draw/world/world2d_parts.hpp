@@ -60,7 +60,11 @@ bool inside(const Polygon& polygon, const Vec<2>& point);
 bool inside(const Polygon& polygon, const Box<2>& box);
 
 // The quarters of quadtree nodes for which no child was made, in the world.
-std::vector<Box<2>> unmade_quarters(const Frame& frame);
+struct Unmade {
+  Box<2> quarter;
+  std::string label;  // that its node would have
+};
+std::vector<Unmade> unmade_quarters(const Frame& frame);
 
 // Cells and dividing lines; leaves what it painted in the world's grounds. False if there are too
 // many cells, and the smallest are left out.
