@@ -90,7 +90,8 @@ struct KeyDoc {
   std::string_view otherwise = {};  // the default in words, where it depends on other things
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
-  bool above_least = false;  // `least` itself is not allowed
+  bool above_least = false;   // `least` itself is not allowed
+  bool may_be_empty = false;  // of a list
   std::string_view unit = {};
   double scale = 1;                            // from the file's unit to the program's
   std::vector<std::string_view> choices = {};  // of a whole number, what 1, 2, … are called

@@ -25,9 +25,9 @@ TEST(SidesView, EachHasItsTitleAndItsCounts) {
   ASSERT_EQ(a.size(), 1u);
   ASSERT_EQ(b.size(), 1u);
   EXPECT_EQ(a[0].lo.y, b[0].lo.y);
-  const auto nodes = boxes_of(list, "nodes"), pairs = boxes_of(list, "pairs");
+  const auto nodes = boxes_of(list, "nodes"), pairs = boxes_of(list, "candidate pairs");
   ASSERT_EQ(nodes.size(), 2u) << "under its side, and nowhere else";
-  ASSERT_EQ(pairs.size() + boxes_of(list, "pair").size(), 2u);
+  ASSERT_EQ(pairs.size() + boxes_of(list, "candidate pair").size(), 2u);
   EXPECT_EQ(nodes[0].lo.y, nodes[1].lo.y);
   EXPECT_NEAR(nodes[0].lo.x - a[0].lo.x, nodes[1].lo.x - b[0].lo.x, 1e-9);
 }

@@ -82,8 +82,8 @@ TEST(Sparkline, HoldsACountUntilItChanges) {
       ++steps;
     }
   EXPECT_EQ(steps, 4) << "two level, two upright";
-  EXPECT_TRUE(says(list, "pair"));
-  EXPECT_FALSE(says(list, "pairs")) << "1 pairs";
+  EXPECT_TRUE(says(list, "candidate pair"));
+  EXPECT_FALSE(says(list, "candidate pairs")) << "1 candidate pairs";
 }
 
 TEST(Sweep, StandsAtTheLitBodyAndLinksWhatItCompares) {

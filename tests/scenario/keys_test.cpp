@@ -407,6 +407,12 @@ void add_link_cases(std::vector<KeyCase>& cases) {
   cases.push_back({"chart", "least", {"-3", "0.5"}, bad_number("-1.1e12", "1.1e12")});
   cases.push_back({"chart", "most", {"-3", "0.5"}, bad_number("-1.1e12", "1.1e12")});
   cases.push_back({"chart", "each_part", {"false"}, bad_truth()});
+  cases.push_back({"chart",
+                   "labels",
+                   {},
+                   {{"@1", "must be a list"},
+                    {"[@1]", "a list of texts"},
+                    {"@[\"a\", \"b\", \"c\"]", "3 labels for"}}});
 }
 
 void add_side_cases(std::vector<KeyCase>& cases) {

@@ -157,13 +157,10 @@ class AtlasView : PanelPicture {
     }
   }
 
-  // What a room is asked for, or was refused for want of one, laid over the free leaf that comes
+  // What a room is asked for, laid over the free leaf that comes
   // nearest to it: what does not fit can be seen to stick out.
   void draw_asked() {
-    const FrameTextures& all = frame_.get<FrameTextures>();
-    const auto refused = std::ranges::find_if(all.textures, &FrameTexture::refused);
-    Vec<2> asked = all.asked;
-    if (asked.x == 0 && refused != all.textures.end()) asked = {refused->width, refused->height};
+    const Vec<2> asked = frame_.get<FrameTextures>().asked;
     const FrameNode* best = nullptr;
     double most = 0;
     for (const FrameNode* node : free_leaves()) {

@@ -213,7 +213,7 @@ void name_bodies(const World2D& w) {
 std::size_t draw_crowd(const World2D& w) {
   constexpr std::size_t kMostMarks = 4000;
   constexpr double kMostCrowdMark = 18;  // across
-  const double square = w.frame.bodies.size() > kMostMarks ? kMostCrowdMark : 3;
+  const double square = w.frame.bodies.size() > kMostMarks ? kMostCrowdMark : 1;
   std::set<std::pair<long, long>> taken;
   for (const FrameBody& body : w.frame.bodies) {
     if (is_half_space(body) || is_outside(body, w.frame)) continue;

@@ -29,7 +29,7 @@ struct FrameTexture {
 struct FrameTextures {
   static constexpr std::string_view kName = "textures";
   std::vector<FrameTexture> textures;
-  Vec<2> asked{0.0};  // the size that the step asks a room for; 0: it does not
+  Vec<2> asked{0.0};  // what the step wants a room for; 0: nothing
 
   static auto fields(auto& r, auto&& v) {
     return v.when(!r.textures.empty(), "textures", r.textures).drawn(r.asked);

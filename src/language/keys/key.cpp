@@ -22,6 +22,7 @@ namespace {
 void add(const Note& note, KeyDoc& doc) {
   doc.required |= note.required;
   doc.above_least |= note.above_least;
+  doc.may_be_empty |= note.may_be_empty;
   doc.least = std::max(doc.least, note.least);
   doc.most = std::min(doc.most, note.most);
   if (!note.fallback.empty()) doc.fallback = note.fallback;
@@ -132,7 +133,7 @@ TableDoc step_table() {
       key(KeyType::texts, "lit",
           "What is lit on the step's frames, but for those of events: bodies by their names, nodes "
           "by their labels, with the way down to them. `[]` lights nothing.",
-          range(0, 100), or_else("what the step does")),
+          empty_or_at_most(100), or_else("what the step does")),
       key(&Step::panels, "panels",
           "Those of the scenario's own `panels` that are shown from here on.",
           or_else("as before")),

@@ -125,7 +125,7 @@ inline constexpr MemberKind kMemberKind = {
 // statement it stands in.
 struct Note {  // of KeyDoc's members, those that it sets
   bool required = false;
-  bool above_least = false;
+  bool above_least = false, may_be_empty = false;
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
   std::string_view fallback = {}, otherwise = {}, unit = {}, of = {}, form = {};
@@ -139,6 +139,7 @@ inline Note range(double least, double most) { return {.least = least, .most = m
 inline Note above(double least, double most) {
   return {.above_least = true, .least = least, .most = most};
 }
+inline Note empty_or_at_most(double most) { return {.may_be_empty = true, .most = most}; }
 inline Note at_most(double most) { return {.most = most}; }
 // The member of a key in degrees is in radians.
 inline Note in(std::string_view unit) { return {.unit = unit}; }

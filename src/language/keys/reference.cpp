@@ -290,7 +290,7 @@ Json value_schema(const KeyDoc& doc) {
     case KeyType::names:
       return list_of(typed("string"), 0);
     case KeyType::texts:
-      return list_of(typed("string"), doc.least == 0 ? 0 : 1,
+      return list_of(typed("string"), doc.may_be_empty ? 0 : 1,
                      std::isfinite(doc.most) ? static_cast<std::size_t>(doc.most) : 0);
     case KeyType::choices_list: {
       Json schema = list_of(choices, 1);

@@ -212,9 +212,9 @@ class Check {
   void check_list(const TomlValue& value) {
     const auto* list = list_in(value, "a list");
     if (!list) return;
-    if (list->empty() && doc_.type != KeyType::names && doc_.least != 0)
+    if (list->empty() && doc_.type != KeyType::names && !doc_.may_be_empty)
       return add(value.where, fmt::format("'{}' must not be empty", doc_.key));
-    if (static_cast<double>(list->size()) > doc_.most)
+    if (doc_.may_be_empty && static_cast<double>(list->size()) > doc_.most)
       return add(value.where, fmt::format("{} names in '{}', the limit is {}", list->size(),
                                           doc_.key, doc_.most));
     std::set<std::string_view> seen;
