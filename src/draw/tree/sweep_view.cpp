@@ -45,7 +45,7 @@ class SweepView : PanelPicture {
                     area_.size().y / static_cast<double>(std::max<std::size_t>(1, order_.size())));
     area_.hi.y = area_.lo.y + row_ * static_cast<double>(order_.size());
     numbers_ = Labels::width_of(order_.size(), kQuiet) + 14;
-    area_.lo.x += numbers_ + row_ + 10;
+    if (!lies_under_world()) area_.lo.x += numbers_ + row_ + 10;
     std::size_t lit = 0;
     for (std::size_t i = 0; i < order_.size(); ++i) {
       row_of_[order_[i]->id] = i;
@@ -78,6 +78,19 @@ class SweepView : PanelPicture {
   }
 
  private:
+  // Then intervals along x stand plumb under their bodies, each with its number and icon before it.
+  bool lies_under_world() {
+    for (const WorldMap& map : list_.maps) {
+      const double left = map.origin.x + frame_.bounds.lo.x * map.scale;
+      const double right = map.origin.x + frame_.bounds.hi.x * map.scale;
+      if (map.prefix != list_.prefix || axis_ != 0 || panel_.lo.y < map.picture.hi.y) continue;
+      area_.lo.x = left;
+      area_.hi.x = right;
+      return is_plumb_ = true;
+    }
+    return false;
+  }
+
   double length() const { return frame_.bounds.size()[axis_]; }
   double x_of(double at) const {
     const double share = (at - frame_.bounds.lo[axis_]) / length();
@@ -103,11 +116,14 @@ class SweepView : PanelPicture {
   void draw_row(std::size_t i) {
     const FrameBody& body = *order_[i];
     const DrawList::Scope scope(list_, fmt::format("sweep/{}", body.id));
-    const double y = y_of(i);
+    const double y = y_of(i), icon = std::min(0.42 * row_, 20.0);
+    double middle = panel_.lo.x + numbers_ + row_ / 2;  // of the icon
+    if (is_plumb_)  // before the interval, or behind it where that is too far to the left
+      middle = from(i) - panel_.lo.x > numbers_ + 2 * icon + 6 ? from(i) - icon - 6
+                                                               : to(i) + numbers_ + icon + 6;
     if (row_ >= kLabel)
-      write(fmt::format("{}", i + 1), centred({panel_.lo.x + numbers_ - 10, y}, kQuiet, 1), kQuiet);
-    const double icon = std::min(0.42 * row_, 20.0);
-    draw_icon(&body, Box<2>::around({panel_.lo.x + numbers_ + row_ / 2, y}, Vec<2>(icon)), list_);
+      write(fmt::format("{}", i + 1), centred({middle - icon - 8, y}, kQuiet, 1), kQuiet);
+    draw_icon(&body, Box<2>::around({middle, y}, Vec<2>(icon)), list_);
     list_.rect({{from(i), y - half()}, {std::max(to(i), from(i) + 3), y + half()}},
                body.dimmed ? Role::panel : body_role(body.color),
                {body.lit && stands_ ? Role::lit : Role::body_line, body.lit && stands_ ? 2.6 : 1.6},
@@ -152,9 +168,10 @@ class SweepView : PanelPicture {
   double row_ = kLeastBand;
   double numbers_ = 0;  // width, with the gap behind them
   std::map<BodyId, std::size_t> row_of_;
-  std::size_t at_ = 0;   // the row at whose beginning the sweep stands
-  bool stands_ = false;  // and whether it stands anywhere
-  bool sweeps_ = false;  // it is under way
+  std::size_t at_ = 0;     // the row at whose beginning the sweep stands
+  bool stands_ = false;    // and whether it stands anywhere
+  bool sweeps_ = false;    // it is under way
+  bool is_plumb_ = false;  // under the world, along its x
 };
 
 }  // namespace

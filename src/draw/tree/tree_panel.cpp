@@ -196,10 +196,12 @@ PanelEntry tree_panel() {
           {.draw = draw_tree,
            .size =
                [](const Frame& frame, const Staging& staging, const Box<2>& box) {
-                 // A grid's table takes what it gets, whatever the cells of the moment are.
-                 return frame.get<FrameStructure>().grid_levels.empty()
-                            ? tree_size_in(staging, box)
-                            : std::sqrt(box.size().x * box.size().y);
+                 // A grid's table takes what it gets, whatever the cells of the moment are, and so
+                 // do intervals.
+                 const bool is_tree = frame.get<FrameStructure>().grid_levels.empty() &&
+                                      !traits_of(frame.structure).has(Setting::axis);
+                 return is_tree ? tree_size_in(staging, box)
+                                : std::sqrt(box.size().x * box.size().y);
                },
            .weight = 1.2,
            .least = 320}};  // four rows and their labels
