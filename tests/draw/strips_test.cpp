@@ -72,6 +72,7 @@ TEST(Sparkline, StandsStillWhileTimeGoesOn) {
 TEST(Sparkline, HoldsACountUntilItChanges) {
   Frame frame = strip("strips_alone");
   frame.panels = {panel_named("sparkline")};
+  frame.display.counters = false;
   frame.add<FrameTrace>() = {"pairs", {{0, 3}, {1, 3}, {2, 0}, {4, 1}}, 4.0};
   const DrawList list = samples::page_of(frame);
   int steps = 0;
