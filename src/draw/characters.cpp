@@ -202,6 +202,19 @@ void draw_look(const FrameBody& body, const Figure& f, const Box<2>& place, Draw
   draw_round(body, f, list);
 }
 
+// What is seen of a character on a ground of its own colour.
+void add_halo(const Figure& f, std::size_t outline, DrawList& list) {
+  DrawShape halo = list.shapes[outline];
+  std::visit(
+      [&](auto& shape) {
+        if constexpr (requires { shape.stroke; })
+          shape.stroke = {Role::panel, f.line + std::clamp(0.12 * f.unit, 2.0, 5.0)};
+        if constexpr (requires { shape.fill; }) shape.fill = Role::panel;
+      },
+      halo);
+  list.shapes.insert(list.shapes.begin() + static_cast<std::ptrdiff_t>(outline), std::move(halo));
+}
+
 }  // namespace
 
 Role fill_of(const FrameBody& body) {
@@ -250,8 +263,10 @@ void draw_character(const FrameBody& body, const Box<2>& place, bool plain, Draw
   f.gaze = direction(body, upright ? Vec<2>(0.8, 0.6) : Vec<2>(1.0, 0.0));
   const bool small = 2 * std::max(f.half.x, f.half.y) < kPlainBelow;
   if (small || (plain && turned_outline(body, place).empty())) return draw_plain(body, f, list);
+  const std::size_t first = list.shapes.size();
   draw_look(body, f, place, list);
   if (plain) return;
+  if (is_character(body) && !body.dimmed) add_halo(f, first, list);
   if (body.is_static) hatch_static(body, f, place, list);
   if (body.asleep) {  // "z z" in the middle, or of a character beside its head
     const Vec<2> corner = is_character(body) ? Vec<2>(0.5, -0.98) : Vec<2>(-0.34, -0.12);
@@ -259,6 +274,9 @@ void draw_character(const FrameBody& body, const Box<2>& place, bool plain, Draw
   }
   if (!is_character(body) && !body.asleep && fill_of(body) != Role::static_body)
     draw_emblem(body.color, body.look == Look::item ? f.at(0, 0.17) : f.center, 0.3 * f.unit, list);
+  if (body.refused)
+    for (const Stroke& stroke : {Stroke{Role::panel, 6}, Stroke{Role::ink, 2.6}})
+      list.line(f.at(-0.9, 0.9), f.at(0.9, -0.9), stroke);
 }
 
 }  // namespace lantern::draw

@@ -27,6 +27,7 @@ enum class MarkKind : std::uint8_t {
   static_body,
   sleeping_body,
   ruled_out,       // a pale body: culled, or not met by the ray
+  refused,         // a stroke through a body: tested, in vain
   candidate,       // a link: this pair is to be tested
   faint_pair,      // the same among many
   boxes_apart,     // a dotted link: ruled out, the boxes do not overlap

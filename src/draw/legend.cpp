@@ -110,6 +110,8 @@ constexpr MarkRow kRows[] = {
      [](Frame& f, const Vec<3>&) { add_ball(f, 13).asleep = true; }},
     {MarkKind::ruled_out, "not found",
      [](Frame& f, const Vec<3>&) { add_ball(f, 13).dimmed = true; }},
+    {MarkKind::refused, "tested: no hit",
+     [](Frame& f, const Vec<3>&) { add_ball(f, 13).refused = true; }},
     {MarkKind::candidate, "a candidate pair", draw_linked<PairState::candidate>},
     {MarkKind::faint_pair, "one among many", draw_linked<PairState::candidate, false>},
     {MarkKind::boxes_apart, "apart by box", draw_linked<PairState::boxes_apart>},

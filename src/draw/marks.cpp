@@ -30,6 +30,7 @@ BodiesById drawn_of(const Frame& frame, const std::vector<Body3D>& bodies) {
 void tell_marks(const FrameBody& body, DrawList& list) {
   if (body.asleep) list.marks.add(MarkKind::sleeping_body);
   if (body.dimmed) list.marks.add(MarkKind::ruled_out);
+  if (body.refused) list.marks.add(MarkKind::refused);
   if (body.is_static && !is_character(body)) list.marks.add(MarkKind::static_body);
 }
 
@@ -307,6 +308,12 @@ void draw_tick(const Vec<2>& at, DrawList& list) {
   list.line(at + Vec<2>(-4.6, 0.4), foot, {Role::frustum, 2.6});
   list.line(foot, at + Vec<2>(5, -3.8), {Role::frustum, 2.6});
   list.marks.add(MarkKind::found);
+}
+
+void mark_passed(Mark mark, const Box<2>& box, DrawList& list, double radius) {
+  if (mark != Mark::passed) return;
+  const double inset = std::min(kPassedInset, std::min(box.size().x, box.size().y) / 5);
+  list.rect(shrunk(box, inset), Role::none, kPassedStroke, std::max(0.0, radius - inset));
 }
 
 std::vector<bool> full_links(const Frame& frame) {

@@ -97,6 +97,10 @@ void draw_skipped(const Vec<2>& at, DrawList& list);
 bool draw_met(std::uint32_t place, const Vec<2>& at, const Box<2>& room, DrawList& list,
               Labels& labels);
 void draw_tick(const Vec<2>& at, DrawList& list);
+// A thin line inside the border of what the step has passed.
+inline constexpr Stroke kPassedStroke{Role::lit, 1.6};
+inline constexpr double kPassedInset = 5;
+void mark_passed(frame::Mark mark, const Box<2>& box, DrawList& list, double radius = 0);
 // The middle of a ball that is asked for, and two points held together.
 void draw_centre(const Vec<2>& at, Pen& pen);
 void draw_pin(const Vec<2>& at, Pen& pen);

@@ -28,21 +28,24 @@ struct Colors {
 //
 // Print has greys only. Neighbouring bodies differ in lightness, and each carries its own emblem,
 // dark on the light ones and light on the dark ones, so that a photocopy can still be read.
+//
+// Grounds differ by 1.5 : 1 in luminance, or by a mark, so that a projector keeps them apart
+// (tests/draw/states_test.cpp).
 constexpr Colors kColors[] = {
     {Role::none, 0xfdfcf9, 0x11141b, 0xffffff},
     {Role::paper, 0xfdfcf9, 0x11141b, 0xffffff},
     {Role::panel, 0xffffff, 0x191d26, 0xffffff},
     {Role::ink, 0x161b26, 0xf3f5f9, 0x000000},
-    {Role::quiet_ink, 0x5b6577, 0x9da7b8, 0x505050},
+    {Role::quiet_ink, 0x495364, 0xa4aec0, 0x505050},
     {Role::rule, 0xdedfe2, 0x2b303b, 0xc8c8c8},
     {Role::cell_line_0, 0x2f3d57, 0xb9c3d6, 0x202020},
     {Role::cell_line_1, 0x46546e, 0x97a3b8, 0x404040},
     {Role::cell_line_2, 0x76839a, 0x6c788d, 0x707070},
-    {Role::cell_line_3, 0x9aa6b8, 0x505b6e, 0x989898},
-    {Role::lit, 0xbf7a00, 0xf0b030, 0x000000},
-    {Role::lit_ink, 0x8a5800, 0xf7c14d, 0x000000},
-    {Role::lit_fill, 0xfff0c2, 0x3c3114, 0xd9d9d9},
-    {Role::passed_fill, 0xfffaeb, 0x262317, 0xf2f2f2},
+    {Role::cell_line_3, 0x8e9aad, 0x505b6e, 0x989898},
+    {Role::lit, 0xa86a00, 0xf0b030, 0x000000},
+    {Role::lit_ink, 0x6e4600, 0xf7c14d, 0x000000},
+    {Role::lit_fill, 0xf8cc6e, 0x503e12, 0xd2d2d2},
+    {Role::passed_fill, 0xfff4d6, 0x332b16, 0xf3f3f3},
     {body_role(1), 0xd2491a, 0xe8643c, 0x636363},
     {body_role(2), 0xd083b0, 0xd79abe, 0xc0c0c0},
     {body_role(3), 0xf6e03a, 0xfae340, 0xf4f4f4},
@@ -63,7 +66,7 @@ constexpr Colors kColors[] = {
     {Role::ray, 0x0b7285, 0x66d9e8, 0x303030},
     {Role::frustum, 0x5f3dc4, 0xb197fc, 0x505050},
     {Role::warning, 0xb3261e, 0xff8a70, 0x000000},
-    {Role::free_space, 0xf3f2ee, 0x151922, 0xfafafa},
+    {Role::free_space, 0xc5c7ca, 0x3a3f4b, 0xc7c7c7},
     {body_mark_role(1), 0xa83510, 0xb8431f, 0xf0f0f0},
     {body_mark_role(2), 0xb25f92, 0xb56f99, 0x303030},
     {body_mark_role(3), 0xcdb716, 0xd2b71c, 0x606060},
@@ -73,10 +76,10 @@ constexpr Colors kColors[] = {
     {body_mark_role(7), 0xbd7400, 0xb87406, 0x101010},
     {body_mark_role(8), 0x6b3cb4, 0x6a40cc, 0xd0d0d0},
     {Role::view_fill, 0xf1ecfd, 0x262038, 0xededed},
-    {sector_role(0), 0xeaf2f8, 0x1b2936, 0xffffff},
-    {sector_role(1), 0xf6efe4, 0x2e2719, 0xe6e6e6},
-    {sector_role(2), 0xeaf4ea, 0x1b2c22, 0xf4f4f4},
-    {sector_role(3), 0xf5eaf1, 0x2c1f2c, 0xdcdcdc},
+    {sector_role(0), 0xeef5fa, 0x17222c, 0xffffff},
+    {sector_role(1), 0xfaf4eb, 0x282117, 0xf5f5f5},
+    {sector_role(2), 0xeef7ee, 0x17241b, 0xfafafa},
+    {sector_role(3), 0xf9f0f6, 0x291d29, 0xf2f2f2},
 };
 
 constexpr Theme theme_of(std::string_view name, std::uint32_t Colors::*column) {

@@ -44,7 +44,7 @@ enum class Role : std::uint8_t {
   ray,
   frustum,
   warning,
-  free_space,   // an atlas's unused ground
+  free_space,   // ground of what takes no part: a free slot, ruled out, unseen, asleep
   body_mark_1,  // emblems and patterns on a body's colour 1 ... 8: the second cue beside its hue
   body_mark_8 = body_mark_1 + 7,
   view_fill,  // ground of what a view sees

@@ -142,8 +142,9 @@ struct FrameBody : BodyState {
   std::optional<FramePlace> ahead;   // after the step that is about to be taken, if nothing is met
   bool is_static = false;
   bool asleep = false;
-  bool lit = false;     // the step is about it
-  bool dimmed = false;  // the step has ruled it out: culled, or not met by the ray
+  bool lit = false;      // the step is about it
+  bool dimmed = false;   // the step has ruled it out: culled, or not met by the ray
+  bool refused = false;  // a ray, view or region has tested it in vain
 };
 
 struct FrameNode {

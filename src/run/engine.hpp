@@ -31,7 +31,7 @@ struct Finding {
   // Of the walk, what belongs to the structure of what never moves.
   std::size_t first_static = std::numeric_limits<std::size_t>::max();
   bool done = true;           // else the walk is still under way
-  std::set<BodyId> missed;    // while it is: tested in vain
+  std::set<BodyId> missed;    // tested in vain
   bool nearest = false;       // a ray stops at its first hit
   Vec<3> asked{0.0};          // where the ray would end if nothing stopped it
   std::map<BodyId, Met> met;  // all that the ray's walk found, also behind the nearest

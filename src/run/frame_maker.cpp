@@ -345,6 +345,7 @@ void FrameMaker::add_finding(Frame& frame) const {
   if (finding_->ray) found.rays.push_back(*finding_->ray);
   if (finding_->view) found.views.push_back(*finding_->view);
   if (finding_->region) found.queries.push_back(*finding_->region);
+  for (FrameBody& body : frame.bodies) body.refused = finding_->missed.contains(body.id);
   if (!finding_->ray) dim(frame);
 }
 
@@ -369,8 +370,7 @@ void FrameMaker::dim(Frame& frame) const {
     if (!node.skipped) within_reach.insert(node.bodies.begin(), node.bodies.end());
   for (FrameBody& body : frame.bodies) {
     if (std::ranges::binary_search(frame.get<FrameFinding>().hits, body.id)) continue;
-    body.dimmed =
-        finding_->done || finding_->missed.contains(body.id) || !within_reach.contains(body.id);
+    body.dimmed = finding_->done || body.refused || !within_reach.contains(body.id);
   }
 }
 

@@ -78,8 +78,9 @@ class RunningFinding {
 
   // Hits of a ray in order along it, else by id.
   Finding so_far() const {
-    if (at_ == whole_.walk.size()) return whole_;
-    Finding found = so_far_;
+    Finding found = at_ == whole_.walk.size() ? whole_ : so_far_;
+    found.missed = so_far_.missed;
+    if (found.done) return found;
     const auto order = [&](BodyId id) {
       return std::pair{whole_.ray ? whole_.met.at(id).distance : 0, id};
     };
@@ -127,12 +128,12 @@ void replay(const Finding& whole, ScriptRun& run) {
   }
 }
 
-void answer(Finding finding, std::string_view verb, ScriptRun& run) {
+void answer(const Finding& finding, std::string_view verb, ScriptRun& run) {
   if (run.frames.by_event()) replay(finding, run);
   RunningFinding all(finding);
   for (std::size_t i = 0; i < finding.walk.size(); ++i) all.go_on();
   run.frames.touched = all.touched();
-  run.frames.show_finding(std::move(finding));
+  run.frames.show_finding(all.so_far());
   run.frames.settle(verb);
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "draw/body_shapes.hpp"
+#include "draw/marks.hpp"
 #include "draw/page.hpp"
 #include "draw/panel.hpp"
 #include "draw/texture_picture.hpp"
@@ -58,7 +59,7 @@ class AtlasView : PanelPicture {
   void draw() {
     list_.referents.insert({"textures", "refused", "atlas_area"});
     if (shows_single(frame_)) return draw_single();
-    list_.crisp_rect(image_, Role::free_space);
+    list_.crisp_rect(image_, Role::panel);
     for (const FrameNode* node : free_leaves()) draw_free(*node);
     const std::vector<const FrameTexture*> packed = packed_textures();
     const auto count = std::max(1, static_cast<int>(packed.size()));
@@ -118,6 +119,7 @@ class AtlasView : PanelPicture {
     if (node.mark != Mark::quiet) list_.crisp_rect(box, ground_of(node.mark));
     if (least < 6) return;
     list_.rect(shrunk(box, 2), Role::none, {Role::cell_line_2, 1.4, 5});
+    mark_passed(node.mark, box, list_);
   }
 
   void draw_textured(const FrameTexture& texture, const Box<2>& box) {

@@ -100,7 +100,7 @@ class IslandGraph : PanelPicture {
   void draw_ground(const FrameIsland& island, bool coast) {
     const char* const kind = coast ? "islands/coast" : "islands/ground";
     const double reach = radius_ + kShore + (coast ? kCoast : 0);
-    const Role land = island.asleep ? Role::asleep : sector_role(island.number);
+    const Role land = island.asleep ? Role::free_space : sector_role(island.number);
     const Role role = coast ? Role::cell_line_1 : land;
     for (const BodyId id : island.bodies) {
       if (!places_.contains(id)) continue;

@@ -335,6 +335,7 @@ void draw_pair_mark(PairState state, bool is_new, const Box<2>& cell, DrawList& 
     }
     case PairState::contact:
       list.rect(cell, Role::contact, {Role::contact, width}, 0.06 * size);
+      if (is_new) list.rect(shrunk(cell, 1.5 * width), Role::none, {Role::panel, width});
       break;
   }
   if (is_new)

@@ -7,6 +7,7 @@
 
 #include "base/printable.hpp"
 #include "draw/body_shapes.hpp"
+#include "draw/marks.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 #include "language/panel_rules.hpp"
@@ -177,6 +178,7 @@ class MemoryView : PanelPicture {
       const Role ground = ground_of(leaf.mark);
       const Box<2> run = place(first, count);
       list_.crisp_rect(run, ground, outline);
+      mark_passed(leaf.mark, run, list_);
       for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t index = first + i - leaf.first;
         if (i > 0 && strip_.drawn()) {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "draw/body_shapes.hpp"
+#include "draw/marks.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 #include "language/panel_rules.hpp"
@@ -131,6 +132,7 @@ class ListPieces : PanelPicture {
     for (std::size_t i = 0; i < leaf.bodies.size(); ++i, at.x += side_ + link()) {
       const Box<2> box{at, at + Vec<2>(side_)};
       list_.rect(box, ground_of(leaf.mark), outline_of(leaf), 5);
+      mark_passed(leaf.mark, box, list_, 5);
       draw_icon(body_of(bodies_, leaf.bodies[i]), shrunk(box, 0.13 * side_), list_);
       if (i + 1 < leaf.bodies.size())
         list_.line({box.hi.x, box.center().y}, {box.hi.x + link(), box.center().y},
@@ -188,6 +190,7 @@ class NodePieces : PanelPicture {
                                 parent_key("pool/node", frame_.nodes, node));
     const Box<2> box{at, at + Vec<2>(width_, kPieceNode)};
     list_.crisp_rect(box, ground_of(node.mark), outline_of(node));
+    mark_passed(node.mark, box, list_);
     for (const std::string& text : {node.label, short_label(node.label)})
       if (!text.empty() && text_width(text, kPlain) <= width_ - 6)
         return write(text, centred(box.center(), kPlain));
@@ -227,9 +230,8 @@ class PoolView : PanelPicture {
     const DrawList::Scope scope(list_, fmt::format("pool/{}", slot));
     const Box<2> box = place(slot);
     if (!owner) return list_.crisp_rect(box, Role::free_space, {Role::cell_line_3, 1.4, 4});
-    const bool lit = owner->mark == Mark::lit;
-    list_.crisp_rect(box, ground_of(owner->mark),
-                     lit ? Stroke{Role::lit, 2.8} : Stroke{Role::cell_line_1, 1.6});
+    list_.crisp_rect(box, ground_of(owner->mark), outline_of(*owner));
+    mark_passed(owner->mark, box, list_);
     if (owner->reused) draw_reused(box);
     for (const std::string& text : {owner->label, short_label(owner->label)})
       if (!text.empty() && text_width(text, kPlain) <= box.size().x - 8)

@@ -54,7 +54,7 @@ class ScreenView : PanelPicture {
   void draw() {
     if (screen_.elements.empty()) return;
     list_.referents.insert({"bindings", "draws"});
-    list_.crisp_rect(image_, Role::free_space);
+    list_.crisp_rect(image_, Role::panel);
     for (std::size_t i = 0; i < screen_.elements.size(); ++i)
       if (!screen_.elements[i].drawn) outline(i);
     for (const std::size_t i : drawn_in_order()) paint(i);

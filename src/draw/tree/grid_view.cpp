@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "draw/body_shapes.hpp"
+#include "draw/marks.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 #include "spatial/structure.hpp"
@@ -137,6 +138,7 @@ class GridView : PanelPicture {
                             ? (count > 1 ? Role::quiet_ink : Role::static_body)
                             : ground_of(mark);
     list_.crisp_rect(box, ground, outline);
+    mark_passed(mark, box, list_);
     if (!crowded)
       draw_bodies(cells, chip, box);
     else if (box.size().x >= kLeastCounted && box.size().y >= kLabel)

@@ -81,12 +81,17 @@ class TreeView : PanelPicture {
     }
   }
 
+  bool takes_no_part(const Branch& branch) const {
+    return branch.mark == Mark::quiet &&
+           (frame_.sleeps(node_of(branch)) || node_of(branch).skipped);
+  }
+
   Stroke outline_of(const Branch& branch) const {
     const FrameNode& node = node_of(branch);
     const bool dashed = is_empty_leaf(branch);
-    if (branch.mark == Mark::lit) return {Role::lit, 3.0, dashed ? 6.0 : 0.0};
+    if (branch.mark == Mark::lit) return {Role::lit, 3.4, dashed ? 6.0 : 0.0};
     if (node.over_capacity) return {Role::warning, 2.6};
-    if (frame_.sleeps(node)) return {Role::quiet_ink, 2.0, 2.6};
+    if (takes_no_part(branch)) return {Role::quiet_ink, 2.0, 2.6};
     return {cell_line_role(std::min(node.depth, 2u)), 2.2, dashed ? 5.5 : 0.0};
   }
 
@@ -97,9 +102,7 @@ class TreeView : PanelPicture {
     if (branch.kind == Branch::Kind::levels) return draw_levels(branch, box);
     const Stroke outline = outline_of(branch);
     const FrameNode& node = node_of(branch);
-    const Role ground = (frame_.sleeps(node) || node.skipped) && branch.mark == Mark::quiet
-                            ? Role::free_space
-                            : ground_of(branch.mark);
+    const Role ground = takes_no_part(branch) ? Role::free_space : ground_of(branch.mark);
     // What never moves has sharp corners.
     const double radius = node.of_static ? 1.5 : layout_.scale.radius;
     const bool pile = branch.kind == Branch::Kind::folded ||
@@ -109,6 +112,7 @@ class TreeView : PanelPicture {
       list_.rect(behind, ground, outline, radius);
     }
     list_.rect(box, ground, outline, radius);
+    mark_passed(branch.mark, box, list_, radius);
     if (branch.kind == Branch::Kind::node)
       if (const auto level = level_in(frame_, node, shrunk(box, 3)))
         list_.rect(*level, Role::rule, {}, std::min(radius, 4.0));

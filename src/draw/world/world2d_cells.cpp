@@ -103,7 +103,7 @@ void hatch(const Box<2>& box, DrawList& list) {
   for (double d = kSpace; d < size.x + size.y; d += kSpace) {  // x + y on the line, from a corner
     const Vec<2> from(std::min(d, size.x), std::max(0.0, d - size.x));
     const Vec<2> to(std::max(0.0, d - size.y), std::min(d, size.y));
-    list.line(box.lo + from, box.lo + to, {Role::rule, 1.6});
+    list.line(box.lo + from, box.lo + to, {Role::cell_line_3, 1.2});
   }
 }
 
@@ -157,6 +157,8 @@ void fill_cells(World2D& w) {
     const DrawList::Scope scope(w.list, node_key("world/cell", w.frame.nodes, node),
                                 parent_key("world/cell", w.frame.nodes, node));
     paint_cell(w, node, ground_of(tone));
+    if (tone == Mark::passed)
+      w.list.polygon(inset(w.grounds.back().region, kPassedInset), Role::none, kPassedStroke);
     w.list.marks.add(tone == Mark::lit ? MarkKind::lit : MarkKind::passed);
   }
 }

@@ -95,9 +95,12 @@ std::vector<DrawShape> mark_of(const FrameBody& body, Tone ground) {
   DrawList list;
   if (body.asleep)
     draw_z({{-0.7, -0.8}, {0.7, 0.8}}, {Role::body_line, 0.3}, list);
+  else if (body.refused)
+    list.line({-0.9, 0.9}, {0.9, -0.9}, {Role::body_line, 0.4});
   else if (color_of(body) != Role::static_body)
     draw_emblem(body.color, {0, 0}, 1, list);
-  if (ground == Tone::shade && !body.asleep) recolor(list, in_tone(color_of(body), Tone::lit));
+  if (ground == Tone::shade && !body.asleep && !body.refused)
+    recolor(list, in_tone(color_of(body), Tone::lit));
   return list.shapes;
 }
 

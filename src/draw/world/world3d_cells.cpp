@@ -269,6 +269,11 @@ void draw_cell_grounds(const Frame& frame, const View3D& view, DrawList& list) {
     const bool lit = node->mark == Mark::lit;
     list.marks.add(lit ? MarkKind::lit : MarkKind::passed);
     fill_inside(node->box, lit ? Role::lit_fill : Role::passed_fill, Role::passed_fill, view, list);
+    if (lit) continue;
+    std::vector<Vec<3>> floor = corners_of(node->box);
+    floor = {floor[0], floor[1], floor[5], floor[4]};
+    for (Vec<3>& p : floor) p += (node->box.center() - p) * Vec<3>(0.07, 0, 0.07);
+    Pen(list, view.panel()).polygon(view.polygon(floor), Role::none, kPassedStroke);
   }
 }
 
