@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -22,17 +23,17 @@ struct BeatSpans {
 
 // In the order of the beats.
 constexpr std::array<BeatSpans, static_cast<std::size_t>(Beat::count_beats)> kSpans{{
-    {{0, 0}, {0, 0, false}},                     // always
-    {{0, 0.35}, {0, 0.5, false}},                // out
-    {{0.1, 0.75}, {0, 1, false}},                // move
-    {{0.65, 1}, {0.5, 1, false}},                // in
-    {{0.2, 0.5}, {0.2, 0.5, false}},             // over
-    {{0.4, 0.7}, {0.5, 0.8, false}},             // under
-    {{0.2, 0.85}, {0, 1, false}},                // grow
-    {{0.2, 0.45}, {0, 0.4, false}},              // dawn
-    {{0, 0.65}, {0, 1, false}},                  // fold
-    {{0.4, 0.65}, {0.6, 1, false}},              // dusk
-    {{0.5, 0.501, false}, {0.5, 0.501, false}},  // swap
+    {{0, 0}, {0, 0, false}},                 // always
+    {{0, 0.35}, {0, 0.5, false}},            // out
+    {{0.1, 0.75}, {0, 1, false}},            // move
+    {{0.65, 1}, {0.5, 1, false}},            // in
+    {{0.2, 0.5}, {0.2, 0.5, false}},         // over
+    {{0.5, 0.8}, {0.5, 0.8, false}},         // under
+    {{0.2, 0.85}, {0, 1, false}},            // grow
+    {{0.2, 0.45}, {0, 0.4, false}},          // dawn
+    {{0, 0.65}, {0, 1, false}},              // fold
+    {{0.4, 0.65}, {0.6, 1, false}},          // dusk
+    {{0.999, 1, false}, {0.999, 1, false}},  // swap
 }};
 
 // What becomes of a shape of either picture.
@@ -118,10 +119,13 @@ class Planner {
   void come(const std::string& key, const Thing& thing) {
     const auto before = in_a_.find(key);
     if (key.starts_with(kPage)) {
-      if (before != in_a_.end()) set(before->second, Fate::hidden, of_a_);
-      return set(thing, Fate::stands, of_b_);
+      if (before != in_a_.end()) set(before->second, Fate::stands, of_a_);
+      return set(thing, Fate::hidden, of_b_);
     }
-    if (key.empty()) return match_equal(in_a_.at(key).shapes, thing.shapes);
+    if (key.empty()) {
+      match_equal(in_a_.at(key).shapes, thing.shapes);
+      return match_close(in_a_.at(key), thing);
+    }
     if (before != in_a_.end()) {
       follow(thing, before->second.box, of_b_);
       follow(before->second, thing.box, of_a_);
@@ -134,7 +138,7 @@ class Planner {
   }
 
   void go(const std::string& key, const Thing& thing) {
-    if (key.starts_with(kPage)) return set(thing, Fate::hidden, of_a_);
+    if (key.starts_with(kPage)) return set(thing, Fate::stands, of_a_);
     if (of_a_[thing.shapes[0]].kind == Fate::hidden) return;
     const auto* end = origin_of(thing.from, in_b_);
     if (end && !in_a_.contains(end->first) && pair_up(end->second, thing, of_a_))
@@ -227,6 +231,28 @@ class Planner {
     }
   }
 
+  // A line in the place of another one: a wall that was cut, or is lit, is never gone.
+  void match_close(const Thing& a, const Thing& b) {
+    const auto free_line = [](const DrawList& list, const std::vector<Fate>& fates, std::size_t i) {
+      return fates[i].kind == Fate::meets ? nullptr : std::get_if<LineShape>(&list.shapes[i]);
+    };
+    const auto lies_on = [](const LineShape& line, const LineShape& other) {
+      const Vec<2> middle = (line.from + line.to) / 2.0;
+      return glm::distance(middle, other.from) + glm::distance(middle, other.to) <
+             glm::distance(other.from, other.to) + 0.1;
+    };
+    for (const std::size_t j : b.shapes) {
+      const LineShape* next = free_line(b_, of_b_, j);
+      if (!next) continue;
+      for (const std::size_t i : a.shapes) {
+        const LineShape* old = free_line(a_, of_a_, i);
+        if (!old || !(lies_on(*old, *next) || lies_on(*next, *old))) continue;
+        of_a_[i] = {Fate::follows, 0, a.box, a.box};
+        of_b_[j] = {Fate::follows, 0, b.box, b.box};
+      }
+    }
+  }
+
   const DrawList &a_, &b_;
   Things in_a_ = things_of(a_), in_b_ = things_of(b_);
   std::vector<Fate> of_a_, of_b_;
@@ -280,6 +306,24 @@ class Passages {
       swapped_b_.insert(*next);
       coming.erase(next);
     }
+    swap_numbers(a_, plan_.of_a, swapped_a_), swap_numbers(b_, plan_.of_b, swapped_b_);
+  }
+
+  // All digits of a number give way at once, or what is left of it would be another number.
+  static void swap_numbers(const DrawList& list, const std::vector<Fate>& fates,
+                           std::set<std::size_t>& swapped) {
+    const auto digit = [&](std::size_t i) {
+      const TextShape* text = text_alone(list, fates, i);
+      return text && text->text.size() == 1 && std::isdigit(text->text[0]) ? text : nullptr;
+    };
+    const auto go_on = [&](std::size_t from, std::size_t to) {
+      const TextShape *here = digit(from), *there = digit(to);
+      if (swapped.contains(from) && here && there && here->at.y == there->at.y &&
+          std::abs(here->at.x - there->at.x) < here->size)
+        swapped.insert(to);
+    };
+    for (std::size_t i = 1; i < list.shapes.size(); ++i) go_on(i - 1, i);
+    for (std::size_t i = list.shapes.size(); i-- > 1;) go_on(i, i - 1);
   }
 
   // What becomes of a shape of b, or of one of a, which leaves.

@@ -31,7 +31,7 @@ enum class Beat {
   dawn,        // and how soon it is seen
   fold,        // what goes back into something: its way,
   dusk,        // and how long it is seen
-  swap,        // a number gives way to another one where it stands
+  swap,        // a text gives way to another one where it stands, when all has arrived
   count_beats  // how many there are
 };
 
@@ -63,8 +63,8 @@ struct Passage {
 // size and colours to the new ones. What is new comes out of its `from` as `a` shows it, or where
 // it stands; what is gone goes back the same way. What goes fades first, then what moves moves,
 // then what comes appears. A text glides, is faded over, or in the place of another one takes over
-// at once; it never says what neither picture says. What is keyed "page/..." is the page's own
-// words, which are those of `b` throughout.
+// at once in the end; it never says what neither picture says. What is keyed "page/..." is the
+// page's own words, which are those of `a` throughout: words come last.
 std::vector<Passage> passages(const DrawList& a, const DrawList& b);
 
 // The picture at `t`, from 0, which is `a` itself, to 1, which is `b` itself, by their passages. No

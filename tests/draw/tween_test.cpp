@@ -2,16 +2,20 @@
 #include "draw/tween.hpp"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <functional>
 #include <map>
 #include <set>
+#include <span>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include "base/work.hpp"
 #include "draw/page.hpp"
 #include "draw/sample_frames.hpp"
+#include "scenario/directing.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -174,28 +178,90 @@ TEST(Tween, WhatNamesItselfUnfoldsFromItsMiddle) {
   EXPECT_GT(length, 199);
 }
 
-TEST(Tween, ThePagesWordsAreThoseThatItLeadsTo) {
+TEST(Tween, WordsComeLast) {
   DrawList a, b;
   const auto say = [](DrawList& list, const char* key, const char* text) {
     const DrawList::Scope scope(list, key);
     list.shapes.emplace_back(TextShape{text, {100, 800}, 30, Weight::regular, 0, Role::ink});
   };
   say(a, "page/words", "3 pairs"), say(a, "world/name/x", "17");
-  say(b, "page/words", "4 pairs"), say(b, "world/name/x", "23");
-  for (const double t : kTimes) {
-    const DrawList list = between(a, b, t);
-    std::set<std::string> texts;
-    for (std::size_t i = 0; i < list.shapes.size(); ++i) {
-      texts.insert(std::get<TextShape>(list.shapes[i]).text);
-      if (std::get<TextShape>(list.shapes[i]).text == "4 pairs") {
+  say(b, "page/words", "4 pairs"), say(b, "page/more", "5 bodies"), say(b, "world/name/x", "23");
+  for (const double t : kTimes)
+    for (const Motion motion : {Motion::eased, Motion::steady}) {
+      const DrawList list = between(a, b, t, motion);
+      std::set<std::string> texts;
+      for (std::size_t i = 0; i < list.shapes.size(); ++i) {
+        texts.insert(std::get<TextShape>(list.shapes[i]).text);
         EXPECT_EQ(list.tints[i].opacity, 1);
       }
+      EXPECT_EQ(texts, (std::set<std::string>{"3 pairs", "17"})) << t;
     }
-    EXPECT_TRUE(texts.contains("4 pairs"));
-    EXPECT_FALSE(texts.contains("3 pairs"));
-    EXPECT_FALSE(texts.contains("17") && texts.contains("23")) << "one over the other at " << t;
-    EXPECT_TRUE(texts.contains("17") || texts.contains("23")) << "no number at " << t;
+}
+
+// All texts that can be seen, those of one line joined from left to right.
+std::set<std::string> lines_of(const DrawList& list) {
+  std::map<std::pair<double, double>, const TextShape*> digits;
+  std::set<std::string> lines;
+  for (std::size_t i = 0; i < list.shapes.size(); ++i)
+    if (const auto* text = std::get_if<TextShape>(&list.shapes[i])) {
+      if (text->text.size() == 1 && std::isdigit(text->text[0]))
+        digits[{text->at.y, text->at.x}] = text;
+      else
+        lines.insert(text->text);
+    }
+  double y = -1, x = 0;
+  std::string number;
+  for (const auto& [at, digit] : digits) {
+    if (at.first != y || at.second - x > 0.7 * digit->size) lines.insert(std::exchange(number, ""));
+    number += digit->text;
+    std::tie(y, x) = at;
   }
+  lines.insert(number);
+  return lines;
+}
+
+TEST(Tween, ANumberGivesWayAtOnce) {
+  const auto numbered = [](std::int64_t n) {
+    DrawList list;
+    Labels(list).add_number(n, {300, 100}, {}, {{0, 0}, {1600, 900}});
+    return list;
+  };
+  for (const auto& [from, to] : {std::pair{13, 9}, {9, 13}, {103, 107}, {7, 1234}})
+    for (const double t : kTimes)
+      EXPECT_EQ(lines_of(between(numbered(from), numbered(to), t)),
+                (std::set<std::string>{"", std::to_string(from)}))
+          << from << " to " << to << " at " << t;
+}
+
+// How strongly a point is painted by lines of this role.
+double painted(const DrawList& list, Role role, const Vec<2>& point) {
+  double most = 0;
+  for (std::size_t i = 0; i < list.shapes.size(); ++i) {
+    const auto* line = std::get_if<LineShape>(&list.shapes[i]);
+    if (!line || line->stroke.role != role) continue;
+    const Vec<2> way = line->to - line->from;
+    const double length = glm::dot(way, way);
+    const double at =
+        length > 0 ? std::clamp(glm::dot(point - line->from, way) / length, 0.0, 1.0) : 0;
+    if (glm::distance(line->from + way * at, point) < 1)
+      most = std::max(most, list.tints.empty() ? 1 : list.tints[i].opacity);
+  }
+  return most;
+}
+
+TEST(Tween, AWallThatIsCutIsNeverGone) {
+  DrawList a, b;
+  a.line({100, 100}, {500, 400}, {Role::ink, 10});
+  a.line({100, 100}, {500, 400}, {Role::lit, 6});
+  b.line({100, 100}, {300, 250}, {Role::ink, 5});
+  b.line({300, 250}, {500, 400}, {Role::ink, 5});
+  for (const Motion motion : {Motion::eased, Motion::steady})
+    for (int i = 1; i < 50; ++i)
+      for (const double at : {0.1, 0.45, 0.8})
+        EXPECT_GE(painted(between(a, b, i / 50.0, motion), Role::ink,
+                          Vec<2>(100, 100) + at * Vec<2>(400, 300)),
+                  0.999)
+            << i << ", " << at;
 }
 
 DrawList page_drawn(const Frame& frame) {
@@ -292,6 +358,16 @@ std::map<std::string, Box<2>> things_of(const DrawList& list) {
   return things;
 }
 
+// The texts of the page's own words.
+std::set<std::string> words_of_page(const DrawList& list) {
+  DrawList words;
+  for (std::size_t r = 0; r + 1 < list.runs.size(); ++r)
+    if (list.runs[r].key.starts_with("page/"))
+      for (std::size_t i = list.runs[r].first; i < list.runs[r + 1].first; ++i)
+        words.shapes.push_back(list.shapes[i]);
+  return lines_of(words);
+}
+
 TEST(Keys, AreOfTheThingNotOfItsPlaceInAList) {
   Frame frame = samples::ghosts(4);
   const auto things = things_of(page_drawn(frame));
@@ -326,6 +402,73 @@ TEST(Keys, ATextureIsTheSameInTheListAndInTheAtlas) {
   }
   EXPECT_EQ(moved, 1) << "from the list at the right into the atlas";
 }
+
+// Of a sequence that comes with Lantern: each frame and the next one of its part.
+void for_each_change(const std::string& scenario,
+                     const std::function<void(const DrawList&, const DrawList&)>& look) {
+  const std::vector<Frame> frames = run::frames_of(scenario);
+  for (std::size_t i = 0; i + 1 < std::min<std::size_t>(frames.size(), 12); ++i) {
+    const std::span<const Frame> two = std::span(frames).subspan(i, 2);
+    if (!Staging::is_one_group(two[0], two[1])) continue;
+    SCOPED_TRACE(scenario + ", frame " + std::to_string(i));
+    const Staging staging{two};
+    Work work;
+    look(draw_frame(two[0], staging, page_for(1600, 900), work),
+         draw_frame(two[1], staging, page_for(1600, 900), work));
+  }
+}
+
+class EveryChange : public testing::TestWithParam<const char*> {};
+
+TEST_P(EveryChange, SaysNothingThatNeitherFrameSays) {
+  for_each_change(GetParam(), [](const DrawList& a, const DrawList& b) {
+    const std::set<std::string> before = lines_of(a), after = lines_of(b);
+    const auto words = words_of_page(a);
+    for (const double t : kTimes) {
+      const DrawList list = between(a, b, t);
+      for (const std::string& line : lines_of(list))
+        EXPECT_TRUE(before.contains(line) || after.contains(line)) << line << " at " << t;
+      for (const std::string& line : words) EXPECT_TRUE(lines_of(list).contains(line)) << line;
+      for (const std::string& line : words_of_page(b))
+        EXPECT_TRUE(line.size() < 4 || before.contains(line) || !lines_of(list).contains(line))
+            << "'" << line << "' comes before the picture, at " << t;
+    }
+  });
+}
+
+TEST_P(EveryChange, LeavesWallsAndBodiesWhereTheyAreInBoth) {
+  for_each_change(GetParam(), [](const DrawList& a, const DrawList& b) {
+    for (const DrawShape& shape : a.shapes) {
+      const auto* wall = std::get_if<LineShape>(&shape);
+      if (!wall || wall->stroke.role != Role::ink || wall->stroke.width < 5) continue;
+      for (const double at : {0.1, 0.5, 0.9}) {
+        const Vec<2> point = wall->from + (wall->to - wall->from) * at;
+        if (painted(b, Role::ink, point) < 1) continue;
+        for (const double t : kTimes)
+          EXPECT_GE(painted(between(a, b, t), Role::ink, point), 0.999)
+              << point.x << " " << point.y << " at " << t;
+      }
+    }
+    const auto from = things_of(a), to = things_of(b);
+    const auto way = passages(a, b);
+    for (const auto& [key, box] : from) {
+      if (key.find("world/body/") == key.npos || !to.contains(key)) continue;
+      for (const double t : kTimes) {
+        const Vec<2> middle = mix(box, to.at(key), progress(Beat::move, t, Motion::eased)).center();
+        const DrawList list = between(a, b, way, t, Motion::eased);
+        double most = 0;
+        for (std::size_t i = 0; i < list.shapes.size(); ++i)
+          if (glm::distance(extent_of(list.shapes[i]).center(), middle) < 12)
+            most = std::max(most, list.tints[i].opacity);
+        EXPECT_GE(most, 0.999) << key << " at " << t;
+      }
+    }
+  });
+}
+
+INSTANTIATE_TEST_SUITE_P(Tween, EveryChange,
+                         testing::Values("ghost_quadtree", "children_on_demand", "doom_level_bsp",
+                                         "quake_visibility", "sleeping", "node_reuse"));
 
 }  // namespace
 }  // namespace lantern::draw
