@@ -231,26 +231,31 @@ class Planner {
     }
   }
 
-  // A line in the place of another one: a wall that was cut, or is lit, is never gone.
+  // What comes in the place of its like: a wall that is lit or cut, a ground, is never gone.
   void match_close(const Thing& a, const Thing& b) {
-    const auto free_line = [](const DrawList& list, const std::vector<Fate>& fates, std::size_t i) {
-      return fates[i].kind == Fate::meets ? nullptr : std::get_if<LineShape>(&list.shapes[i]);
-    };
-    const auto lies_on = [](const LineShape& line, const LineShape& other) {
-      const Vec<2> middle = (line.from + line.to) / 2.0;
-      return glm::distance(middle, other.from) + glm::distance(middle, other.to) <
-             glm::distance(other.from, other.to) + 0.1;
+    const auto is_free = [](const DrawList& list, const std::vector<Fate>& fates, std::size_t i) {
+      return fates[i].kind != Fate::meets && !std::holds_alternative<TextShape>(list.shapes[i]);
     };
     for (const std::size_t j : b.shapes) {
-      const LineShape* next = free_line(b_, of_b_, j);
-      if (!next) continue;
+      if (!is_free(b_, of_b_, j)) continue;
       for (const std::size_t i : a.shapes) {
-        const LineShape* old = free_line(a_, of_a_, i);
-        if (!old || !(lies_on(*old, *next) || lies_on(*next, *old))) continue;
+        const DrawShape &old = a_.shapes[i], &next = b_.shapes[j];
+        if (!is_free(a_, of_a_, i) || !(lies_on(old, next) || lies_on(next, old))) continue;
         of_a_[i] = {Fate::follows, 0, a.box, a.box};
         of_b_[j] = {Fate::follows, 0, b.box, b.box};
       }
     }
+  }
+
+  // Is the middle of one line on the other, or that of a ground on another one of its colour?
+  static bool lies_on(const DrawShape& shape, const DrawShape& other) {
+    const Vec<2> middle = extent_of(shape).center();
+    if (shape.index() != other.index() || !contains(shrunk(extent_of(other), -0.1), middle))
+      return false;
+    const auto* line = std::get_if<LineShape>(&other);
+    if (!line) return style_of(shape) == style_of(other);
+    return glm::distance(middle, line->from) + glm::distance(middle, line->to) <
+           glm::distance(line->from, line->to) + 0.1;
   }
 
   const DrawList &a_, &b_;

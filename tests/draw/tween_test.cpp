@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <numbers>
 #include <set>
 #include <span>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "base/work.hpp"
 #include "draw/page.hpp"
 #include "draw/sample_frames.hpp"
+#include "frame/parts/asked.hpp"
 #include "scenario/directing.hpp"
 
 namespace lantern::draw {
@@ -464,6 +466,47 @@ TEST_P(EveryChange, LeavesWallsAndBodiesWhereTheyAreInBoth) {
       }
     }
   });
+}
+
+// Where the lines of a view point that are painted whole, or not at all.
+std::vector<double> view_edges(const DrawList& list) {
+  std::vector<double> angles;
+  for (std::size_t i = 0; i < list.shapes.size(); ++i) {
+    const auto* line = std::get_if<LineShape>(&list.shapes[i]);
+    if (!line || line->stroke.role != Role::frustum || line->stroke.width != 3.4) continue;
+    EXPECT_TRUE(list.tints.empty() || list.tints[i].opacity > 0.999) << "it fades";
+    angles.push_back(std::atan2(line->to.y - line->from.y, line->to.x - line->from.x));
+  }
+  return angles;
+}
+
+void expect_turning(const DrawList& a, const DrawList& b) {
+  const std::vector<double> from = view_edges(a), to = view_edges(b);
+  ASSERT_GE(from.size(), 3u);
+  ASSERT_EQ(to.size(), from.size());
+  const auto turned = [&](double angle) {
+    return std::abs(std::remainder(angle - from.back(), 2 * std::numbers::pi));
+  };
+  EXPECT_GT(turned(to.back()), 0.3) << "it should turn at all";
+  double last = from.back();
+  for (const double t : kTimes) {
+    const std::vector<double> now = view_edges(between(a, b, t));
+    ASSERT_EQ(now.size(), from.size()) << t;
+    EXPECT_GE(turned(now.back()), turned(last)) << "it turns back at " << t;
+    last = now.back();
+  }
+  EXPECT_NEAR(turned(last), turned(to.back()), 0.01);
+}
+
+TEST(Tween, AViewTurnsOnTheWay) {
+  const auto looking = [](const Vec<3>& left, const Vec<3>& right) {
+    Frame frame = samples::ghosts(3);
+    frame.add<FrameFinding>().views = {{{1, 4, 0}, {{1, 4, 0}, left, right}}};
+    return page_drawn(frame);
+  };
+  expect_turning(looking({6, 7, 0}, {7, 3, 0}), looking({7, 3, 0}, {5, 1, 0}));
+  const std::vector<Frame> culling = run::frames_of("frustum_culling");
+  expect_turning(page_drawn(culling.at(1)), page_drawn(culling.at(2)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Tween, EveryChange,

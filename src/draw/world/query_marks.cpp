@@ -59,31 +59,39 @@ void draw_eye(const Vec<2>& at, const Vec<2>& gaze, Role role, const Box<2>& pla
   pen.dot(at + look * 4.0 + Vec<2>(1.6, -1.8), 1.5, Role::eye);
 }
 
-// Of a 2D view its border, of a 3D one its edges, and from the eye to them.
+// Of a 2D view its border, of a 3D one its edges, and from the eye to them. Each is a thing of its
+// own, so that a view that turns is seen to turn.
 void mark_views(const Frame& frame, Marks& marks) {
+  int edge = 0;
+  const auto draw = [&](const Vec<3>& from, const Vec<3>& to, const Stroke& stroke) {
+    const Marks::Scope scope(marks, fmt::format("world/view/edge {}", edge++));
+    marks.line(from, to, stroke);
+  };
   for (const FrameView& view : first_of(frame.get<FrameFinding>().views, kMostViews)) {
     const std::vector<Vec<3>>& c = view.corners;
     if (!std::ranges::all_of(c, is_finite<3>)) continue;
     marks.tell(MarkKind::view);
     if (c.size() != 8) {
       for (std::size_t i = 0; i < c.size() && c.size() > 2; ++i)
-        marks.line(c[i], c[(i + 1) % c.size()], {Role::frustum, 3.4});
+        draw(c[i], c[(i + 1) % c.size()], {Role::frustum, 3.4});
       continue;
     }
     for (std::size_t i = 0; i < 4; ++i) {
       const Stroke strong{Role::frustum, 2.6};
       const std::size_t next = (i + 1) % 4;
-      marks.line(c[i], c[next], strong);
-      marks.line(c[i + 4], c[next + 4], strong);
-      marks.line(c[i], c[i + 4], strong);
-      marks.line(view.eye, c[i], {Role::frustum, 1.6, 6});
+      draw(c[i], c[next], strong);
+      draw(c[i + 4], c[next + 4], strong);
+      draw(c[i], c[i + 4], strong);
+      draw(view.eye, c[i], {Role::frustum, 1.6, 6});
     }
   }
 }
 
 void mark_eyes(const Frame& frame, const Projection& projection, const Box<2>& place,
                DrawList& list) {
-  for (const FrameView& view : first_of(frame.get<FrameFinding>().views, kMostViews)) {
+  const auto& views = frame.get<FrameFinding>().views;
+  for (const FrameView& view : first_of(views, kMostViews)) {
+    const DrawList::Scope scope(list, fmt::format("world/view/eye {}", &view - views.data()));
     const auto at = projection.seen(view.eye);
     if (!at || view.corners.empty()) continue;
     Vec<3> ahead{0.0};

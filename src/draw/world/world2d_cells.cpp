@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <optional>
 
+#include <fmt/format.h>
+
 #include "draw/world/borders.hpp"
 #include "draw/world/world2d_parts.hpp"
 #include "frame/parts/asked.hpp"
@@ -299,14 +301,21 @@ void outline_lit(const World2D& w) {
 // The grounds of views, which lie under the cells.
 Grounds fill_views(const World2D& w) {
   Grounds grounds;
-  Pen pen(w.list, w.map.picture());
   for (const FrameView& view : first_of(w.frame.get<FrameFinding>().views, kMostViews)) {
     std::vector<Vec<2>> corners;
     for (const Vec<3>& corner : view.corners) corners.push_back(w.map.to_page(corner));
     if (corners.size() < 3 || !std::ranges::all_of(corners, is_finite<2>)) continue;
-    pen.polygon(corners, Role::view_fill);
+    std::vector<Vec<2>> seen = cut_to(corners, w.map.picture());
+    grounds.push_back({seen, Role::view_fill});
     w.list.marks.add(MarkKind::view);
-    grounds.push_back({cut_to(corners, w.map.picture()), Role::view_fill});
+    if (seen.empty()) continue;
+    // From its first corner on, and with as many wherever it looks, so that it can turn.
+    std::ranges::rotate(seen, std::ranges::min_element(seen, {}, [&](const Vec<2>& p) {
+                          return glm::distance(p, corners[0]);
+                        }));
+    seen.resize(corners.size() + 4, seen.back());
+    const DrawList::Scope scope(w.list, fmt::format("world/view/ground {}", grounds.size()));
+    w.list.polygon(std::move(seen), Role::view_fill);
   }
   return grounds;
 }

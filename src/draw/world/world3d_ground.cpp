@@ -143,6 +143,7 @@ void fill_view(const FrameView& seen, const View3D& view, DrawList& list) {
     }
     for (const Vec<2>& p : view.polygon(corners)) points.push_back(p);
   }
+  const DrawList::Scope scope(list, "world/view/ground");
   Pen(list, view.panel()).polygon(hull_of(std::move(points)), Role::view_fill);
 }
 
