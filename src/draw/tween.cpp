@@ -119,8 +119,10 @@ class Planner {
   void come(const std::string& key, const Thing& thing) {
     const auto before = in_a_.find(key);
     if (key.starts_with(kPage)) {
-      if (before != in_a_.end()) set(before->second, Fate::stands, of_a_);
-      return set(thing, Fate::hidden, of_b_);
+      set(thing, Fate::hidden, of_b_);
+      if (before == in_a_.end()) return;
+      set(before->second, Fate::stands, of_a_);
+      return match_equal(before->second.shapes, thing.shapes);
     }
     if (key.empty()) {
       match_equal(in_a_.at(key).shapes, thing.shapes);
