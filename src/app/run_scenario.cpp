@@ -113,6 +113,7 @@ void find_missing(const Scenario& scenario, std::u32string& letters) {
   for (const Step& step : scenario.steps) {
     look_at(step.part);
     look_at(step.caption);
+    look_at(step.after);
     for (const NoteSpec& note : step.notes) look_at(note.text);
   }
   for (const auto& side : scenario.sides) find_missing(*side, letters);

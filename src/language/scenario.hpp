@@ -309,6 +309,7 @@ struct Step {
   std::optional<std::string> plot;  // adds a point to the chart, or a bar of this label
   std::optional<Pace> pace;         // of this step alone
   std::vector<std::string> events;  // in event pace, only these give frames; empty for all
+  std::string after;                // in its place on the step's last frame; or empty
   std::vector<Expectation> expect;  // after the step
   std::vector<Expectation> always;  // on every frame of the step
   std::optional<Display> display;   // of this step alone; none: the scenario's
@@ -329,6 +330,8 @@ class Scenario;
 
 // What stands in the file, is legal and surely not meant.
 struct Noticed {
+
+  const std::string& words(bool last) const { return last && !after.empty() ? after : caption; }
   Warning kind = Warning::expect;
   SourcePosition where;
   std::string message;

@@ -264,10 +264,10 @@ void FrameMaker::settle(std::string_view verb, bool last, const std::string& cap
     frame.add<FrameChart>() = plotter_->chart();
   }
   // Of a side's frames the caption is that of all sides together.
-  if (caption.empty() && scenario_.side.empty())
-    tell(step_->caption, frame);
-  else
+  if (!caption.empty() && !(last && !step_->after.empty()))
     frame.caption = caption;
+  else if (scenario_.side.empty())
+    tell(step_->words(last), frame);
   frame.ending = last && step_->ending;
   if (last && !step_->question.empty() && scenario_.side.empty())
     frame.add<FrameQuestion>() = FrameQuestion{step_->question, fill(step_->answer, frame)};

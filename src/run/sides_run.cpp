@@ -110,7 +110,7 @@ class SidesRun {
     for (std::size_t k = 0; k < frames && !stopped_; ++k) {
       Frame frame = together(k);
       plot(step, k + 1 == frames, frame);
-      frame.caption = caption(step, k, frame);
+      frame.caption = caption(step, k, k + 1 == frames, frame);
       if (k + 1 == frames && !step.question.empty())
         frame.add<FrameQuestion>() =
             FrameQuestion{step.question, filled(step, step.answer, k, frame)};
@@ -149,11 +149,11 @@ class SidesRun {
 
   // What the algorithm does on all sides alike, or, when all are done, the step's own words. What
   // one side does that the others do not is said by that side.
-  std::string caption(const Step& step, std::size_t k, Frame& frame) {
+  std::string caption(const Step& step, std::size_t k, bool last, Frame& frame) {
     const auto speaks = [](const Frame& side) {
       return !side.get<FrameSide>().held && !side.caption.empty();
     };
-    if (std::ranges::none_of(frame.sides, speaks)) return filled(step, step.caption, k, frame);
+    if (std::ranges::none_of(frame.sides, speaks)) return filled(step, step.words(last), k, frame);
     const std::string words = frame.sides[0].caption;
     for (const Frame& side : frame.sides)
       if (side.caption != words) return "";

@@ -963,6 +963,7 @@ std::vector<KeyCase> key_cases() {
     cases.push_back({table, "part", {"\"part 2\""}, bad_text("1 to 60", 60)});
     cases.push_back({table, "caption", {"\"\"", "\"Hello\""}, bad_text("0 to 180", 180)});
     cases.push_back({table, "notes", {"\"\"", "\"Ask.\""}, bad_text("0 to 2000", 2000)});
+    cases.push_back({table, "after", {"\"\"", "\"Hello\""}, bad_text("0 to 180", 180)});
     cases.push_back({table, "question", {}, bad_text("1 to 180", 180)});
     cases.push_back({table, "answer", {}, bad_text("1 to 180", 180)});
     cases.push_back({table, "ending", {"true", "false"}, bad_truth()});

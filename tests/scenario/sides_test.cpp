@@ -186,6 +186,23 @@ TEST(Sides, WhatAllDoAlikeIsSaidOnceWhatOneDoesStaysWithIt) {
   EXPECT_EQ(frames.back().caption, "Three.");
 }
 
+TEST(Sides, AfterIsSaidWhenAllAreDone) {
+  const auto frames = frames_of(
+      good(sided("", kSides,
+                 "[[step]]\ndo = \"insert\"\nbodies = [\"red\", \"pink\", \"blue\"]\npace = "
+                 "\"event\"\ncaption = \"Three.\"\nafter = \"{eager.nodes:node}\"\n"
+                 "[[step]]\ndo = \"run\"\nseconds = 0.5\nevery = 10\ncaption = \"{time}\"\nafter = "
+                 "\"{lazy.nodes}\"\n")));
+  std::size_t last = 0;
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    EXPECT_NE(frames[i].caption, "Three.");
+    if (frames[i].step == 0) last = i;
+  }
+  EXPECT_EQ(frames[last].caption, "5 nodes");
+  EXPECT_NE(frames[last + 1].caption, frames.back().caption);
+  EXPECT_EQ(frames.back().caption, std::to_string(*frames.back().count("lazy.nodes")));
+}
+
 TEST(Sides, ExpectationsHoldOnAllOrOnOne) {
   const std::string insert = "[[step]]\ndo = \"insert\"\nbodies = [\"red\", \"pink\", \"blue\"]\n";
   const auto expecting = [&](const std::string& expect) {

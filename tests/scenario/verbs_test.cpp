@@ -137,6 +137,29 @@ friction = 0
 )";
 const std::string kInsertBoth = "do = \"insert\"\nbodies = [\"wall\", \"ball\"]";
 
+TEST(Verbs, AfterStandsOnTheLastFrameOfAStep) {
+  const auto frames = played(
+      "", kTree + kWallAndBall,
+      {kInsertBoth + "\npace = \"event\"\ncaption = \"in\"\nafter = \"{bodies} in\"",
+       "do = \"run\"\nseconds = 0.5\nevery = 2\ncaption = \"{time}\"\nafter = \"done: {time} s\"",
+       "do = \"run\"\nseconds = 0.5\nevery = 2\ncaption = \"{time}\"",
+       "do = \"show\"\ncaption = \"one\"\nafter = \"frame\""});
+  std::vector<std::string> captions;
+  for (const Frame& frame : frames)
+    if (frame.step > 0) captions.push_back(frame.caption);
+  EXPECT_EQ(captions, (std::vector<std::string>{"0.25", "done: 0.50 s", "0.75", "1.00", "frame"}));
+  const auto of_insert = std::ranges::count(frames, 0u, &Frame::step);
+  ASSERT_GT(of_insert, 1);
+  EXPECT_NE(frames[0].caption, "in") << "it says what the algorithm does";
+  EXPECT_EQ(frames[static_cast<std::size_t>(of_insert - 1)].caption, "2 in");
+}
+
+TEST(Verbs, AfterMayQuoteWhatACaptionMay) {
+  expect_mistakes(world_text("size = [9, 9]",
+                             kWallAndBall + steps({"do = \"show\"\nafter = \"a @{piars} @}\""})),
+                  {"'after' cannot quote 'piars'", "in 'after': a '}'"});
+}
+
 TEST(Verbs, WaitEndsWithTheTouchAndWithTheParting) {
   for (const std::string contacts : {"impulse", "soft"}) {
     SCOPED_TRACE(contacts);

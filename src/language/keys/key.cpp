@@ -116,6 +116,11 @@ TableDoc step_table() {
           or_else("as before")),
       key(&Step::caption, "caption", "Explains the frame. It may quote counts.",
           range(0, kMostCaption)),
+      key(&Step::after, "after",
+          "Stands on the step's last frame in place of the `caption`, also if that is its only "
+          "one, and may quote counts of that frame. In event pace the frames before it say what "
+          "the algorithm does.",
+          range(0, kMostCaption), or_else("the `caption`")),
       key(&Step::speaker_notes, "notes",
           "For whoever speaks: shown in the speaker's view of a lesson page, on no frame.",
           range(0, kMostNotesText)),

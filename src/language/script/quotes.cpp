@@ -216,14 +216,14 @@ void check_quotes(const TableReader& table, std::string_view key, Draft& draft,
     const Place where = place_within(draft.text, table.place(key), text, p.offset);
     const std::string name(within_side(p.unknown, draft.sides));
     if (!p.message.empty())
-      draft.problems.add(where, fmt::format("in the {}: {}", key, p.message),
+      draft.problems.add(where, fmt::format("in '{}': {}", key, p.message),
                          "write {{ and }} for the braces themselves");
     else if (is_of_body(name))
       continue;  // told already
     else if (const CountDoc* doc = find_quotable(name))
       tell_not_counted({name, where}, why_not_counted(*doc, past), draft);
     else
-      draft.problems.add(where, fmt::format("a {} cannot quote {}", key, in_quotes(name)),
+      draft.problems.add(where, fmt::format("'{}' cannot quote {}", key, in_quotes(name)),
                          [name, known = quotable(past)] { return nearest(name, known); });
   }
 }

@@ -114,7 +114,7 @@ class ScriptReader {
     state_.past.note(step.verb);
     count_frames(table);
     check_plot(table, draft_, state_);
-    for (const char* key : {"caption", "answer", "verdict"})
+    for (const char* key : {"caption", "after", "answer", "verdict"})
       check_quotes(table, key, draft_, state_.past);
     read_look(table, step, draft_);
     read_notes(table, step, draft_, state_);
