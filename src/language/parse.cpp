@@ -171,7 +171,7 @@ class Indices {
     if constexpr (requires { verb.textures; })
       for (const std::size_t i : verb.textures) LANTERN_CHECK(i, <, spec_.textures.size());
     if constexpr (std::is_same_v<std::decay_t<decltype(verb)>, Wait>)
-      if (verb.event != Wait::Event::asleep) LANTERN_CHECK(verb.bodies.size(), ==, std::size_t{2});
+      for (const std::size_t i : verb.others) body(i);
   }
 
   const ScenarioSpec& spec_;

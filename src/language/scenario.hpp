@@ -96,15 +96,21 @@ struct Run {
 
 // As Run, until something happens.
 struct Wait {
-  enum class Event { touch, part, asleep, crush };  // two bodies, but any number fall asleep
+  enum class Event { touch, part, asleep, crush, enter, leave };
   static constexpr VerbTraits kTraits{.name = "wait", .passes_time = true};
   double seconds_of(double) const { return at_most; }
+  bool for_node() const { return event == Event::enter || event == Event::leave; }
   Event event = Event::touch;
-  std::vector<std::size_t> bodies;
-  double at_most = 0;  // seconds; if it has not happened by then, the run fails
+  // All of them fall asleep; one of them enters a node, or touches one of the others.
+  std::vector<std::size_t> bodies, others;
+  std::vector<std::string> named;  // as they are written
+  std::string node;                // its label
+  double at_most = 0;              // seconds; if it has not happened by then, the run fails
   int every = 0;
 };
-inline EnumNames names(Wait::Event) { return {"touch", "part", "asleep", "crush"}; }
+inline EnumNames names(Wait::Event) {
+  return {"touch", "part", "asleep", "crush", "enter", "leave"};
+}
 
 // Looks at the step's first impact that `phases` may show.
 inline constexpr std::size_t kMostLooks = 24;
@@ -303,13 +309,13 @@ struct Step {
   std::string name;                 // for --at; may be empty
   std::string part;                 // from here on shown behind the title; may be empty
   std::string caption;              // with {count} and {count:noun}; may be empty
+  std::string after;                // in its place on the step's last frame; or empty
   std::string speaker_notes;        // for whoever speaks, never drawn; may be empty
   std::string question;             // for the students, after the sequence; or empty
   std::string answer;               // to it, as this step's last frame shows; it may quote counts
   std::optional<std::string> plot;  // adds a point to the chart, or a bar of this label
   std::optional<Pace> pace;         // of this step alone
   std::vector<std::string> events;  // in event pace, only these give frames; empty for all
-  std::string after;                // in its place on the step's last frame; or empty
   std::vector<Expectation> expect;  // after the step
   std::vector<Expectation> always;  // on every frame of the step
   std::optional<Display> display;   // of this step alone; none: the scenario's
@@ -324,14 +330,14 @@ struct Step {
   std::optional<CodeSpec> code;       // from here on; none: as before, with no line lit
   bool ending = false;                // its last frame is the sequence's take-away
   SourcePosition where;
+
+  const std::string& words(bool last) const { return last && !after.empty() ? after : caption; }
 };
 
 class Scenario;
 
 // What stands in the file, is legal and surely not meant.
 struct Noticed {
-
-  const std::string& words(bool last) const { return last && !after.empty() ? after : caption; }
   Warning kind = Warning::expect;
   SourcePosition where;
   std::string message;

@@ -1,6 +1,6 @@
 #include "measure/schedule.hpp"
 
-#include "run/engine.hpp"
+#include "run/waiting.hpp"
 
 namespace lantern::measure {
 namespace {
@@ -25,11 +25,12 @@ Schedule script_of(const Scenario& scenario) {
     return static_cast<std::uint64_t>(std::llround(seconds / h));
   };
   const auto waited = [&](const Wait& wait) {
+    run::Waiting waiting(wait, scenario, *own);
     for (std::uint64_t i = 1; i <= steps_in(wait.at_most); ++i) {
       own->step();
-      if (own->has_happened(wait.event, wait.bodies)) return i;
+      if (waiting.is_over()) return i;
     }
-    throw Refused("what a step waits for has not happened within {} s", wait.at_most);
+    throw Refused("{}", waiting.in_vain());
   };
   Schedule schedule;
   Leg leg;

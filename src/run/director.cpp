@@ -24,7 +24,6 @@ std::vector<FrameLook> ScriptRun::let_time_pass(bool with_looks) {
     else
       engine().step();
     if (watch) watch->passed(engine());
-    engine().rebuild();
   }
   stage.time += scenario.world.time_step;
   return looks;

@@ -106,12 +106,14 @@ class EngineOf : public Engine {
 
   void step() override {
     const double h = scenario_.world.time_step;
+    looked_ahead_ = false;
     if (!steered_) steer();
     const WorldWork before = world().work();
     if (trails_) trails_->begin(world());
     world().step(h);
     if (trails_) trails_->end(world());
     steer();
+    outdated_ = true;
     last_ = work_between(before, world().work());
     ++work_.world_steps;
     let_in();
@@ -190,20 +192,25 @@ class EngineOf : public Engine {
     return body && body->moves() && !body->asleep && body->velocity != Vec<D>(0.0);
   }
 
-  bool has_happened(Wait::Event event, const std::vector<std::size_t>& bodies) const override {
-    if (event == Wait::Event::asleep)
-      return std::ranges::all_of(bodies, [&](std::size_t i) {
-        const Body<D>* body = players_.body(i);
-        return !body || body->asleep;
-      });
-    const BodyId first = *players_.id_of(bodies[0]), second = *players_.id_of(bodies[1]);
-    const Pair wanted{std::min(first, second), std::max(first, second)};
-    return std::ranges::any_of(players_.world().events(), [&](const ContactEvent& told) {
-      if (Pair{told.a, told.b} != wanted) return false;
-      if (event == Wait::Event::crush) return told.crushes;
-      return told.kind ==
-             (event == Wait::Event::touch ? ContactEvent::Kind::begin : ContactEvent::Kind::end);
-    });
+  bool is_asleep(std::size_t index) const override {
+    const Body<D>* body = players_.body(index);
+    return !body || body->asleep;
+  }
+
+  std::vector<Pair> told_of(Wait::Event event) const override {
+    const auto kind =
+        event == Wait::Event::touch ? ContactEvent::Kind::begin : ContactEvent::Kind::end;
+    std::vector<Pair> pairs;
+    for (const ContactEvent& told : players_.world().events())
+      if (event == Wait::Event::crush ? told.crushes : told.kind == kind)
+        pairs.push_back(told.pair());
+    return pairs;
+  }
+
+  Members members_of_nodes() override {
+    bring_up_to_date();
+    looked_ahead_ = true;
+    return members_of(structure_, *world().broad_phase());
   }
 
   std::string label_of(NodeHandle node) const override {
@@ -351,7 +358,7 @@ class EngineOf : public Engine {
   // What is drawn or asked is the structure of the bodies as they are. Without contacts nobody
   // else needs it: it is built only then.
   void bring_up_to_date() {
-    if (being_stored_) return;
+    if (being_stored_ || std::exchange(looked_ahead_, false)) return;
     if (outdated_ || scenario_.has_contacts() || !world().broad_phase()) look_ahead();
     outdated_ = false;
   }
@@ -396,6 +403,7 @@ class EngineOf : public Engine {
   bool steered_ = false;       // who has a brain has made up its mind about the next step
   bool being_stored_ = false;  // a body is on its way down the structure
   bool outdated_ = false;      // bodies have moved on since it was built
+  bool looked_ahead_ = false;  // since the last step, before any frame
   Brains<D> brains_{scenario_};
   std::vector<Emission> emissions_;
   IslandNumbers island_numbers_;

@@ -124,7 +124,12 @@ class Engine {
 
   virtual std::optional<BodyId> id_of(std::size_t body) const = 0;
   virtual bool is_moving(std::size_t body) const = 0;
-  virtual bool has_happened(Wait::Event event, const std::vector<std::size_t>& bodies) const = 0;
+  virtual bool is_asleep(std::size_t body) const = 0;
+  // The pairs that touched, parted or crushed in the last step.
+  virtual std::vector<Pair> told_of(Wait::Event event) const = 0;
+  // By the label of a node: the bodies that are stored in it or below it.
+  using Members = std::map<std::string, std::set<BodyId>>;
+  virtual Members members_of_nodes() = 0;
   virtual std::string label_of(NodeHandle node) const = 0;
   virtual const StructureSpec& structure() const = 0;
   virtual std::string name_of(BodyId id) const = 0;  // "'red'": for messages

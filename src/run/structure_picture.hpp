@@ -300,23 +300,49 @@ inline std::uint64_t testable_pairs_of(const Frame& frame) {
   return testable_pairs(frame.bodies.size(), never_move);
 }
 
-// "root", "1.3", "front.back"; empty if there is no such node.
+// f(node, labels) for each node, until it gives false; `labels` are "root", "1.3", "front.back", of
+// this structure's nodes up to this one.
 template <int D>
-std::string label_of(const StructureSpec& spec, const BroadPhase<D>& structure, NodeHandle handle) {
-  std::string found;
+void each_labelled(const StructureSpec& spec, const BroadPhase<D>& structure, auto&& f) {
   for (const StructureView<D>& tree : structure.each()) {
     std::vector<std::string> labels;
+    bool goes_on = true;
     tree.visit([&](const NodeView<D>& node) {
       labels.push_back(spec.of_level ? level_label(spec, node.id)
                        : node.parent == kNone
                            ? "root"
                            : child_label(spec, labels[node.parent], node.slot, node.leaf));
-      if (node.handle == handle && found.empty()) found = labels.back();
-      return found.empty();
+      return goes_on = f(node, labels);
     });
-    if (!found.empty()) break;
+    if (!goes_on) return;
   }
+}
+
+// Empty if there is no such node.
+template <int D>
+std::string label_of(const StructureSpec& spec, const BroadPhase<D>& structure, NodeHandle handle) {
+  std::string found;
+  each_labelled(spec, structure, [&](const NodeView<D>& node, const auto& labels) {
+    if (node.handle == handle && found.empty()) found = labels.back();
+    return found.empty();
+  });
   return found;
+}
+
+// What each node has in it or below it.
+template <int D>
+Engine::Members members_of(const StructureSpec& spec, const BroadPhase<D>& structure) {
+  Engine::Members members;
+  std::vector<std::uint32_t> parents;
+  each_labelled(spec, structure, [&](const NodeView<D>& node, const auto& labels) {
+    parents.resize(labels.size() - 1);
+    parents.push_back(node.parent);
+    members[labels.back()];
+    for (std::uint32_t at = node.id; at != kNone; at = parents[at])
+      members[labels[at]].insert(node.bodies.begin(), node.bodies.end());
+    return true;
+  });
+  return members;
 }
 
 // Nodes, pairs and counts of the world's structure as it stands. `tells_sleepers`: whether anything

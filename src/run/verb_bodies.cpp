@@ -8,6 +8,7 @@
 
 #include "run/event_text.hpp"
 #include "run/script_run.hpp"
+#include "run/waiting.hpp"
 
 namespace lantern::run {
 
@@ -72,13 +73,12 @@ void act(const Run& verb, ScriptRun& run) {
 // Until the event, which must happen in time.
 void act(const Wait& wait, ScriptRun& run) {
   run.watch_movers();
+  Waiting waiting(wait, run.scenario, run.engine());
   const std::uint32_t ticks = run.ticks_in(wait.at_most);
   for (std::uint32_t tick = 1; tick <= ticks && !run.frames.stopped(); ++tick) {
     run.let_time_pass();
-    if (run.engine().has_happened(wait.event, wait.bodies)) return run.frames.settle("wait");
-    if (tick == ticks)
-      run.frames.fail(
-          fmt::format("what this step waits for has not happened within {} s", wait.at_most));
+    if (waiting.is_over()) return run.frames.settle("wait");
+    if (tick == ticks) run.frames.fail(waiting.in_vain());
     if (tick % run.frame_every(wait.every) == 0 || tick == ticks)
       run.frames.settle("wait", tick == ticks);
   }

@@ -466,6 +466,7 @@ void add_verb_cases(std::vector<KeyCase>& cases) {
         "bodies",
         {"[\"pink\", \"red\"]"},
         {{"@[\"red\"]", "it takes two"}, {"[\"red\", @\"red\"]", "is named twice"}}},
+       {"wait", "node", {}, {{"@1", "must be a text"}, {"@\"\"", "1 to 64"}}},
        {"wait", "at_most", {"1", "0.5"}, bad_number("0", "1e10")},
        {"wait", "every", {"1", "1000"}, every},
        {"solve_by", "contacts", {"\"impulse\"", "\"soft\""}, bad_choice("impulses", "impulse")},
@@ -962,8 +963,8 @@ std::vector<KeyCase> key_cases() {
     cases.push_back({table, "plot", {}, {{"@1", "must be a text"}, {"@\"\"", "letters"}}});
     cases.push_back({table, "part", {"\"part 2\""}, bad_text("1 to 60", 60)});
     cases.push_back({table, "caption", {"\"\"", "\"Hello\""}, bad_text("0 to 180", 180)});
-    cases.push_back({table, "notes", {"\"\"", "\"Ask.\""}, bad_text("0 to 2000", 2000)});
     cases.push_back({table, "after", {"\"\"", "\"Hello\""}, bad_text("0 to 180", 180)});
+    cases.push_back({table, "notes", {"\"\"", "\"Ask.\""}, bad_text("0 to 2000", 2000)});
     cases.push_back({table, "question", {}, bad_text("1 to 180", 180)});
     cases.push_back({table, "answer", {}, bad_text("1 to 180", 180)});
     cases.push_back({table, "ending", {"true", "false"}, bad_truth()});

@@ -74,15 +74,15 @@ TEST(PhysicsVerbs, WaitsForWhatCanHappen) {
   const Wait wait = verb<Wait>(
       "do = \"wait\"\nevent = \"part\"\nbodies = [\"pink\", \"dot2\"]\nat_most = 2\nevery = 3");
   EXPECT_EQ(wait.event, Wait::Event::part);
-  EXPECT_EQ(wait.bodies, (std::vector<std::size_t>{1, 4}));
+  EXPECT_EQ(wait.bodies, std::vector<std::size_t>{1});
+  EXPECT_EQ(wait.others, std::vector<std::size_t>{4});
   EXPECT_EQ(wait.at_most, 2);
   EXPECT_EQ(wait.every, 3);
   EXPECT_EQ(verb<Wait>("do = \"wait\"\nevent = \"asleep\"\nbodies = [\"dot\"]\nat_most = 2").bodies,
             (std::vector<std::size_t>{3, 4, 5}));
   const std::string touch = "do = \"wait\"\nevent = \"touch\"\nat_most = 2\nbodies = ";
-  expect_mistake(touch + "[\"red\", @\"dot\"]", "'dot1' to 'dot3'");
   expect_mistake(touch + "@[\"red\", \"pink\", \"wall\"]", "it takes two");
-  expect_mistake(touch + "@[\"red\", \"dot1..dot2\"]", "3 of them cannot touch: it takes two");
+  expect_mistake(touch + "@[\"red\"]", "1 of them cannot touch: it takes two");
   expect_mistakes(kPhysicsScene + steps({"do = \"insert\"\nbodies = [\"red\"]",
                                          touch + "[\"red\", @\"pink\"]"}),
                   {"is not in the world at this step"});
@@ -96,6 +96,28 @@ TEST(PhysicsVerbs, WaitsForWhatCanHappen) {
       {"may_sleep = true"});
   expect_mistake("do = \"wait\"\nevent = \"touch\"\nbodies = [\"red\", \"pink\"]\nat_most = @0.3",
                  "not a whole number");
+}
+
+TEST(PhysicsVerbs, WaitsForWhicheverOfAPatternIsFirst) {
+  using Indices = std::vector<std::size_t>;
+  const std::string touch = "do = \"wait\"\nevent = \"touch\"\nat_most = 2\nbodies = ";
+  const Wait of_all = verb<Wait>(touch + "[\"dot\", \"red\"]");
+  EXPECT_EQ(of_all.bodies, (Indices{3, 4, 5}));
+  EXPECT_EQ(of_all.others, Indices{0});
+  EXPECT_EQ(verb<Wait>(touch + "[\"red\", \"dot1..dot2\"]").others, (Indices{3, 4}));
+  const Wait any_two = verb<Wait>(touch + "[\"dot\"]");
+  EXPECT_EQ(any_two.bodies, (Indices{3, 4, 5}));
+  EXPECT_EQ(any_two.others, any_two.bodies);
+}
+
+TEST(PhysicsVerbs, OnlyEnteringAndLeavingAreOfANode) {
+  const std::string wait = "do = \"wait\"\nbodies = [\"red\", \"dot\"]\nat_most = 2\n";
+  EXPECT_EQ(verb<Wait>(wait + "event = \"leave\"\nnode = \"1.3\"").node, "1.3");
+  expect_mistake(wait + "event = @\"enter\"", "'enter' needs a node");
+  expect_mistake(wait + "event = \"touch\"\n@node = \"1\"", "'touch' is of no node");
+  expect_mistakes(
+      kPhysicsRules + kBodies + steps({kInsertAll, wait + "event = \"enter\"\nnode = @\"1\""}),
+      {"there is no node here: there is no structure"});
 }
 
 TEST(PhysicsVerbs, FramesAndTimeStepsOfAllStepsAreBounded) {

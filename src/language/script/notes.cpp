@@ -66,11 +66,7 @@ class NoteReader {
     if (!table_.is_good("node")) return false;
     note.of = NoteOf::node;
     note.name = *table_.get<std::string>("node");
-    const std::string why = why_not_counted(*find_count("nodes"), state_.past);
-    if (why.empty()) return true;
-    table_.bad_value("node", fmt::format("there is no node here: {}", why),
-                     "a structure makes nodes");
-    return false;
+    return has_nodes(table_, "node", state_.past);
   }
 
   bool read_count(NoteSpec& note) {

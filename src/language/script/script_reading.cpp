@@ -91,6 +91,13 @@ void ScriptReading::require_sleep(Place where) {
     draft.problems.add(where, kNothingSleeps, kGiveSleep);
 }
 
+bool has_nodes(const TableReader& table, const char* key, const ScriptPast& past) {
+  const std::string why = why_not_counted(*find_count("nodes"), past);
+  if (!why.empty())
+    table.bad_value(key, fmt::format("there is no node here: {}", why), "a structure makes nodes");
+  return why.empty();
+}
+
 namespace {
 
 class ScriptReader {

@@ -111,6 +111,9 @@ void check_quotes(const TableReader& table, std::string_view key, Draft& draft,
 void read_look(const TableReader& step, Step& to, Draft& draft);
 void read_notes(const TableReader& step, Step& to, Draft& draft, const ScriptState& state);
 
+// False, and a problem at the key, if there are no nodes at this point of the script.
+bool has_nodes(const TableReader& table, const char* key, const ScriptPast& past);
+
 // The counts and measures of a `headline`. Adds a problem for each that is none, or for too many;
 // with `state` also for those that are not counted at this step.
 std::vector<std::string> read_headline(const TableReader& table, Draft& draft,

@@ -112,21 +112,31 @@ void read_wait(Wait& wait, const TableReader& table, ScriptReading& script) {
   ++script.state.least_ticks;
   const std::vector<Named> written = table.names("bodies");
   wait.bodies = script.bodies.present(written);
+  wait.named = mapped(written, &Named::name);
   if (!table.is_good("event") || !table.has("bodies")) return;
+  const std::string event = *table.get<std::string>("event");
+  if (table.has("node") ? !wait.for_node() && table.is_good("node") : wait.for_node())
+    return wait.for_node() ? table.bad_value("event", fmt::format("'{}' needs a node", event),
+                                             "name it by its label, as node = \"1.3\"")
+                           : table.bad_key("node", fmt::format("'{}' is of no node", event),
+                                           "bodies `enter` and `leave` a node");
   if (wait.event == Wait::Event::asleep) return script.require_sleep(table.place("event"));
+  if (wait.for_node()) return void(has_nodes(table, "node", script.state.past));
   script.require_contacts(table.place("event"));
-  if (written.empty() && wait.bodies.empty()) return;
-  for (const Named& name : written)
-    if (script.draft.bodies.find(name.name)) one_body(name, script.draft);
-  // A range stands for several.
-  const bool has_range = std::ranges::any_of(
-      written, [&](const Named& name) { return name.name.find("..") != name.name.npos; });
-  const std::size_t count = has_range ? wait.bodies.size() : written.size();
-  if (count != 2)
-    table.bad_value(
-        "bodies",
-        fmt::format("{} of them cannot {}: it takes two", count, *table.get<std::string>("event")),
-        "as bodies = [\"ball\", \"wall\"]");
+  if (wait.bodies.empty()) return;
+  if (written.size() > 2 || (written.size() == 1 && wait.bodies.size() == 1))
+    return table.bad_value("bodies",
+                           fmt::format("{} of them cannot {}: it takes two", written.size(), event),
+                           "as bodies = [\"ball\", \"wall\"]");
+  // Of one name any two; else one of the first and one of the second.
+  wait.others = wait.bodies;
+  if (written.size() == 1) return;
+  Problems told;  // already
+  std::size_t first = 0;
+  for (const Named& name : without_ranges({written[0]}, script.draft.bodies, "body", told))
+    if (const NamedRange* range = script.draft.bodies.find(name.name)) first += range->count;
+  wait.others.erase(wait.others.begin(), wait.others.begin() + std::ptrdiff_t(first));
+  wait.bodies.resize(first);
 }
 
 void read_phases(Phases&, const TableReader& table, ScriptReading& script) {
@@ -257,10 +267,19 @@ std::vector<VerbDoc> verbs_of_time() {
                  {
                      key(&Wait::event, "event",
                          "Two bodies `touch` or `part`; or one of the two is `crush`ed "
-                         "between the other and a third; or all of some bodies are `asleep`.",
+                         "between the other and a third; or all of some bodies are `asleep`; or "
+                         "one of some bodies `enter`s or `leave`s a `node`, as the structure "
+                         "begins or ceases to store it there or below.",
                          must()),
                      key(KeyType::texts, "bodies",
-                         "Two names of bodies; of what falls asleep any number.", must()),
+                         "Two names, of what falls asleep or goes through a node any number. That "
+                         "of a pattern stands for whichever of its bodies is first, and alone for "
+                         "any two of them.",
+                         must()),
+                     key(&Wait::node, "node",
+                         "Of `enter` and `leave`: a node by its label, as \"1.3\"; of a BSP the "
+                         "sides of its lines, as \"front.back\".",
+                         range(1, 64), or_else("none")),
                      key(&Wait::at_most, "at_most", "A whole number of time steps.", must(),
                          above(0, kHundredYears), in("s")),
                      every_key<Wait>(),
