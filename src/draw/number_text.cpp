@@ -68,8 +68,11 @@ std::string chart_words(std::string name) {
 }
 
 std::string count_words(std::string_view name, bool one) {
-  const language::CountDoc* count = language::find_count(name);
-  return count ? count->words(one) : chart_words(std::string(name));
+  if (const language::CountDoc* count = language::find_count(name)) return count->words(one);
+  const std::size_t dot = std::min(name.find('.'), name.size());
+  const auto* of_body = find_in(language::known_body_measures(), name.substr(0, dot));
+  if (!of_body || dot == name.size()) return chart_words(std::string(name));
+  return fmt::format("{}: {}", of_body->words(one), name.substr(dot + 1));
 }
 
 }  // namespace lantern::draw

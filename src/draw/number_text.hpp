@@ -25,7 +25,7 @@ std::string power_of_ten(int power);
 std::string chart_words(std::string name);
 
 // What it is called beside its number: "leaf" or "leaves", "node visited" or "nodes visited",
-// "energy: bob"; `one` asks for the singular, which a measure does not have.
+// "energy: bob", "leaves: taxi"; `one` asks for the singular, which a measure does not have.
 std::string count_words(std::string_view name, bool one);
 
 }  // namespace lantern::draw

@@ -41,19 +41,15 @@ class Places {
     const auto found = bodies_.find(name);
     return found == bodies_.end() ? nullptr : found->second;
   }
-  std::size_t leaves_with(BodyId body) {
-    if (leaves_.empty())
-      for (const FrameNode& node : frame_.nodes)
-        if (node.leaf)
-          for (const BodyId id : node.bodies) ++leaves_[id];
-    const auto found = leaves_.find(body);
-    return found == leaves_.end() ? 0 : found->second;
+  std::uint64_t leaves_with(BodyId body) {
+    if (stored_.empty()) stored_ = stored_bodies(frame_);
+    return stored_[body].leaves;
   }
 
  private:
   const Frame& frame_;
   std::unordered_map<std::string_view, const FrameBody*> bodies_;
-  std::unordered_map<BodyId, std::size_t> leaves_;
+  std::unordered_map<BodyId, Stored> stored_;
 };
 
 // Bodies stand in order of ids.
@@ -99,7 +95,7 @@ Unmet unmet_leaves(const Expectation& e, const Frame&, Places& places) {
   const FrameBody* body = places.body_named(e.name);
   if (!body)
     return fmt::format("expected '{}' in {} leaves, but it is not there", e.name, e.number);
-  const std::size_t leaves = places.leaves_with(body->id);
+  const std::uint64_t leaves = places.leaves_with(body->id);
   if (static_cast<double>(leaves) == e.number) return std::nullopt;
   return fmt::format("expected '{}' in {} leaves, found it in {}", e.name, e.number, leaves);
 }

@@ -113,6 +113,17 @@ std::optional<double> Frame::measure(std::string_view name) const {
   return value_of(name, measures);
 }
 
+std::unordered_map<BodyId, Stored> stored_bodies(const Frame& frame) {
+  std::unordered_map<BodyId, Stored> stored;
+  for (const FrameNode& node : frame.nodes)
+    for (const BodyId id : node.bodies) {
+      Stored& of_body = stored[id];
+      ++of_body.leaves;
+      of_body.depth = std::max(of_body.depth, node.depth);
+    }
+  return stored;
+}
+
 std::optional<double> Frame::number(std::string_view name) const {
   if (const auto counted = count(name)) return static_cast<double>(*counted);
   return measure(name);

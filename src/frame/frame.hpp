@@ -10,6 +10,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -375,6 +376,13 @@ struct Frame : FramePage, FrameParts {
 // The types of the parts that come with Lantern, in the order in which the facts tell them; what a
 // program has of its own stands behind them, by name.
 const std::vector<const PartType*>& part_order();
+
+// Of each body that is in a leaf: in how many, and how deep the deepest lies.
+struct Stored {
+  std::uint64_t leaves = 0;
+  std::uint32_t depth = 0;
+};
+std::unordered_map<BodyId, Stored> stored_bodies(const Frame& frame);
 
 // Of time, bodies, nodes, pairs and textures; not of the counts of work.
 std::uint64_t state_hash(const Frame& frame);

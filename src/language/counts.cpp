@@ -54,6 +54,11 @@ constexpr CountDoc kBodyMeasures[] = {
     {"z", when::solid, "", "The same along z, in a 3D world.", Most::unbounded, "units"},
     {"penetration", when::contacts, "",
      "How deep its deepest contact of the last world step overlaps.", Most::size, "units"},
+    {"leaves", when::structure, "leaf/leaves", "Leaves that store it: a count, as the next two.",
+     Most::parts},
+    {"pairs", when::structure, "", "Candidate pairs that it is one of.", Most::bodies},
+    {"depth", when::structure, "level deep/levels deep",
+     "Depth of the deepest leaf that stores it.", Most::depth},
 };
 
 std::vector<CountDoc>& counts() {
@@ -221,6 +226,9 @@ std::string CountDoc::words(bool one) const {
 }
 
 std::span<const CountDoc> known_body_measures() { return kBodyMeasures; }
+bool is_counted(const CountDoc& of_body) {
+  return is_counted(static_cast<BodyMeasure>(&of_body - kBodyMeasures));
+}
 std::span<const CountDoc> known_counts() { return counts(); }
 std::span<const CountDoc> known_texts() { return kTexts; }
 std::span<const CountDoc> known_measures() { return measures(); }

@@ -111,6 +111,7 @@ void add_measures(std::span<const CountDoc> rows);
 
 // The same of one body, written as `energy.bob`; in the order of BodyMeasure.
 std::span<const CountDoc> known_body_measures();
+bool is_counted(const CountDoc& of_body);
 
 // Placeholders of captions that are not counts.
 std::span<const CountDoc> known_texts();

@@ -241,7 +241,11 @@ enum class BodyMeasure {
   y,
   z,
   penetration,
+  leaves,  // from here on it is counted
+  pairs,
+  depth,
 };
+inline bool is_counted(BodyMeasure what) { return what >= BodyMeasure::leaves; }
 
 struct BodyMeasureSpec {
   std::string name;  // as it is written: "energy.bob"

@@ -165,14 +165,27 @@ void measure_world(const Players<D>& players, const Scenario& scenario, Frame& f
   if (scenario.has_joints()) frame.measures.emplace_back("joint_gap", widest_gap(players.world()));
 }
 
-// Measures of single bodies that the scenario asks for, as "energy.bob", of bodies that are there.
-// Contacts must be in the frame.
+inline std::uint64_t count_of(BodyMeasure what, BodyId id, const Frame& frame) {
+  if (what == BodyMeasure::pairs)
+    return static_cast<std::uint64_t>(std::ranges::count_if(
+        frame.pairs, [&](const FramePair& p) { return p.pair.a == id || p.pair.b == id; }));
+  const auto stored = stored_bodies(frame)[id];
+  return what == BodyMeasure::leaves ? stored.leaves : stored.depth;
+}
+
+// What the scenario asks for of single bodies, as "energy.bob", of those that are there. Contacts,
+// nodes and pairs must be in the frame.
 template <int D>
 void measure_bodies(const Players<D>& players, const Scenario& scenario, Frame& frame) {
-  for (const BodyMeasureSpec& asked : scenario.body_measures)
-    if (const Body<D>* body = players.body(asked.body))
+  for (const BodyMeasureSpec& asked : scenario.body_measures) {
+    const Body<D>* body = players.body(asked.body);
+    if (!body) continue;
+    if (!is_counted(asked.measure))
       frame.measures.emplace_back(asked.name,
                                   measured(asked.measure, *body, players.world(), frame));
+    else if (frame.structure != StructureKind::none)
+      frame.add_count(asked.name, count_of(asked.measure, body->id, frame));
+  }
 }
 
 // By the lowest id in an island; the next new one gets the next number. Numbers are never used

@@ -89,6 +89,68 @@ expect = { at_least = { "penetration.low" = 0.001 }, at_most = { "penetration.hi
   EXPECT_EQ(frames.back().measure("penetration.high"), 0);
 }
 
+// A net in the middle: the taxi stands on it, the bus and the car to its left and right.
+const std::string kTaxis = R"([structure]
+kind = "bsp"
+planes = [
+  { name = "net", point = [4, 0], normal = [1, 0] },
+  { name = "deep", point = [6, 0], normal = [1, 0], at = "front" },
+]
+[[body]]
+name = "taxi"
+radius = 0.5
+position = [4, 2]
+[[body]]
+name = "bus"
+radius = 0.5
+position = [1, 2]
+[[body]]
+name = "car"
+radius = 0.5
+position = [5, 2]
+)";
+const std::string kInsertTaxis =
+    "[[step]]\ndo = \"insert\"\nbodies = [\"taxi\", \"bus\", \"car\"]\n";
+
+TEST(BodyMeasures, LeavesPairsAndDepthOfOneAreCounted) {
+  const auto frames = frames_of(good(world_text(
+      "size = [8, 8]",
+      kTaxis + kInsertTaxis +
+          "headline = [\"leaves.taxi\", \"pairs.bus\"]\n"
+          "caption = \"{leaves.taxi:leaf/leaves}, {leaves.bus:leaf/leaves}; {pairs.taxi:pair}, "
+          "{pairs.bus:pair}; {depth.taxi}\"\n"
+          "expect = { in_leaves = { taxi = 2, bus = 1 }, equal = { \"leaves.taxi\" = 2, "
+          "\"pairs.taxi\" = 2, \"pairs.car\" = 1, \"depth.car\" = 2, \"depth.bus\" = 1, "
+          "\"x.taxi\" = 4 } }\n"
+          "[[step]]\ndo = \"remove\"\nbodies = [\"bus\"]\n"
+          "expect = { equal = { \"pairs.taxi\" = 1 } }\n")));
+  EXPECT_EQ(frames[0].caption, "2 leaves, 1 leaf; 2 pairs, 1 pair; 2");
+  EXPECT_EQ(frames[1].count("leaves.taxi"), 2);
+  EXPECT_FALSE(frames[1].count("leaves.bus")) << "it has left";
+}
+
+TEST(BodyMeasures, WhatIsCountedNeedsAStructure) {
+  const std::string show = kInsertTaxis + "caption = \"@{leaves.taxi}\"\n";
+  const std::string bodies = kTaxis.substr(kTaxis.find("[[body]]"));
+  expect_mistakes(world_text("size = [8, 8]", bodies + show),
+                  {"'leaves.taxi' is not counted here: there is no structure at this step"});
+  EXPECT_EQ(frames_of(good(world_text("size = [8, 8]",
+                                      bodies + kInsertTaxis +
+                                          "[[step]]\ndo = \"rebuild\"\nkind = \"brute_force\"\n"
+                                          "caption = \"{leaves.taxi}\"\n")))
+                .back()
+                .caption,
+            "1")
+      << "as soon as there is one";
+  const auto with = [](const std::string& caption) {
+    return world_text("size = [8, 8]", kTaxis + kInsertTaxis + caption);
+  };
+  expect_mistakes(with("caption = \"@{leafs.taxi}\""), {"did you mean 'leaves'?"});
+  expect_mistakes(with("caption = \"@{leaves.taxy}\""), {"did you mean 'taxi'?"});
+  expect_mistakes(with("caption = \"@{x.taxi:unit}\""), {"it takes no noun"});
+  expect_mistakes(with("expect = { equal = { @\"leaves.taxy\" = 1 } }"), {"did you mean 'taxi'?"});
+}
+
 TEST(BodyMeasures, MistakesAreToldByName) {
   const auto with = [](const std::string& promise) {
     return world_text(kBobWorld, kBobs + kInsertBobs + kHalfSecond + "expect = { at_most = { " +
@@ -99,7 +161,7 @@ TEST(BodyMeasures, MistakesAreToldByName) {
   expect_mistakes(with("@\"penetration.bob\" = 1"), {"this world has no contacts"});
   expect_mistakes(with("@\"own_spin_y.bob\" = 1"), {"this world is 2D"});
   expect_mistakes(
-      world_text(kBobWorld, kBobs + kInsertBobs + kHalfSecond + "caption = @\"{energy.bib}\"\n"),
+      world_text(kBobWorld, kBobs + kInsertBobs + kHalfSecond + "caption = \"@{energy.bib}\"\n"),
       {"there is no body 'bib'"});
 }
 

@@ -577,7 +577,7 @@ void add_look_cases(std::vector<KeyCase>& cases) {
 }
 
 void add_promise_cases(std::vector<KeyCase>& cases) {
-  for (const std::string key : {"at_most", "at_least"})
+  for (const std::string key : {"equal", "at_most", "at_least"})
     cases.push_back({"expect",
                      key,
                      {"{ hits = 1 }", "{ energy = -1.5, bodies = 2 }", "{}"},

@@ -387,7 +387,7 @@ TEST(Sides, MistakesInWhatIsSaidOfThem) {
   const auto said = [](const std::string& step, const std::vector<std::string>& words) {
     expect_mistakes(sided("", kSides, kShow + step), words);
   };
-  said("caption = @\"{egaer.pairs}\"\n", {"did you mean 'eager'?"});
+  said("caption = \"@{egaer.pairs}\"\n", {"did you mean 'eager'?"});
   said("caption = \"@{eager.piars}\"\n", {"did you mean 'pairs'?"});
   said("caption = \"@{lazy.contacts}\"\n", {"'contacts' is not counted here"});
   said("headline = [@\"egaer.pairs\"]\n", {"did you mean 'eager'?"});

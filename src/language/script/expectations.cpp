@@ -23,6 +23,7 @@ struct Form {
 };
 
 constexpr Form kForms[] = {
+    {"equal", Kind::count, About::counts},
     {"at_most", Kind::at_most, About::counts},
     {"at_least", Kind::at_least, About::counts},
     {"in_leaves", Kind::leaves, About::bodies, "leaves"},
@@ -39,6 +40,12 @@ constexpr Form kForms[] = {
     {"step_work", Kind::step_work, About::structures, "least_work"},
     {"fewest", Kind::fewest, About::structures, "least_work"},
 };
+
+bool is_measured(const std::string& name) {
+  const CountDoc* of_body = find_in(known_body_measures(), name.substr(0, name.find('.')));
+  return is_of_body(name) ? of_body && !is_counted(*of_body)
+                          : find_in(known_measures(), name) != nullptr;
+}
 
 bool is_measured(Kind kind) {
   return kind == Kind::measure || kind == Kind::position || kind == Kind::velocity ||
@@ -123,7 +130,8 @@ class ExpectationReader {
 
   Expectation& add_about(const Form& form, const Named& name) {
     check(form.about, name);
-    return add(form.kind, name.name, name.where);
+    const bool measures = form.kind == Kind::count && is_measured(name.name);
+    return add(measures ? Kind::measure : form.kind, name.name, name.where);
   }
 
   void check(About about, const Named& name) {
@@ -180,6 +188,8 @@ TableDoc expect_table() {
       "Expectations that `lantern check` verifies. Any count may be a key, as in `expect = { nodes "
       "= 5, pairs = 1 }`.",
       {
+          key(name_numbers, "equal",
+              "Counts and measures of single bodies, as `{ \"leaves.taxi\" = 2 }`."),
           key(name_numbers, "at_most",
               "Upper limits of counts and measures, as `{ contacts = 3 }`."),
           key(name_numbers, "at_least", "Lower limits of counts and measures."),

@@ -170,7 +170,8 @@ std::vector<CaptionProblem> caption_problems(
 bool check_counted(const Named& written, Draft& draft, const ScriptState* state) {
   if (is_of_other_side(written.name, draft)) return true;
   const Named number{std::string(within_side(written.name, draft.sides)), written.where};
-  if (is_of_body(number.name)) return note_body_measure(number, draft);
+  if (is_of_body(number.name))
+    return note_body_measure(number, draft, state ? &state->past : nullptr).has_value();
   const CountDoc* doc = find_count(number.name);
   if (!doc) {
     draft.problems.add_unknown(number.where, "count or measure", number.name, names_of_counts);
@@ -205,8 +206,12 @@ void check_quotes(const TableReader& table, std::string_view key, Draft& draft,
     if (is_of_other_side(written, draft)) return Placeholder::count;
     const std::string_view name = within_side(written, draft.sides);
     if (is_of_body(name)) {
-      const bool noted = note_body_measure({std::string(name), table.place(key)}, draft);
-      return noted ? Placeholder::text : Placeholder::unknown;
+      const auto brace = static_cast<std::size_t>(written.data() - text.data()) - 1;
+      const Place where = place_within(draft.text, table.place(key), text, brace);
+      const auto noted = note_body_measure({std::string(name), where}, draft, &past);
+      return !noted               ? Placeholder::unknown
+             : is_counted(*noted) ? Placeholder::count
+                                  : Placeholder::text;
     }
     const CountDoc* doc = find_quotable(name);
     if (!doc || !why_not_counted(*doc, past).empty()) return Placeholder::unknown;
@@ -247,7 +252,8 @@ void check_plot(const TableReader& step, Draft& draft, ScriptState& state) {
   }
 }
 
-bool note_body_measure(const Named& name, Draft& draft) {
+std::optional<BodyMeasure> note_body_measure(const Named& name, Draft& draft,
+                                             const ScriptPast* past) {
   const std::size_t dot = name.name.find('.');
   const std::string measure = name.name.substr(0, dot);
   const CountDoc* doc = find_in(known_body_measures(), measure);
@@ -262,25 +268,29 @@ bool note_body_measure(const Named& name, Draft& draft) {
           for (const CountDoc& k : known_body_measures()) known.push_back(k.name);
           return nearest(measure, known);
         });
-    return false;
+    return std::nullopt;
   }
-  if (const std::string why = why_not_measured(*doc, {draft.scenario, draft.dimension});
-      !why.empty()) {
-    draft.problems.add(name.where, fmt::format("'{}' is not measured here: {}", name.name, why));
-    return false;
+  const auto what = static_cast<BodyMeasure>(doc - known_body_measures().data());
+  const std::string why = !is_counted(what)
+                              ? why_not_measured(*doc, {draft.scenario, draft.dimension})
+                          : past ? why_not_counted(*doc, *past)
+                                 : "";
+  if (!why.empty()) {
+    draft.problems.add(name.where, fmt::format("'{}' is not {} here: {}", name.name,
+                                               is_counted(what) ? "counted" : "measured", why));
+    return std::nullopt;
   }
   const auto body = one_body({name.name.substr(dot + 1), name.where}, draft);
-  if (!body) return false;
+  if (!body) return std::nullopt;
   std::vector<BodyMeasureSpec>& noted = draft.scenario.body_measures;
-  if (std::ranges::find(noted, name.name, &BodyMeasureSpec::name) != noted.end()) return true;
+  if (std::ranges::find(noted, name.name, &BodyMeasureSpec::name) != noted.end()) return what;
   if (noted.size() == kMostNoted) {
     draft.problems.add(name.where,
                        fmt::format("more than {} measures of single bodies", kMostNoted));
-    return false;
+    return std::nullopt;
   }
-  const auto what = static_cast<BodyMeasure>(doc - known_body_measures().data());
   noted.push_back({name.name, what, *body});
-  return true;
+  return what;
 }
 
 }  // namespace lantern::language

@@ -60,6 +60,8 @@ class Prototypes {
   std::map<std::string, TomlTable> keys_;
 };
 
+class ScriptPast;
+
 struct Draft {
   ScenarioSpec scenario;
   Problems problems;
@@ -174,9 +176,10 @@ std::vector<Named> without_ranges(const std::vector<Named>& written, const Names
                                   std::string_view kind, Problems& problems);
 
 // Notes that the scenario asks for it, so that every frame measures it. Adds a problem, and gives
-// false, if there is no such measure or body, if this world cannot have it, or if there are too
-// many.
-bool note_body_measure(const Named& name, Draft& draft);
+// nothing, if there is no such measure or body, if this world cannot have it, or what is counted is
+// not there by now (if it is known how far the script is), or if there are too many.
+std::optional<BodyMeasure> note_body_measure(const Named& name, Draft& draft,
+                                             const ScriptPast* past = nullptr);
 
 // Shared by bodies and textures: which colour the `index`-th has, when 0 cycles through all.
 int cycled_color(std::int64_t color, std::size_t index);
