@@ -110,7 +110,9 @@ void find_missing(const Scenario& scenario, std::u32string& letters) {
   look_at(scenario.side_title);
   for (const BodySpec& body : scenario.bodies) look_at(body.name);
   for (const TextureSpec& texture : scenario.textures) look_at(texture.name);
+  for (const std::string& number : scenario.headline) look_at(number);
   for (const Step& step : scenario.steps) {
+    for (const std::string& number : step.headline) look_at(number);
     look_at(step.part);
     look_at(step.caption);
     look_at(step.after);

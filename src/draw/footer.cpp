@@ -58,10 +58,9 @@ Counter counted(std::int64_t number, std::string noun, std::string widest,
           .whole = number};
 }
 
-// With the words of its row, and `of` behind them.
-Counter counted(std::int64_t number, const std::string& name, const std::string& of = "") {
-  return counted(number, count_words(name, number == 1) + of, count_words(name, false) + of,
-                 {name});
+// With the words of its row.
+Counter counted(std::int64_t number, const std::string& name) {
+  return counted(number, count_words(name, number == 1), count_words(name, false), {name});
 }
 
 // What it is about when nobody says so: two at most.
@@ -113,15 +112,17 @@ std::optional<Counter> counter_of(const std::string& name, const Frame& frame) {
     of = ", " + chart_words(name.substr(0, dot));
     what = name.substr(dot + 1);
   }
+  const bool own_words = frame.words.contains(name);
+  if (own_words) what = name, of.clear();
   if (const auto n = frame.count(name)) {
     for (Counter& known : default_counters(frame))
-      if (known.depicts == std::vector{name}) return std::move(known);
-    Counter counter = counted(*n, what, of);
-    counter.depicts = {name};
-    return counter;
+      if (!own_words && known.depicts == std::vector{name}) return std::move(known);
+    return counted(*n, count_words(frame, what, *n == 1) + of, count_words(frame, what, false) + of,
+                   {name});
   }
   if (const auto number = frame.measure(name))
-    return Counter{fmt::format("{:.4g}", *number), count_words(what, false) + of, "", {name}};
+    return Counter{
+        fmt::format("{:.4g}", *number), count_words(frame, what, false) + of, "", {name}};
   return std::nullopt;
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/number.hpp"
+#include "frame/frame.hpp"
 #include "language/counts.hpp"
 
 namespace lantern::draw {
@@ -73,6 +74,11 @@ std::string count_words(std::string_view name, bool one) {
   const auto* of_body = find_in(language::known_body_measures(), name.substr(0, dot));
   if (!of_body || dot == name.size()) return chart_words(std::string(name));
   return fmt::format("{}: {}", of_body->words(one), name.substr(dot + 1));
+}
+
+std::string count_words(const Frame& frame, std::string_view name, bool one) {
+  const auto own = frame.words.find(std::string(name));
+  return own == frame.words.end() ? count_words(name, one) : language::noun_form(own->second, one);
 }
 
 }  // namespace lantern::draw

@@ -4,6 +4,10 @@
 #include <string>
 #include <string_view>
 
+namespace lantern::frame {
+struct Frame;
+}
+
 namespace lantern::draw {
 
 // Thousands apart by a thin space ("1 234 567"), at most `decimals` of them after the point and no
@@ -27,5 +31,7 @@ std::string chart_words(std::string name);
 // What it is called beside its number: "leaf" or "leaves", "node visited" or "nodes visited",
 // "energy: bob", "leaves: taxi"; `one` asks for the singular, which a measure does not have.
 std::string count_words(std::string_view name, bool one);
+// The same as the headline calls it, if that has words of its own.
+std::string count_words(const frame::Frame& frame, std::string_view name, bool one);
 
 }  // namespace lantern::draw

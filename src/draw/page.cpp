@@ -133,6 +133,12 @@ std::string number_on(const Frame& side, const std::string& name) {
   return measured ? fmt::format("{:.3g}", *measured) : "";
 }
 
+// As the headline calls it on this side alone, or on all.
+std::string words_on(const Frame& side, const std::string& name, bool one, const Frame& page) {
+  const std::string own = side.get<FrameSide>().name + "." + name;
+  return count_words(page, page.words.contains(own) ? own : name, one);
+}
+
 // Wide enough for the longest of all sides and for four digits, so that what can be compared stands
 // at the same place of each.
 double number_room(const Frame& frame, const std::string& name) {
@@ -151,16 +157,19 @@ void draw_numbers(const Frame& frame, const Frame& side, const std::vector<std::
   const double y = line.lo.y + kNumbersBaseline;
   double x = line.lo.x;
   for (const std::string& name : numbers) {
-    const std::string one = count_words(name, true), many = count_words(name, false);
     const double noun = x + number_room(frame, name) + 9;
-    x = noun + std::max(text_width(one, kQuiet), text_width(many, kQuiet));
+    x = noun;
+    for (const Frame& other : frame.sides)
+      for (const bool one : {true, false})
+        x = std::max(x, noun + text_width(words_on(other, name, one, frame), kQuiet));
     if (x > line.hi.x) return;
     const auto count = side.count(name);
     if (count)
       labels.add_number(*count, {noun - 9, y}, kNumber, line);
     else
       labels.add(number_on(side, name), {{noun - 9, y}, 1}, kNumber, line);
-    if (side.number(name)) labels.add(count == 1 ? one : many, {{noun, y}, 0}, kQuiet, line);
+    if (side.number(name))
+      labels.add(words_on(side, name, count == 1, frame), {{noun, y}, 0}, kQuiet, line);
     x += kBetweenNumbers;
   }
 }

@@ -183,6 +183,11 @@ class FrameWriter {
         .line("seed", frame_.seed);
     if (frame_.ending) facts_.line("ending", true);
     if (!frame_.headline.empty()) facts_.line("headline", frame_.headline);
+    if (!frame_.words.empty()) {
+      json_.line().key("words").begin_object();
+      for (const auto& [name, words] : frame_.words) facts_.member(name, words);
+      json_.end_object();
+    }
     write_part(part_type<FrameQuestion>(), frame_);
     if (!frame_.sides.empty())
       facts_.list("sides", frame_.sides, [&](const Frame& side) { write_side(side); });

@@ -6,6 +6,7 @@
 #include <any>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -317,7 +318,8 @@ struct FramePage {
   std::uint32_t step = 0;  // of the script, from 0
   std::uint32_t steps = 0;
   std::vector<std::string> headline;  // the numbers that the scenario puts in front; may be empty
-  bool ending = false;                // the take-away of the sequence
+  std::map<std::string, std::string> words;  // of those that have their own: "leaf/leaves"
+  bool ending = false;                       // the take-away of the sequence
   std::vector<Panel> panels;
   Box<3> bounds;
   Display display;

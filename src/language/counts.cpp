@@ -215,10 +215,20 @@ bool CountDoc::for_world() const {
   return &rule != &when::with_atlas && rule.first != &when::with_atlas;
 }
 
-std::string CountDoc::words(bool one) const {
+std::string noun_form(std::string_view noun, bool one) {
   const std::size_t slash = noun.find('/');
-  if (!noun.empty())
-    return std::string(one || slash == noun.npos ? noun.substr(0, slash) : noun.substr(slash + 1));
+  return std::string(one || slash == noun.npos ? noun.substr(0, slash) : noun.substr(slash + 1));
+}
+
+Fronted fronted(std::string_view written) {
+  const std::size_t colon = std::min(written.find(':'), written.size());
+  std::string_view words = written.substr(std::min(colon + 1, written.size()));
+  words.remove_prefix(std::min(words.find_first_not_of(' '), words.size()));
+  return {std::string(written.substr(0, colon)), std::string(words)};
+}
+
+std::string CountDoc::words(bool one) const {
+  if (!noun.empty()) return noun_form(noun, one);
   std::string words(name);
   std::ranges::replace(words, '_', ' ');
   if (one && words.ends_with('s')) words.pop_back();

@@ -97,6 +97,16 @@ struct CountDoc {
   std::string words(bool one) const;
 };
 
+// "leaf" or "leaves" of "leaf/leaves"; without a slash the same for both.
+std::string noun_form(std::string_view noun, bool one);
+
+// What a headline puts in front: "pairs", or with words of its own "pairs: pair left/pairs left".
+struct Fronted {
+  std::string name;
+  std::string words;  // empty: those of its row
+};
+Fronted fronted(std::string_view written);
+
 // What a caption may quote and an expectation may name.
 std::span<const CountDoc> known_counts();
 

@@ -57,8 +57,9 @@ bool in_view(const FrameNote& note, const Frame& frame) {
 
 // What the sparkline shows: the number that the scenario puts in front, if it is a count.
 std::string trace_name(const Scenario& scenario) {
-  const auto& front = scenario.headline;
-  return !front.empty() && find_in(known_counts(), front[0]) ? front[0] : "pairs";
+  const std::string front =
+      scenario.headline.empty() ? "pairs" : fronted(scenario.headline[0]).name;
+  return find_in(known_counts(), front) ? front : "pairs";
 }
 
 std::string why_not_noted(const NoteSpec& note, const Frame& frame) {
@@ -174,7 +175,11 @@ Frame FrameMaker::picture(const Touched& now, std::string_view event, bool midst
   frame.dimension = scenario_.world.dimension;
   frame.bounds = scenario_.world.bounds;
   looks_.show(frame);
-  frame.headline = headline_;
+  for (const std::string& written : headline_) {
+    const auto& [name, words] = fronted(written);
+    frame.headline.push_back(name);
+    if (!words.empty()) frame.words[name] = words;
+  }
   if (stage_.engine) stage_.engine->picture(now, swept ? &*swept : nullptr, frame);
   if (stage_.engine) tell_faults();
   if (stage_.engine) narrow.add_to(frame, *stage_.engine);

@@ -53,6 +53,26 @@ TEST(SidesView, AnEndingShowsTheCountsOfSidesLarge) {
       << "the caption keeps its room";
 }
 
+TEST(SidesView, ANumberMayHaveWordsOfItsOwn) {
+  Frame frame = samples::sided({samples::ghosts(4), samples::ghosts(3)});
+  frame.sides[0].counts = {{"nodes", 9}, {"pairs", 1}};
+  frame.sides[1].counts = {{"nodes", 1}, {"pairs", 5}};
+  const std::string first = frame.sides[0].get<FrameSide>().name + ".nodes";
+  frame.headline = {first, "pairs"};
+  frame.words = {{first, "square/squares of the first"}, {"pairs", "pair left/pairs left"}};
+  DrawList list = samples::page_of(frame);
+  EXPECT_EQ(boxes_of(list, "squares of the first").size(), 1u) << "under its side alone";
+  EXPECT_EQ(boxes_of(list, "node").size(), 1u);
+  const auto one = boxes_of(list, "pair left"), many = boxes_of(list, "pairs left");
+  ASSERT_EQ(one.size(), 1u);
+  ASSERT_EQ(many.size(), 1u);
+  const auto a = boxes_of(list, "squares of the first"), b = boxes_of(list, "node");
+  EXPECT_NEAR(one[0].lo.x - a[0].lo.x, many[0].lo.x - b[0].lo.x, 1e-9) << "one below the other";
+  frame.ending = true;
+  EXPECT_EQ(boxes_of(samples::page_of(frame), "squares of the first").size(), 2u)
+      << "at the foot, too, and nothing is said behind it";
+}
+
 TEST(SidesView, OneScaleHoldsForAll) {
   const Frame frame = samples::sided({samples::ghosts(4), samples::ghosts(2)});
   const DrawList list = samples::page_of(frame);

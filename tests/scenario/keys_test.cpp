@@ -912,7 +912,15 @@ std::vector<KeyCase> key_cases() {
     bad.push_back({four, "the limit is 3"});
     bad.push_back({"[\"pairs\", @\"pairs\"]", "stands twice"});
     bad.push_back({"[@\"energy.rex\"]", "did you mean 'red'?"});
-    cases.push_back({table, "headline", {"[\"pairs\", \"speed.red\"]"}, bad});
+    bad.push_back({"[@\"pair: left\"]", "did you mean 'pairs'?"});
+    bad.push_back({"[@\"pairs:\"]", "words of 'pairs' are missing"});
+    bad.push_back({"[@\"pairs: one/\"]", "words of 'pairs' are missing"});
+    bad.push_back({"[\"pairs\", @\"pairs: left\"]", "stands twice"});
+    bad.push_back({"[@\"pairs: " + std::string(49, 'x') + "\"]", "more than 48 letters"});
+    cases.push_back({table,
+                     "headline",
+                     {"[\"pairs\", \"speed.red\"]", "[\"pairs: pair left/pairs left\"]"},
+                     bad});
   }
   const Bad ruled = {{"@1", "must be a text"}, {"@\"rex\"", "did you mean 'red'?"}};
   cases.push_back({"step.ruler", "a", {}, ruled});

@@ -140,10 +140,11 @@ TEST(Told, AreTheNumbersThatACaptionQuotes) {
   const auto frames = frames_of(scene(
       "", kThree,
       {"do = \"insert\"\nbodies = [\"a\"]\ncaption = \"{nodes:node}, {pairs:pair}, {nodes}\"\n"
-       "headline = [\"leaves\"]",
+       "headline = [\"leaves:  leaf here/leaves here\"]",
        "do = \"show\"\nending = true"}));
   EXPECT_EQ(frames[0].told, (std::vector<std::string>{"nodes", "pairs"}));
   EXPECT_EQ(frames[1].headline, std::vector<std::string>{"leaves"}) << "from here on";
+  EXPECT_EQ(frames[1].words.at("leaves"), "leaf here/leaves here");
   EXPECT_FALSE(frames[0].ending);
   EXPECT_TRUE(frames[1].ending);
 }

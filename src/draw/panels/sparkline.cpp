@@ -57,7 +57,8 @@ void draw_sparkline(const Frame& frame, const Staging& staging, const Box<2>& pl
   const auto whole = trace.seconds ? trace.seconds : axes.seconds_of(frame.part);
   const double seconds = std::max(whole.value_or(power_of_two_over(now.x)), now.x);
 
-  const std::string one = count_words(trace.name, true), many = count_words(trace.name, false);
+  const std::string one = count_words(frame, trace.name, true),
+                    many = count_words(frame, trace.name, false);
   const auto digits = static_cast<std::int64_t>(number_text(most).size());
   const double number = Labels::number_width(digits, kStrong);
   const std::string top = number_text(most), end = number_text(seconds, 2) + " s";

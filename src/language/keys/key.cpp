@@ -75,7 +75,9 @@ TableDoc file_table() {
       key(KeyType::texts, "headline",
           "Up to three counts and measures that stand at the foot of every frame, the first one "
           "large. Of sides they stand under each; one of a single side, as `eager.nodes`, is large "
-          "at the ending's foot, too.",
+          "at the ending's foot, too. Words of its own may follow, for one and for many or the "
+          "same "
+          "for both: `\"pairs: pair left/pairs left\"`, `\"all_pairs: by brute force\"`.",
           or_else("what the caption quotes, then what the scenario is about")),
       key(KeyType::table, "world", "Where bodies are.", holds("world")),
       key(KeyType::table, "structure", "How the world is partitioned.", holds("structure")),

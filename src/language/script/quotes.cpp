@@ -69,6 +69,7 @@ void for_each_piece(std::string_view caption, auto&& f) {
   }
 }
 
+constexpr std::size_t kMostWords = 48;  // letters of a number's own, for one and for many
 constexpr std::size_t kMostNoted = 64;  // each costs time on every frame
 
 // Names that can be counted or quoted here, for suggestions.
@@ -187,10 +188,19 @@ std::vector<std::string> read_headline(const TableReader& table, Draft& draft,
   std::vector<std::string> names;
   const std::vector<Named> written = table.names("headline");
   for (const Named& number : written) {
-    if (!check_counted(number, draft, state)) continue;
-    if (std::ranges::find(names, number.name) != names.end())
+    const auto& [name, words] = fronted(number.name);
+    if (!check_counted({name, number.where}, draft, state)) continue;
+    if (std::ranges::find(names, name, [](const auto& n) { return fronted(n).name; }) !=
+        names.end())
       draft.problems.add(number.where,
-                         fmt::format("{} stands twice in 'headline'", in_quotes(number.name)));
+                         fmt::format("{} stands twice in 'headline'", in_quotes(name)));
+    const bool has_words = !noun_form(words, true).empty() && !noun_form(words, false).empty();
+    if (number.name.size() > name.size() && !has_words)
+      draft.problems.add(number.where, fmt::format("words of {} are missing", in_quotes(name)),
+                         "as \"pairs: pair left/pairs left\", or \"all_pairs: by brute force\"");
+    else if (letters(words) > kMostWords)
+      draft.problems.add(number.where,
+                         fmt::format("more than {} letters for {}", kMostWords, in_quotes(name)));
     names.push_back(number.name);
   }
   if (written.size() > kMostHeadline)
