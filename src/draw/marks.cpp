@@ -302,6 +302,76 @@ bool draw_met(std::uint32_t place, const Vec<2>& at, const Box<2>& room, DrawLis
   return true;
 }
 
+std::vector<Stack> stacks_of(std::span<const FrameBody* const> bodies) {
+  const auto coincide = [](const FrameBody& a, const FrameBody& b) {
+    const Vec<3> size = a.box.size();
+    const double slip = 1e-6 * std::max({size.x, size.y, size.z});
+    return glm::all(glm::lessThanEqual(glm::abs(a.box.lo - b.box.lo), Vec<3>(slip))) &&
+           glm::all(glm::lessThanEqual(glm::abs(a.box.hi - b.box.hi), Vec<3>(slip)));
+  };
+  std::vector<Stack> stacks;
+  for (const FrameBody* body : bodies) {
+    const auto same = std::ranges::find_if(
+        stacks, [&](const Stack& stack) { return coincide(*stack.front(), *body); });
+    (same == stacks.end() ? stacks.emplace_back() : *same).push_back(body);
+  }
+  std::erase_if(stacks, [](const Stack& stack) { return stack.size() < 2; });
+  return stacks;
+}
+
+namespace {
+
+void draw_stack(const Stack& stack, const Box<2>& box, bool with_faces,
+                const std::vector<Box<2>>& covered, const Box<2>& panel, DrawList& list,
+                Labels& labels) {
+  constexpr double kFace = 24, kApart = 4, kRim = 10;
+  constexpr int kWays = 16;
+  const std::string text = fmt::format("×{}", stack.size());
+  const double width = with_faces ? static_cast<double>(stack.size()) * (kFace + kApart) : 0;
+  const Vec<2> half = Vec<2>(2 * kRim + width + text_width(text, kStrong), kFace + 8) / 2.0;
+  const Vec<2> c = box.center(), beside = box.size() / 2.0 + half + kApart;
+  const Vec<2> corner = glm::clamp(Vec<2>(box.hi.x, box.lo.y), panel.lo + half, panel.hi - half);
+  std::vector<Vec<2>> places = {corner, box.lo, box.hi, {box.lo.x, box.hi.y}};
+  for (const Vec<2>& way : {Vec<2>(1, 0), {-1, 0}, {0, -1}, {0, 1}})
+    places.push_back(c + way * beside);
+  const auto near = std::ssize(places);
+  for (const double ring : {1.0, 1.5, 2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0, 24.0})
+    for (const Vec<2>& way : ring_of({0, 0}, ring, kWays, 0))
+      places.push_back(corner + way * half.y * 2.0);
+  const auto is_free = [&](const Vec<2>& at) {
+    return labels.is_free(Box<2>::around(at, half), panel);
+  };
+  auto at = std::find_if(places.begin(), places.begin() + near, [&](const Vec<2>& place) {
+    return is_free(place) && !touches(covered, Box<2>::around(place, half));
+  });
+  if (at == places.begin() + near) at = std::ranges::find_if(places, is_free);
+  if (at == places.end()) return;
+  const Box<2> pill = Box<2>::around(*at, half);
+  if (at - places.begin() >= near) list.line(corner, *at, {Role::quiet_ink, 1.6});
+  list.rect(pill, Role::paper, {Role::quiet_ink, 1.6}, half.y);
+  double x = pill.lo.x + kRim;
+  for (std::size_t i = 0; with_faces && i < stack.size(); ++i, x += kFace + kApart)
+    draw_icon(stack[i], Box<2>::around({x + kFace / 2, at->y}, Vec<2>(kFace / 2)), list);
+  labels.add(text, centred({x, at->y}, kStrong, 0), kStrong, panel);
+  labels.block(pill);
+}
+
+}  // namespace
+
+void draw_stacks(const std::vector<std::pair<Stack, Box<2>>>& stacks,
+                 const std::vector<Box<2>>& covered, const Box<2>& panel, DrawList& list,
+                 Labels& labels) {
+  constexpr std::size_t kMostFaces = 4, kFew = 6;
+  for (const auto& [stack, box] : stacks) {
+    const DrawList::Scope scope(list, body_key("world/stack", *stack.front()));
+    std::vector<Box<2>> others = covered;
+    std::erase_if(others,
+                  [&](const Box<2>& other) { return overlap(shrunk(other, 1), shrunk(box, 1)); });
+    const bool with_faces = stacks.size() <= kFew && stack.size() <= kMostFaces;
+    draw_stack(stack, box, with_faces, others, panel, list, labels);
+  }
+}
+
 void draw_tick(const Vec<2>& at, DrawList& list) {
   list.disc(at, 9.5, Role::panel, {Role::frustum, 2});
   const Vec<2> foot = at + Vec<2>(-1.2, 4);

@@ -166,6 +166,16 @@ void mark_found(const Frame& frame, const Marks& marks, DrawList& list);
 // An eye at a place of the page that looks along `gaze`.
 void draw_eye(const Vec<2>& at, const Vec<2>& gaze, Role role, const Box<2>& place, DrawList& list);
 
+// Bodies whose boxes coincide, of those given: each list two or more, the last of which is on top.
+using Stack = std::vector<const FrameBody*>;
+std::vector<Stack> stacks_of(std::span<const FrameBody* const> bodies);
+// How many lie over each other in each of these boxes, "×3", and while they are few their faces: at
+// its upper right, or where others have taken that as near as there is room, beside it free of
+// `covered` places if it can be.
+void draw_stacks(const std::vector<std::pair<Stack, Box<2>>>& stacks,
+                 const std::vector<Box<2>>& covered, const Box<2>& panel, DrawList& list,
+                 Labels& labels);
+
 // What a body's own picture says of it.
 void tell_marks(const FrameBody& body, DrawList& list);
 

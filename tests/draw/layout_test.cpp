@@ -157,6 +157,56 @@ TEST(Layout, BodiesAtOnePlaceShareOneLabelThatNamesAll) {
       1);
 }
 
+// How often a text stands in the world; the tree says the like of leaves.
+std::ptrdiff_t times(const DrawList& list, std::string_view text) {
+  return std::ranges::count_if(list.labels, [&](const LabelBox& l) {
+    return l.text == text && holds(list.maps.at(0).picture, l.box);
+  });
+}
+
+// As far as the outlines reach that are drawn of it in the world.
+double width_of(const DrawList& list, const FrameBody& body) {
+  double left = 1e9, right = -1e9;
+  const auto see = [&](double x) { left = std::min(left, x), right = std::max(right, x); };
+  for (std::size_t r = 0; r < list.runs.size(); ++r) {
+    if (list.runs[r].key != body_key("world/body", body)) continue;
+    const std::size_t end = r + 1 < list.runs.size() ? list.runs[r + 1].first : list.shapes.size();
+    for (std::size_t i = list.runs[r].first; i < end; ++i) {
+      if (const auto* rect = std::get_if<RectShape>(&list.shapes[i]))
+        see(rect->box.lo.x), see(rect->box.hi.x);
+      if (const auto* polygon = std::get_if<PolygonShape>(&list.shapes[i]))
+        for (const Vec<2>& p : polygon->points) see(p.x);
+    }
+  }
+  return right - left;
+}
+
+TEST(Layout, CoincidentBodiesLieOverEachOtherAndAreCounted) {
+  Work work;
+  Frame frame = samples::coincident(4);
+  const DrawList list = draw_frame(frame, page_for(1600, 900), work);
+  EXPECT_EQ(times(list, "×3"), 1);
+  for (const FrameBody& body : frame.bodies)
+    EXPECT_GT(width_of(list, body), 0.85 * body.box.size().x * list.maps.at(0).scale) << body.name;
+  frame.bodies[2].box.hi.x += 0.01;
+  EXPECT_EQ(times(draw_frame(frame, page_for(1600, 900), work), "×2"), 1)
+      << "who is larger is seen beside the others";
+  frame.bodies[1].box.hi.x += 0.02;
+  for (const char* text : {"×2", "×3"})
+    EXPECT_EQ(times(draw_frame(frame, page_for(1600, 900), work), text), 0);
+}
+
+TEST(Layout, NoStackIsLeftUncountedHoweverFullThePageIs) {
+  Work work;
+  Frame frame = samples::crowd(300, 2);
+  for (std::size_t i = 0; i < 60; ++i) {
+    FrameBody twin = frame.bodies[i];
+    twin.id = static_cast<BodyId>(frame.bodies.size());
+    frame.bodies.push_back(twin);
+  }
+  EXPECT_EQ(times(draw_frame(frame, page_for(1600, 900), work), "×2"), 60);
+}
+
 TEST(Layout, BodiesThatOnlyLookAsOneAreNotSaidToBe) {
   Work work;
   Frame frame = samples::coincident(8);

@@ -11,8 +11,8 @@
 namespace lantern::draw {
 namespace {
 
-constexpr double kOnePlace = 6;        // page units between centres that count as one place
-constexpr std::size_t kMostCards = 7;  // drawn of the bodies at one place
+constexpr double kOnePlace = 6;          // page units between centres that count as one place
+constexpr std::ptrdiff_t kMostOver = 7;  // drawn of the bodies at one place: the uppermost
 constexpr std::size_t kMostDetailed = 160;
 constexpr std::size_t kMostBoxed = 60;
 constexpr double kRim = 24;      // from the bounds to an outside body's marker
@@ -49,9 +49,10 @@ Stand stand_of(const FrameBody& body, const Frame& frame, const View2D& map) {
   return stand;
 }
 
-double size_of(const Stand& stand, const View2D& map) {
-  const Vec<2> size = page_box(*stand.bodies.front(), map).size();
-  return std::min(size.x, size.y);
+// In tenths of a unit: of equal bodies no rounding decides who is on top.
+long size_of(const FrameBody& body, const View2D& map) {
+  const Vec<2> size = page_box(body, map).size();
+  return std::lround(10 * std::min(size.x, size.y));
 }
 
 void draw_outside(const World2D& w, const Stand& stand) {
@@ -73,22 +74,16 @@ void draw_inside(const World2D& w, const FrameBody& body, const Box<2>& box, boo
   if (!holds(limit, box)) cut_shapes(w.list, first, limit);
 }
 
-// The box of the i-th of k bodies at one place: smaller ones, side by side within it like cards,
-// so that each can be seen and none seems to be where it is not.
-Box<2> card(const Box<2>& box, std::size_t i, std::size_t k) {
-  if (k < 2) return box;
-  constexpr double kPart = 0.6;
-  const Vec<2> room = box.size() * (1 - kPart);
-  const Vec<2> lo = box.lo + room * (static_cast<double>(i) / static_cast<double>(k - 1));
-  return {lo, lo + box.size() * kPart};
-}
-
+// Each where it is, the largest first: a large one must not hide a small one.
 void draw_stand(const World2D& w, const Stand& stand, bool plain) {
-  const std::size_t cards = std::min(stand.bodies.size(), kMostCards);
-  for (std::size_t i = 0; i < cards; ++i) {
-    const std::string key = body_key("world/body", *stand.bodies[i]);
+  std::vector<const FrameBody*> order = stand.bodies;
+  std::ranges::stable_sort(order, std::greater(),
+                           [&](const FrameBody* body) { return size_of(*body, w.map); });
+  if (std::ssize(order) > kMostOver) order.erase(order.begin(), order.end() - kMostOver);
+  for (const FrameBody* body : order) {
+    const std::string key = body_key("world/body", *body);
     const DrawList::Scope scope(w.list, key, key);
-    draw_inside(w, *stand.bodies[i], card(page_box(*stand.bodies[i], w.map), i, cards), plain);
+    draw_inside(w, *body, page_box(*body, w.map), plain);
   }
 }
 
@@ -174,7 +169,7 @@ void draw_bodies(const World2D& w, bool boxes) {
   }
   // A large body must not hide a small one.
   std::ranges::stable_sort(order, std::greater(),
-                           [&](const Stand* s) { return size_of(*s, w.map); });
+                           [&](const Stand* s) { return size_of(*s->bodies.front(), w.map); });
   const bool plain = count > kMostDetailed;
   for (const Stand* stand : order) {
     for (const FrameBody* body : stand->bodies) tell_marks(*body, w.list);
@@ -208,6 +203,16 @@ void name_bodies(const World2D& w) {
     const DrawList::Scope scope(w.labels.list(), body_key("world/name", *stand->bodies[0]));
     name_stand(w, shortened(names, widest, {}), *stand, sides);
   }
+}
+
+void count_stacks(const World2D& w) {
+  std::vector<std::pair<Stack, Box<2>>> stacks;
+  for (const Stand& stand : w.stands)
+    for (const Stack& stack : stacks_of(stand.bodies))
+      if (const Box<2> box = page_box(*stack.front(), w.map);
+          !stand.outside && overlap(box, w.map.picture()))
+        stacks.emplace_back(stack, box);
+  draw_stacks(stacks, w.covered, w.frame.view ? w.map.picture() : w.map.panel(), w.list, w.labels);
 }
 
 std::size_t draw_crowd(const World2D& w) {

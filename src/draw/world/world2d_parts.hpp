@@ -105,6 +105,8 @@ void draw_coordinates(const World2D& w);
 
 // `boxes`: with the dashed boxes of what is no box itself.
 void draw_bodies(const World2D& w, bool boxes);
+// How many bodies coincide, wherever some do.
+void count_stacks(const World2D& w);
 // Of those that show one; each on its side and free of what is covered by bodies, as far as there
 // is room.
 void name_bodies(const World2D& w);

@@ -225,6 +225,10 @@ void draw_world3d(const Frame& frame, const Staging& staging, const Box<2>& pane
   if (!crowd) depict_bodies(frame, list);
   note(left_out, panel, labels);
   std::vector<Box<2>> covered = mapped(bodies, &Body3D::box);
+  std::vector<std::pair<Stack, Box<2>>> stacks;
+  for (const Stack& stack : stacks_of(mapped(bodies, &Body3D::body)))
+    stacks.emplace_back(stack, std::ranges::find(bodies, stack.front(), &Body3D::body)->box);
+  draw_stacks(stacks, covered, panel, list, labels);
   write_depths(frame, view, covered, labels);
   name_world3d(frame, staging, bodies, view, list, labels);
   write_heights(bodies, view, list, labels);
@@ -283,6 +287,7 @@ void draw_world2d(World2D w) {
   draw_looks(w);
   note(left_out, w.map.picture(), w.labels);
   for (const Stand& stand : w.stands) w.covered.push_back(stand.box);
+  count_stacks(w);
   write_depths(w.frame, w.map, w.covered, w.labels);
   draw_coordinates(w);
   mark_walk(w);
