@@ -25,18 +25,18 @@ double measure(const Frame& frame, const std::string& name) {
 }
 
 void expect_as_long_as_a_lecture_wants(const std::vector<Frame>& frames) {
-  EXPECT_GE(frames.size(), 40u);
-  EXPECT_LE(frames.size(), 120u);
+  EXPECT_GE(frames.size(), 6u);
+  EXPECT_LE(frames.size(), 18u);
 }
 
 TEST(MotionFacts, EnergyOfASpringGoesAsItsMethodSays) {
   const auto frames = frames_of("stiff_spring");
   expect_as_long_as_a_lecture_wants(frames);
-  double explicit_energy = 0.78125, implicit_energy = 0.78125, rk4_energy = 0.78125;
   for (const Frame* frame : of_step(frames, "swing")) {
-    explicit_energy *= 1.25;  // 1 + (omega h)^2
-    implicit_energy /= 1.25;
-    rk4_energy *= 1 - 1.0 / 64 / 72 + 1.0 / 256 / 576;
+    const double steps = std::round(frame->time / 0.1);
+    const double grown = std::pow(1.25, steps);  // 1 + (omega h)^2
+    const double explicit_energy = 0.78125 * grown, implicit_energy = 0.78125 / grown;
+    const double rk4_energy = 0.78125 * std::pow(1 - 1.0 / 64 / 72 + 1.0 / 256 / 576, steps);
     EXPECT_NEAR(measure(*frame, "energy.explicit Euler"), explicit_energy, 1e-9 * explicit_energy);
     EXPECT_NEAR(measure(*frame, "energy.implicit Euler"), implicit_energy, 1e-9);
     EXPECT_NEAR(measure(*frame, "energy.Runge-Kutta 4"), rk4_energy, 1e-9);
@@ -65,25 +65,25 @@ TEST(MotionFacts, ChartOfTheStiffSpringBeginsAnewWithEachPart) {
     for (const FrameSeries& series : at(frames, event).get<FrameChart>().series)
       EXPECT_LE(series.points.size(), 1u) << event << ": " << series.name;
   const FrameChart& recap = at(frames, "recap").get<FrameChart>();
-  EXPECT_EQ(recap.series[0].points.size(), 27u) << "explicit Euler, until it was taken out";
-  EXPECT_EQ(recap.series[1].points.size(), 41u);
+  for (const FrameSeries& series : recap.series)
+    EXPECT_EQ(series.points.size(), 4u) << series.name << ": one a frame";
 }
 
-TEST(MotionFacts, TheBoxTurnsOverAndOnlyTheTextbookWinsEnergy) {
+TEST(MotionFacts, TheBoxTurnsOverAndOnlyExplicitEulerWinsEnergy) {
   const auto frames = frames_of("tumbling_box");
   expect_as_long_as_a_lecture_wants(frames);
   int turns = 0;
   double last = 5;
   for (const Frame& frame : frames) {
-    const double spin = measure(frame, "own_spin_y.in exact turns");
+    const double spin = measure(frame, "own_spin_y.exact");
     turns += spin * last < 0 ? 1 : 0;
     last = spin;
-    EXPECT_NEAR(measure(frame, "angular_momentum.in exact turns"), 1230.3547537, 1e-6);
-    EXPECT_NEAR(measure(frame, "energy.in exact turns"), 3076.71, 6);
+    EXPECT_NEAR(measure(frame, "angular_momentum.exact"), 1230.3547537, 1e-6);
+    EXPECT_NEAR(measure(frame, "energy.exact"), 3076.71, 6);
   }
   EXPECT_EQ(turns, 3) << "by Euler's equations at 1.17 s, 4.19 s and 7.22 s";
-  EXPECT_NEAR(measure(at(frames, "upside_down"), "own_spin_y.in exact turns"), -4.985, 0.02);
-  EXPECT_GT(measure(frames.back(), "energy.by the textbook"), 1.5 * 3076.71);
+  EXPECT_NEAR(measure(at(frames, "upside_down"), "own_spin_y.exact"), -4.985, 0.02);
+  EXPECT_GT(measure(frames.back(), "energy.explicit Euler"), 1.5 * 3076.71);
 }
 
 // Of the side with that name.
@@ -109,8 +109,8 @@ TEST(MotionFacts, OnlyWithSweepsDepthGrowsWithTheMassRatio) {
   const double t = 0.2;
   for (const Frame* frame : of_step(frames, "impulses")) {
     if (std::abs(frame->time - t) > 1e-9) continue;
-    EXPECT_NEAR(2 - body(side(*frame, "ten sweeps"), "x10000").position.y, 5 * t * (t + 1.0 / 60),
-                0.03);
+    EXPECT_NEAR(2 - body(side(*frame, "ten sweeps"), "heaviest box").position.y,
+                5 * t * (t + 1.0 / 60), 0.03);
   }
 }
 

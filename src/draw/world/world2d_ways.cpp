@@ -41,8 +41,8 @@ void draw_trail(const FrameBody& body, const View2D& map, Pen& pen) {
   way.push_back(map.to_page(body.position));
   draw_way(way, pen);
   for (const frame::FrameStop& stop : body.trail)
-    pen.path(outline_at(body, stop, map), true,
-             stop.impact ? Stroke{Role::contact, kTrailStroke.width} : kTrailStroke);
+    pen.polygon(outline_at(body, stop, map), Role::none,
+                stop.impact ? Stroke{Role::contact, kTrailStroke.width} : kTrailStroke);
 }
 
 // The gap that a look found, from surface to surface.
