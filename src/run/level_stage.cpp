@@ -93,10 +93,13 @@ std::string LevelStage::told(const LevelBsp& level, const LevelEvent& event) {
                          counted(event.line.front, "wall piece"));
     case Kind::choose:
       return fmt::format(
-          "Wall {} has the best line: {} in front, {} behind, {} cut. Score {:.4g}; the first "
-          "line that divides them at all would score {:.4g}.",
-          event.line.wall + 1, event.line.front, event.line.back, event.line.cuts, event.line.score,
-          node.first.score);
+                 "Wall {} has the best line: {} in front, {} behind, {} cut. Score {:.4g}; ",
+                 event.line.wall + 1, event.line.front, event.line.back, event.line.cuts,
+                 event.line.score) +
+             (event.line.score < node.first.score
+                  ? fmt::format("the first line that divides them at all would score {:.4g}.",
+                                node.first.score)
+                  : "the first line that divides them is as good.");
     case Kind::cut:
       return fmt::format("The line cuts wall {} in two.", event.line.wall + 1);
     case Kind::sector:
@@ -166,10 +169,12 @@ std::string LevelStage::told(const LevelVisibility& seen) const {
                        counted(seen.portals.size(), "portal"));
   std::uint32_t others = 0;
   for (std::uint32_t s = 0; s < seen.sectors; ++s) others += s != viewer_ && seen.sees(viewer_, s);
+  const std::string sees = fmt::format("{} of {}", others, counted(seen.sectors - 1, "other"));
+  if (viewer_ > 0) return fmt::format("Sector {} sees {}.", viewer_ + 1, sees);
   return fmt::format(
-      "Sector {} looks through one portal after another, as long as one straight line passes all. "
-      "It sees {} of {}.",
-      viewer_ + 1, others, counted(seen.sectors - 1, "other"));
+      "Sector 1 looks through one portal after another, as long as one straight line fits through "
+      "all of them. It sees {}.",
+      sees);
 }
 
 StructureSpec LevelStage::structure() const {
