@@ -392,22 +392,16 @@ void FrameMaker::add_rulers(Frame& frame) const {
 }
 
 // The leaves of an atlas that are large enough.
-// The free leaves that were asked, by a question or by a texture that was refused: lit where there
-// is room, passed where there is none.
+// The free leaves that were asked: lit where there is room, passed where there is none.
 void FrameMaker::light_room(Frame& frame) const {
-  const auto* pack = std::get_if<Pack>(&step_->verb);
   const auto* ask = std::get_if<AskRoom>(&step_->verb);
-  Vec<2> asked = ask ? Vec<2>(ask->width, ask->height) : Vec<2>(0.0);
-  for (std::size_t i = 0; pack && i < pack->textures.size(); ++i)
-    if (const auto& texture = frame.get<FrameTextures>().textures[pack->textures[i]];
-        texture.refused)
-      asked = {texture.width, texture.height};
-  if (asked.x == 0) return;
-  frame.add<FrameTextures>().asked = asked;
+  if (!ask) return;
+  frame.add<FrameTextures>().asked = {ask->width, ask->height};
   for (FrameNode& node : frame.nodes)
     if (node.leaf && node.bodies.empty())
-      node.mark =
-          node.box.size().x >= asked.x && node.box.size().y >= asked.y ? Mark::lit : Mark::passed;
+      node.mark = node.box.size().x >= ask->width && node.box.size().y >= ask->height
+                      ? Mark::lit
+                      : Mark::passed;
 }
 
 std::optional<std::string> FrameMaker::text_of(std::string_view name, const Frame& frame) const {
