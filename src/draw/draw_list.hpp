@@ -33,13 +33,14 @@ enum class MarkKind : std::uint8_t {
   boxes_apart,     // a dotted link: ruled out, the boxes do not overlap
   shapes_apart,    // a dotted link with a cross: the boxes overlap, the shapes do not touch
   box_overlap,     // a frame: what two boxes share
+  missed,          // the same, crossed, in red: a stale structure does not name the pair
   contact,         // a short bar along the normal: they touch
   contact_begins,  // a ring round it: since this step
   impulse,         // an arrow from a contact: how strongly it pushes
   velocity,        // a thin arrow
-  force,           // a heavy arrow, with its size
-  ruler,           // a line between two ticks: a length
-  box,             // round a body, in the broad phase
+  force,  // a heavy arrow, with its size
+  ruler,  // a line between two ticks: a length
+  box,    // round a body, in the broad phase
   ray,
   ray_hit,  // a disc on a ray
   met,      // a number on a plate: the order in which a ray meets cells

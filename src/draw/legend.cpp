@@ -120,6 +120,10 @@ constexpr MarkRow kRows[] = {
      [](const Sample& s) {
        draw_overlap(Box<2>::around(s.c, {14, 9}), s.list);
      }},
+    {MarkKind::missed, "missed",
+     [](const Sample& s) {
+       draw_missed(Box<2>::around(s.c, {14, 11}), s.pen);
+     }},
     {MarkKind::contact, "contact",
      [](const Sample& s) {
        draw_contact(s.c, {0, -1}, 1, s.pen);

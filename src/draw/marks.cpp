@@ -281,6 +281,34 @@ void draw_overlap(const Box<2>& common, DrawList& list) {
   list.marks.add(MarkKind::box_overlap);
 }
 
+void draw_missed(const Box<2>& common, Pen& pen) {
+  for (const Stroke& stroke : {Stroke{Role::panel, 7}, Stroke{Role::warning, 3.4}}) {
+    pen.path(polygon_of(common), true, stroke);
+    pen.line(common.lo, common.hi, stroke);
+    pen.line({common.lo.x, common.hi.y}, {common.hi.x, common.lo.y}, stroke);
+  }
+}
+
+void mark_missed(const Frame& frame, const Marks& marks, Labels& labels) {
+  const TextStyle style{kLabel, Weight::semibold, Role::warning, Role::panel};
+  Pen pen = marks.over();
+  for (const Pair& pair : frame::missed_pairs(frame)) {
+    const FrameBody &a = *frame.body_of(pair.a), &b = *frame.body_of(pair.b);
+    const Box<3> common = common_part(a.box, b.box);
+    const auto at = marks.projection().seen(common.center());
+    if (!at || !contains(marks.place(), *at)) continue;
+    const Vec<2> size = flat(common.size()) * marks.projection().scale_at(common.center());
+    const Box<2> box = Box<2>::around(*at, glm::max(size / 2.0, Vec<2>(9)));
+    const std::string key = pair_key("world/missed", a, b);
+    const Marks::Scope scope(marks, key, key);
+    draw_missed(box, pen);
+    const auto places = anchors_around(box, 6, style);
+    labels.try_add("missed", {places[0], places[1], places[2]}, style, marks.place());
+    labels.block(box);
+    marks.tell(MarkKind::missed);
+  }
+}
+
 void draw_skipped(const Vec<2>& at, DrawList& list) {
   constexpr double kArm = 4.2;
   list.disc(at, kSkipRadius, Role::panel, {Role::quiet_ink, 2});

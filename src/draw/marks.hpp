@@ -90,6 +90,8 @@ void draw_sight(const Vec<2>& from, const Vec<2>& to, Pen& pen);
 void draw_pair_mark(frame::PairState state, bool is_new, const Box<2>& cell, DrawList& list);
 // Where two boxes share some area of the page.
 void draw_overlap(const Box<2>& common, DrawList& list);
+// The same of a pair that the structure misses.
+void draw_missed(const Box<2>& common, Pen& pen);
 // A node left out, with all below it; and a plate with the place of a cell on a ray's way, from 1.
 // False, and nothing is drawn, where there is no room.
 inline constexpr double kSkipRadius = 10;
@@ -151,6 +153,9 @@ std::string depth_text(double depth);
 // no room is left out.
 void write_depths(const Frame& frame, const Projection& view, const std::vector<Box<2>>& bodies,
                   Labels& labels);
+
+// Pairs that a stale structure misses, with the word.
+void mark_missed(const Frame& frame, const Marks& marks, Labels& labels);
 
 // What is asked for: the outlines of views, regions and rays; the eyes of views, cut to `place`;
 // the rays' starts and hits, numbered when there are several.

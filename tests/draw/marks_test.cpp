@@ -14,6 +14,7 @@
 #include "draw/world/world3d_parts.hpp"
 #include "frame/parts/asked.hpp"
 #include "geometry/flat.hpp"
+#include "scenario/directing.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -244,6 +245,15 @@ TEST(Marks, LeavesOfABspAreNamedByTheirLastPlane) {
   }
   for (const LabelBox& label : page_of(frame).labels)
     EXPECT_EQ(label.text.find("front."), std::string::npos) << label.text;
+}
+
+TEST(Marks, WhatAStaleStructureMissesIsSaid) {
+  for (const Frame& frame : run::frames_of("kdtree_static")) {
+    const DrawList list = page_of(frame);
+    const bool misses = frame.event == "missed";
+    EXPECT_EQ(labels(list, "missed"), misses) << frame.event;
+    EXPECT_EQ(list.marks.has(MarkKind::missed), misses) << frame.event;
+  }
 }
 
 TEST(Marks, BothTreesOfAForestAreDrawn) {

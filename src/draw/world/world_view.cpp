@@ -168,6 +168,7 @@ void draw_marks(const World2D& w, LeftOut& left_out) {
   mark_forces(w.frame, marks);
   write_forces(w.frame, w.map, w.labels);
   mark_rulers(w.frame, marks, w.labels);
+  if (w.frame.display.pairs) mark_missed(w.frame, marks, w.labels);
   const auto is_in_a_body = [&](const Vec<2>& eye) {  // then the eye is the body's
     return std::ranges::any_of(
         w.frame.bodies, [&](const FrameBody& body) { return contains(flat(body.box), eye); });
@@ -222,6 +223,7 @@ void draw_world3d(const Frame& frame, const Staging& staging, const Box<2>& pane
   mark_found(frame, marks, list);
   write_forces(frame, view, labels);
   mark_rulers(frame, marks, labels);
+  if (frame.display.pairs) mark_missed(frame, marks, labels);
   if (!crowd) depict_bodies(frame, list);
   note(left_out, panel, labels);
   std::vector<Box<2>> covered = mapped(bodies, &Body3D::box);
