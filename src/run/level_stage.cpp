@@ -65,7 +65,8 @@ void LevelStage::compile(const Watch& watch) {
     if (event.kind == Kind::candidate || event.kind == Kind::divide) return;
     current_ = &level;
     lit_node_ = event.node;
-    lit_wall_ = event.kind == Kind::choose || event.kind == Kind::cut ? event.line.wall : kNone;
+    const bool lights = event.kind == Kind::choose || event.kind == Kind::cut;
+    lit_line_ = lights ? event.line : LineChoice();
     constexpr std::string_view kNames[] = {"consider", "", "choose", "cut", "", "sector"};
     watch({kNames[static_cast<int>(event.kind)], told(level, event)});
   };
@@ -81,7 +82,8 @@ void LevelStage::compile(const Watch& watch) {
   }
   current_ = &*level_;
   side_tests_ += level_->counters().side_tests;
-  lit_node_ = lit_wall_ = kNone;
+  lit_node_ = kNone;
+  lit_line_ = {};
 }
 
 std::string LevelStage::told(const LevelBsp& level, const LevelEvent& event) {
@@ -204,8 +206,8 @@ StructureSpec LevelStage::structure() const {
 
 void LevelStage::picture_walls(Frame& frame) const {
   for (std::uint32_t i = 0; i < walls_.size(); ++i)
-    frame.add<FrameLevel>().walls.push_back(
-        {walls_[i].line.a, walls_[i].line.b, i, kNone, i == lit_wall_ ? Mark::lit : Mark::quiet});
+    frame.add<FrameLevel>().walls.push_back({walls_[i].line.a, walls_[i].line.b, i, kNone,
+                                             i == lit_line_.wall ? Mark::lit : Mark::quiet});
 }
 
 // Does the one that looks see this sector?
@@ -244,7 +246,10 @@ LevelStage::NodeOfSector LevelStage::picture_nodes(const LevelBsp& level, bool h
     node.region = *view.region;
     node.box = frame.bounds;
     if (!node.region.empty()) node.box = solid(box_of(node.region));
-    if (view.plane) node.plane = solid(*view.plane);
+    if (view.plane) {
+      node.plane = solid(*view.plane);
+      node.plane_name = fmt::format("{}", level.nodes()[view.handle].chosen.wall + 1);
+    }
     if (view.sector != kNone) {
       sectors[view.sector] = node.id;
       node.label = fmt::format("{}", view.sector + 1);
@@ -263,9 +268,9 @@ LevelStage::NodeOfSector LevelStage::picture_nodes(const LevelBsp& level, bool h
       frame.nodes[frame.nodes[i].parent].mark = Mark::passed;
   for (const WallPiece& piece : level.pieces()) {
     const NodeHandle node = piece.sector != kNone ? level.sectors()[piece.sector].node : piece.node;
-    frame.add<FrameLevel>().walls.push_back({piece.line.a, piece.line.b, piece.wall,
-                                             node == kNone ? kNone : node_of[node],
-                                             piece.wall == lit_wall_ ? Mark::lit : Mark::quiet});
+    frame.add<FrameLevel>().walls.push_back(
+        {piece.line.a, piece.line.b, piece.wall, node == kNone ? kNone : node_of[node],
+         piece.wall == lit_line_.wall ? Mark::lit : Mark::quiet});
   }
   return sectors;
 }
@@ -352,7 +357,10 @@ void LevelStage::count_answers(const NodeOfSector& nodes, bool holds_bodies, Fra
 }
 
 void LevelStage::picture(bool holds_bodies, Frame& frame) const {
-  frame.add<FrameLevel>().eye = eye_;
+  FrameLevel& told = frame.add<FrameLevel>();
+  told.eye = eye_;
+  told.front = lit_line_.front;
+  told.back = lit_line_.back;
   if (!current_) return picture_walls(frame);
   const bool holds = holds_bodies && level_;  // not while it is compiled anew
   // A frame has one structure: where bodies have another one, of the level only walls are seen.

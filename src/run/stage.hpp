@@ -72,7 +72,7 @@ class LevelStage {
   std::uint64_t side_tests_ = 0;       // of all compiles
   const LevelBsp* current_ = nullptr;  // while it is being compiled, and after
   NodeHandle lit_node_ = kNone;
-  std::uint32_t lit_wall_ = kNone;
+  LineChoice lit_line_;  // that is taken, or cuts
   std::optional<LevelVisibility> visibility_;
   const LevelVisibility* seen_ = nullptr;  // while it is being found, and after
   std::uint32_t viewer_ = kNone;           // the sector whose view has just been found

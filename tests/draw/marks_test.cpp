@@ -256,6 +256,21 @@ TEST(Marks, WhatAStaleStructureMissesIsSaid) {
   }
 }
 
+TEST(Marks, ALineOfALevelHasTheNumberOfItsWall) {
+  int chosen = 0;
+  for (const Frame& frame : run::frames_of("doom_level_bsp")) {
+    const DrawList list = page_of(frame);
+    if (frame.event == "choose" && chosen++ == 0) {
+      EXPECT_EQ(labels(list, "18"), 1) << "at the wall";
+      EXPECT_EQ(labels(list, "11"), 1) << "in front of it";
+      EXPECT_EQ(labels(list, "13"), 1) << "behind it";
+    }
+    if (frame.event == "compiled") EXPECT_EQ(labels(list, "18"), 1) << "in the tree";
+    if (frame.event == "locate_court") EXPECT_EQ(labels(list, "18"), 2) << "the line is asked";
+  }
+  EXPECT_GT(chosen, 0);
+}
+
 TEST(Marks, BothTreesOfAForestAreDrawn) {
   const Frame frame = sample("world_forest");
   const DrawList list = page_of(frame);

@@ -151,7 +151,7 @@ class TreeView : PanelPicture {
     }
     if (!node.leaf && says_name_inside(i)) {
       const TextStyle style{kLeastLabel, Weight::semibold, Role::ink};
-      write(node.label, centred(box.center(), style), style);
+      write(name_inside(node), centred(box.center(), style), style);
     }
     const bool has_room = box.size().x >= kForMarks;
     if (node.over_capacity && has_room) draw_badge(box);
@@ -164,9 +164,14 @@ class TreeView : PanelPicture {
     if (frame_.sleeps(node) && has_room) draw_zz(box.lo + Vec<2>(-9, -9), 24, 1.8, list_);
   }
 
+  // A level's inner node is called by the wall whose line it is.
+  const std::string& name_inside(const FrameNode& node) const {
+    return is_level(frame_) && node.plane ? node.plane_name : node.label;
+  }
+
   bool says_name_inside(std::size_t i) const {
-    const std::string& label = node_of(branches()[i]).label;
-    const Vec<2> room = layout_.boxes[i].size() - Vec<2>(8, 4);
+    const std::string& label = name_inside(node_of(branches()[i]));
+    const Vec<2> room = layout_.boxes[i].size() - Vec<2>(is_level(frame_) ? 0 : 8, 4);
     return !label.empty() && room.y >= kLeastLabel * 0.8 &&
            text_width(label, kLeastLabel, Weight::semibold) <= room.x;
   }

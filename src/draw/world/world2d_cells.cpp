@@ -167,8 +167,8 @@ void fill_cells(World2D& w) {
 
 // In a level the walls are what is strong, and the lines that divide it are thin and dashed; the
 // one that is looked at now is not.
-Stroke plane_stroke(const FrameNode& node, bool level) {
-  const bool lit = node.mark == Mark::lit;
+Stroke plane_stroke(const Frame& frame, const FrameNode& node, bool level) {
+  const bool lit = node.mark == Mark::lit || (level && is_asked_line(frame, node));
   const Role role = lit ? Role::lit : cell_line_role(node.depth);
   if (level) return lit ? Stroke{role, 4, 14} : Stroke{role, 1.8, 6};
   if (node.region.empty()) return {role, lit ? 3.0 : 2.0, 8};  // inside a fitted box
@@ -187,7 +187,7 @@ void draw_planes(const World2D& w) {
     const bool upright = a.x == b.x || a.y == b.y;
     const std::string key = node_key("world/plane", w.frame.nodes, node);
     const DrawList::Scope scope(w.list, key, key);
-    w.list.shapes.emplace_back(LineShape{a, b, plane_stroke(node, level), upright});
+    w.list.shapes.emplace_back(LineShape{a, b, plane_stroke(w.frame, node, level), upright});
   }
 }
 

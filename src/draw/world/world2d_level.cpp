@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "draw/world/world2d_parts.hpp"
+#include "draw/world/world3d_parts.hpp"
 #include "frame/parts/level.hpp"
 #include "geometry/elementary.hpp"
 #include "geometry/plane.hpp"
@@ -201,6 +202,10 @@ bool is_level(const Frame& frame) {
                              [](const FrameNode& n) { return n.solid || n.order != kNone; });
 }
 
+bool is_asked_line(const Frame& frame, const FrameNode& node) {
+  return node.mark != Mark::quiet && is_level(frame) && frame.get<FrameLevel>().portals.empty();
+}
+
 Grounds fill_sectors(const World2D& w) {
   Grounds grounds;
   const std::vector<const FrameNode*> sectors = sectors_of(w.frame);
@@ -237,6 +242,36 @@ void number_sectors(const World2D& w) {
     w.labels.try_add(sector->label, {centred(at, style)}, style, w.map.picture());
   }
   w.list.referents.insert({"sectors", "sector"});
+}
+
+void name_taken_line(const World2D& w) {
+  constexpr double kReach = 46, kFar = 4000;
+  const FrameLevel& level = w.frame.get<FrameLevel>();
+  const auto wall = std::ranges::find(level.walls, Mark::lit, &FrameWall::mark);
+  if (level.front == 0 || wall == level.walls.end()) return;
+  const DrawList::Scope scope(w.list, "world/taken line");
+  const Vec<2> a = w.map.to_page(wall->from), way = w.map.to_page(wall->to) - a, at = a + way / 2.0;
+  const Vec<2> along = way / glm::length(way),
+               front{along.y, -along.x};  // its floor is on its left
+  const Vec<2> from = at - along * kFar, to = at + along * kFar;
+  Pen pen(w.list, mark_limit(w.map));
+  for (const FrameNode& region : w.frame.nodes)
+    if (region.mark == Mark::lit)
+      if (const auto in = inside_of(page_region(region, w.map), from, to))
+        pen.line(from + (to - from) * in->first, from + (to - from) * in->second,
+                 {Role::lit, 4, 14});
+  pen.arrow(at, at + front * kReach, {Role::lit, 4}, 14, 2);
+  const auto write = [&](std::uint32_t number, const Vec<2>& middle, const Stroke& rim) {
+    const std::string text = fmt::format("{}", number);
+    const Box<2> plate = plate_of(text, middle, kStrong, {9, 7});
+    if (!w.labels.is_free(plate, w.map.picture())) return;
+    w.list.rect(plate, Role::panel, rim, 6);
+    w.labels.add(text, centred(middle, kStrong), kStrong, w.map.picture());
+    w.labels.block(plate);
+  };
+  write(wall->wall + 1, at, {Role::lit, 1.8});
+  write(level.front, at + front * (kReach + 18), {});
+  write(level.back, at - front * (kReach + 18), {});
 }
 
 void draw_portals(const World2D& w) {

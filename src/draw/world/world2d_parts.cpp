@@ -14,8 +14,10 @@ namespace {
 
 constexpr std::size_t kMostLabels = 120;
 
-bool has_plate(const FrameNode& node) {
-  return node.plane && !node.plane_name.empty() && dividing_line(node);
+// Of a level's many lines only those that are asked.
+bool has_plate(const Frame& frame, const FrameNode& node) {
+  return node.plane && !node.plane_name.empty() && dividing_line(node) &&
+         (is_asked_line(frame, node) || !is_level(frame));
 }
 
 // The point and the plate, for each of the places.
@@ -48,7 +50,7 @@ void count_plates(const Frame& frame, const Box<2>& panel, std::vector<PlateCoun
   const std::vector<Box<2>> covered = mapped(stands_of(frame, map), &Stand::box);
   const Box<2> room = shrunk(map.picture(), 6);
   for (std::uint32_t i = 0; i < frame.nodes.size(); ++i) {
-    if (!has_plate(frame.nodes[i])) continue;
+    if (!has_plate(frame, frame.nodes[i])) continue;
     const std::string plane = node_key("world/plane name", frame.nodes, i);
     const auto plates = plates_of(frame.nodes[i], map);
     auto found = std::ranges::find(counts, plane, &PlateCounts::plane);
@@ -84,7 +86,7 @@ const PlatePlaces& chosen_plates(const Staging& staging, const Box<2>& panel) {
 // on a frame that stands alone it may stand elsewhere.
 void label_planes(const World2D& w) {
   for (const FrameNode& node : w.frame.nodes) {
-    if (!has_plate(node)) continue;
+    if (!has_plate(w.frame, node)) continue;
     const std::string key = node_key("world/plane name", w.frame.nodes, node);
     const DrawList::Scope scope(w.list, key);
     auto plates = plates_of(node, w.map);
@@ -95,7 +97,8 @@ void label_planes(const World2D& w) {
     for (const auto& [at, plate] : std::span(plates).first(tried)) {
       if (touches(w.covered, plate) || !w.labels.is_free(plate, shrunk(w.map.picture(), 6)))
         continue;
-      const Role role = node.mark == Mark::lit ? Role::lit : cell_line_role(node.depth);
+      const bool lit = node.mark == Mark::lit || is_level(w.frame);
+      const Role role = lit ? Role::lit : cell_line_role(node.depth);
       w.list.rect(plate, Role::panel, {role, 1.8}, 6);
       w.labels.add(node.plane_name, centred(at, kStrong), kStrong, w.map.picture());
       w.labels.block(plate);

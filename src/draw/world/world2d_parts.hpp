@@ -142,10 +142,14 @@ void draw_land(const World2D& w);
 void draw_walls(const World2D& w);
 // A level's sectors: neighbours in different tones, solid ones hatched.
 bool is_level(const Frame& frame);
+// One that was asked for a point's side; who sees whom is asked of other lines.
+bool is_asked_line(const Frame& frame, const FrameNode& node);
 Grounds fill_sectors(const World2D& w);
 // The sectors' numbers, or their places in the order from the eye: on all frames of a group at the
 // same places, where on none of them a body stands; none where a body does.
 void number_sectors(const World2D& w);
+// The number of the wall whose line is taken, its front, and how many pieces lie on each side.
+void name_taken_line(const World2D& w);
 // Openings between sectors, and lines of sight.
 void draw_portals(const World2D& w);
 void draw_sights(const World2D& w);

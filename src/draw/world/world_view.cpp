@@ -292,6 +292,7 @@ void draw_world2d(World2D w) {
   count_stacks(w);
   write_depths(w.frame, w.map, w.covered, w.labels);
   draw_coordinates(w);
+  name_taken_line(w);
   mark_walk(w);
   number_sectors(w);
   label_cells(w);

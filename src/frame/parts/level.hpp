@@ -34,15 +34,16 @@ using FrameSight = FramePortal;
 struct FrameLevel {
   static constexpr std::string_view kName = "level";
   std::vector<FrameWall> walls;
-  std::optional<Vec<2>> eye;         // from where it is looked at
-  std::vector<FramePortal> portals;  // once a step asked who sees whom
-  std::vector<FrameSight> sights;    // of the sector whose view has just been found
+  std::optional<Vec<2>> eye;          // from where it is looked at
+  std::vector<FramePortal> portals;   // once a step asked who sees whom
+  std::vector<FrameSight> sights;     // of the sector whose view has just been found
+  std::uint32_t front = 0, back = 0;  // pieces in front of the line just taken, and behind it
 
   static auto fields(auto& r, auto&& v) {
     return v.when(!r.walls.empty(), "walls", r.walls)
         .when(!r.portals.empty(), "portals", r.portals)
         .when(!r.sights.empty(), "sights", r.sights)
-        .drawn(r.eye);
+        .drawn(r.eye, r.front, r.back);
   }
 };
 
