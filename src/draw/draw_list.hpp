@@ -38,6 +38,10 @@ enum class MarkKind : std::uint8_t {
   contact_begins,  // a ring round it: since this step
   impulse,         // an arrow from a contact: how strongly it pushes
   velocity,        // a thin arrow
+  spin,            // a line through a body with an arrow round its end
+  longest_axis,    // of a box's own three, lines out of its faces
+  middle_axis,
+  shortest_axis,
   force,  // a heavy arrow, with its size
   ruler,  // a line between two ticks: a length
   box,    // round a body, in the broad phase

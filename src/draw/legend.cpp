@@ -139,6 +139,17 @@ constexpr MarkRow kRows[] = {
      }},
     {MarkKind::velocity, "velocity",
      [](const Sample& s) { s.pen.arrow(s.left, s.right, kVelocityStroke, kVelocityHead, 1.2); }},
+    {MarkKind::spin, "spin",
+     [](const Sample& s) {
+       s.pen.line(s.left, s.right, kSpinStroke, 1.2);
+       s.pen.arrow({s.b.x, s.b.y + 12}, {s.b.x, s.b.y - 12}, kSpinStroke, kSpinHead, 1.2);
+     }},
+    {MarkKind::longest_axis, "longest axis",
+     [](const Sample& s) { s.pen.line(s.left, s.right, own_axis_stroke(0)); }},
+    {MarkKind::middle_axis, "middle axis",
+     [](const Sample& s) { s.pen.line(s.left, s.right, own_axis_stroke(1)); }},
+    {MarkKind::shortest_axis, "shortest axis",
+     [](const Sample& s) { s.pen.line(s.left, s.right, own_axis_stroke(2)); }},
     {MarkKind::force, "force",
      [](const Sample& s) { s.pen.arrow(s.left, s.right, kForceStroke, kForceHead, 1.6); }},
     {MarkKind::ruler, "length",

@@ -114,6 +114,12 @@ void draw_beginning(const Vec<2>& at, double k, Pen& pen);
 void draw_impulse(const Vec<2>& from, const Vec<2>& to, double k, Pen& pen);
 inline constexpr Stroke kVelocityStroke{Role::ink, 1.9};
 inline constexpr double kVelocityHead = 10;
+inline constexpr Stroke kSpinStroke{Role::contact, 3};
+inline constexpr double kSpinHead = 15;
+// Of a box's own axes: 0 the longest, 1 the middle one, 2 the shortest.
+constexpr Stroke own_axis_stroke(int rank) {
+  return {Role::ink, 2.4, rank == 0 ? 0.0 : rank == 1 ? 9.0 : 3.0};
+}
 inline constexpr Stroke kForceStroke{Role::warning, 4.6};
 inline constexpr double kForceHead = 18;
 // The way of a body, its outlines where it was, where it would be, and where it is looked at.
@@ -138,6 +144,8 @@ std::vector<Vec<2>> spring_bends(const Vec<2>& from, const Vec<2>& to);
 void mark_links(const Frame& frame, Marks& marks);
 void mark_velocities(const Frame& frame, Marks& marks);
 void mark_forces(const Frame& frame, Marks& marks);
+// In space, the axis of each body's spin, and the three of a box whose sides differ.
+void mark_spins(const Frame& frame, Marks& marks);
 void write_forces(const Frame& frame, const Projection& view, Labels& labels);
 // Lengths, with a ghost of what they were.
 void mark_rulers(const Frame& frame, Marks& marks, Labels& labels);

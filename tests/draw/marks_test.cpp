@@ -271,6 +271,18 @@ TEST(Marks, ALineOfALevelHasTheNumberOfItsWall) {
   EXPECT_GT(chosen, 0);
 }
 
+TEST(Marks, ASpinningBodyHasItsAxes) {
+  const MarkKind kinds[] = {MarkKind::spin, MarkKind::longest_axis, MarkKind::middle_axis,
+                            MarkKind::shortest_axis};
+  Frame frame = run::frames_of("tumbling_box")[0];
+  for (const MarkKind kind : kinds) EXPECT_TRUE(page_of(frame).marks.has(kind)) << words_of(kind);
+  frame.bodies[0].shape = frame.bodies[1].shape = Sphere{2};
+  EXPECT_TRUE(page_of(frame).marks.has(MarkKind::spin));
+  EXPECT_FALSE(page_of(frame).marks.has(MarkKind::middle_axis)) << "a ball has none of its own";
+  for (FrameBody& body : frame.bodies) body.angular_velocity = Vec<3>(0.0);
+  EXPECT_FALSE(page_of(frame).marks.has(MarkKind::spin));
+}
+
 TEST(Marks, BothTreesOfAForestAreDrawn) {
   const Frame frame = sample("world_forest");
   const DrawList list = page_of(frame);

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <unordered_map>
 
 #include <fmt/format.h>
@@ -9,6 +11,7 @@
 #include "draw/keys.hpp"
 #include "draw/marks.hpp"
 #include "draw/number_text.hpp"
+#include "draw/world/world3d_parts.hpp"
 #include "frame/parts/motion.hpp"
 #include "geometry/elementary.hpp"
 #include "geometry/not_finite.hpp"
@@ -310,6 +313,38 @@ void mark_velocities(const Frame& frame, Marks& marks) {
     marks.arrow(from, from + way * (share * kLongest * view.longest_arrow()), kVelocityStroke,
                 kVelocityHead, 1.2);
     marks.tell(MarkKind::velocity);
+  }
+}
+
+void mark_spins(const Frame& frame, Marks& marks) {
+  constexpr int kParts = 14;
+  if (!frame.display.arrows || frame.bodies.size() > kMostArrows) return;
+  const double out = 0.05 * marks.projection().size();
+  for (const FrameBody& body : frame.bodies) {
+    const double spin = glm::length(body.angular_velocity);
+    if (is_half_space(body) || body.asleep || !std::isfinite(spin) || !(spin > 1e-3)) continue;
+    const Marks::Scope scope(marks, body_key("world/spin", body));
+    const Convex space = Convex::of(body);
+    const Vec<3> axis = body.angular_velocity / spin, side = across(axis);
+    const Vec<3> end = axis * (glm::length(space.half) + space.radius + out);
+    marks.line(body.position - end, body.position + end, kSpinStroke, 1.2);
+    const auto round = [&](int part) {  // three quarters of a turn
+      const double angle = 1.5 * std::numbers::pi * part / kParts;
+      return body.position + end - axis * out +
+             (side * geometry::cos(angle) + glm::cross(axis, side) * geometry::sin(angle)) * out;
+    };
+    for (int i = 1; i < kParts; ++i) marks.line(round(i - 1), round(i), kSpinStroke);
+    marks.arrow(round(kParts - 1), round(kParts), kSpinStroke, kSpinHead, 0);
+    marks.tell(MarkKind::spin);
+    std::array<int, 3> axes{0, 1, 2};
+    std::ranges::sort(axes, std::greater(), [&](int i) { return space.half[i]; });
+    if (space.half[axes[2]] == space.half[axes[0]]) continue;  // a ball or a cube
+    for (int rank = 0; rank < 3; ++rank) {  // on one side: which end is up is seen
+      const int i = axes[static_cast<std::size_t>(rank)];
+      const Vec<3> face = body.position + space.axes[i] * space.half[i];
+      marks.line(face, face + space.axes[i] * (2 * out), own_axis_stroke(rank));
+      marks.tell(static_cast<MarkKind>(static_cast<int>(MarkKind::longest_axis) + rank));
+    }
   }
 }
 

@@ -117,6 +117,7 @@ void add_marks(const Frame& frame, Marks3D& marks, LeftOut& left_out) {
     left_out.push_back("not all pairs are drawn");
   mark_links(frame, marks);
   mark_velocities(frame, marks);
+  mark_spins(frame, marks);
   mark_forces(frame, marks);
   for (const Body3D& b : marks.bodies)
     if (frame.display.boxes && (b.body->lit || marks.bodies.size() <= kMostBoxed3d)) {
