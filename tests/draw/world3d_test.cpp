@@ -123,6 +123,19 @@ TEST(World3D, IsSoundForBoxesThatReachPastTheEye) {
   }
 }
 
+TEST(World3D, ItsAxesHaveLettersWhereItsHeightsHaveNumbers) {
+  Frame frame = samples::octree_frame();
+  const auto letters = [&] {
+    std::string found;
+    for (const LabelBox& label : drawn(frame).labels)
+      if (label.text == "x" || label.text == "y" || label.text == "z") found += label.text;
+    return found;
+  };
+  EXPECT_EQ(letters(), "yxz");
+  for (FrameBody& body : frame.bodies) body.is_static = true;
+  EXPECT_EQ(letters(), "") << "nothing floats";
+}
+
 TEST(World3D, IsTheSameListEachTime) {
   for (const auto& [name, frame] : samples::all_solid()) {
     const DrawList a = drawn(frame), b = drawn(frame);

@@ -198,6 +198,26 @@ bool write_scale(const Vec<3>& foot, int side, const View3D& view, DrawList& lis
   return true;
 }
 
+// The axes' letters: y over the scale at `foot`, x and z outside of the floor's nearer edges.
+void name_axes(const Vec<3>& foot, const View3D& view, Labels& labels) {
+  constexpr double kGap = 22;
+  const TextStyle style{24, Weight::semibold, Role::quiet_ink, Role::paper};
+  const Box<3>& b = view.bounds();
+  const auto name = [&](const char* letter, const Vec<2>& at) {
+    labels.try_add(letter, {centred(at, style)}, style, view.panel());
+  };
+  name("y", view.to_page({foot.x, b.hi.y, foot.z}) - Vec<2>(0, kGap));
+  const Vec<3> middle{b.center().x, b.lo.y, b.center().z};
+  for (const int axis : {0, 2}) {
+    Vec<3> low = middle, high = middle;
+    low[2 - axis] = b.lo[2 - axis];
+    high[2 - axis] = b.hi[2 - axis];
+    const Vec<2> at = view.to_page(view.depth(low) < view.depth(high) ? low : high);
+    const Vec<2> out = at - view.to_page(middle);
+    if (glm::length(out) > 1) name(axis == 0 ? "x" : "z", at + out * (kGap / glm::length(out)));
+  }
+}
+
 }  // namespace
 
 void draw_ground3d(const Frame& frame, const View3D& view, DrawList& list) {
@@ -235,7 +255,8 @@ void write_heights(const std::vector<Body3D>& bodies, const View3D& view, DrawLi
   const auto x_of = [&](const Vec<3>& p) { return view.to_page(p).x; };
   const Vec<3> left = *std::ranges::min_element(feet, {}, x_of);
   const Vec<3> right = *std::ranges::max_element(feet, {}, x_of);
-  if (!write_scale(left, -1, view, list, labels)) write_scale(right, 1, view, list, labels);
+  for (const auto& [foot, side] : {std::pair{left, -1}, std::pair{right, 1}})
+    if (write_scale(foot, side, view, list, labels)) return name_axes(foot, view, labels);
 }
 
 void add_drop_lines(Marks3D& marks) {
