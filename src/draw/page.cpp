@@ -57,9 +57,10 @@ constexpr double kTitleHeight = 46, kTitleBaseline = 26;
 constexpr double kNumbersHeight = 44, kNumbersBaseline = 36;
 constexpr double kBetweenNumbers = 34;
 constexpr double kWordsBaseline = 42, kWordsLine = 34;  // of what one side does alone
-constexpr double kTallArea = 0.9;     // aspect below which sides stand one above the other
-constexpr double kChartShare = 0.34;  // of the height, under all sides
-constexpr double kChartUnderFour = 0.44;
+constexpr double kTallArea = 0.9;          // aspect below which sides stand one above the other
+constexpr double kChartShare = 0.34;       // of the height, under all sides
+constexpr double kLargeChartShare = 0.44;  // under four of them, one panel each, or flat worlds
+constexpr double kFlat = 1.5;              // aspect
 constexpr std::size_t kMostNumbers = 3;
 const TextStyle kNumber{28, Weight::semibold, Role::ink};
 
@@ -190,14 +191,17 @@ void draw_sides(const Frame& frame, const Staging& staging, const Box<2>& area, 
   const bool over_chart = below != frame.panels.end();
   if (over_chart) {
     const bool alone = frame.panels.size() == 1;
-    const double share = frame.sides.size() == 4 ? kChartUnderFour : kChartShare;
+    const bool large = frame.sides.size() == 4 || frame.panels.size() == 2 ||
+                       (frame.panels.size() == 3 && world_aspect(frame) > kFlat);
+    const double share = large ? kLargeChartShare : kChartShare;
     const double top = alone ? area.lo.y : area.hi.y - share * area.size().y;
     draw_panel(*below, frame, staging, {{area.lo.x, top}, area.hi}, list, labels);
     if (alone) return;
     above.hi.y = top - 18;
   }
   const std::vector<Box<2>> places = places_of(frame.sides.size(), over_chart, above);
-  const std::vector<std::string> numbers = numbers_of(frame);
+  const std::vector<std::string> numbers =
+      frame.display.counters ? numbers_of(frame) : std::vector<std::string>();
   list.referents.insert(numbers.begin(), numbers.end());
   const bool own_times = std::ranges::any_of(
       frame.sides, [&](const Frame& side) { return side.time != frame.sides[0].time; });

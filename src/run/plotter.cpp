@@ -64,6 +64,7 @@ Plotter::Plotter(const Scenario& scenario) : scenario_(scenario), spec_(*scenari
     chart_.y_name = spec_.y[0], chart_.y_unit = unit_of(spec_.y[0]);
   else if (!name_by_sides(scenario))
     name_series(scenario);
+  if (!scenario.sides.empty() && !chart_.y_name.empty()) return;  // sides keep their names
   for (std::size_t i = 0; i < std::min(spec_.labels.size(), chart_.series.size()); ++i)
     chart_.series[i].label = spec_.labels[i];
 }

@@ -8,6 +8,7 @@
 #include "draw/layout_check.hpp"
 #include "draw/page.hpp"
 #include "draw/sample_frames.hpp"
+#include "frame/parts/panels.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -71,6 +72,28 @@ TEST(SidesView, ANumberMayHaveWordsOfItsOwn) {
   frame.ending = true;
   EXPECT_EQ(boxes_of(samples::page_of(frame), "squares of the first").size(), 2u)
       << "at the foot, too, and nothing is said behind it";
+}
+
+TEST(SidesView, AChartUnderOnePanelEachHasTwoFifthsOfTheHeight) {
+  Frame frame = samples::sided({samples::ghosts(4), samples::ghosts(3)});
+  const Panel world = panel_named("world"), chart = panel_named("chart");
+  frame.panels = {world, chart};
+  for (Frame& side : frame.sides) side.panels = {world};
+  frame.add<FrameChart>().y_name = "depth";
+  frame.add<FrameChart>().series = {{.name = "a", .points = {{0, 1}, {1, 2}}}};
+  const DrawList list = samples::page_of(frame);
+  const auto above = boxes_of(list, "side a"), heading = boxes_of(list, "depth");
+  ASSERT_TRUE(above.size() == 1 && heading.size() == 1);
+  double lowest = 0;
+  for (const LabelBox& label : list.labels)
+    if (label.box.hi.y < 760) lowest = std::max(lowest, label.box.hi.y);
+  EXPECT_GT(lowest - heading[0].lo.y, 0.38 * (lowest - above[0].lo.y)) << "but for its rims";
+}
+
+TEST(SidesView, CountersThatAreOffAreNotUnderTheSides) {
+  Frame frame = samples::sided({samples::ghosts(4), samples::ghosts(3)});
+  frame.display.counters = false;
+  EXPECT_FALSE(says(samples::page_of(frame), "nodes"));
 }
 
 TEST(SidesView, OneScaleHoldsForAll) {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "frame/parts/level.hpp"
+#include "frame/parts/panels.hpp"
 #include "run/tally.hpp"
 #include "run/warnings.hpp"
 #include "scenario/directing.hpp"
@@ -128,6 +129,15 @@ TEST(Sides, TheFrameOfAllHasNoIslandsForcesOrLinksOfItsOwn) {
                side.get<FrameRulers>().rulers.empty() || side.notes.empty() ||
                side.get<FrameIslands>().edges.empty())
       << "the sides have them";
+}
+
+TEST(Sides, KeepTheirNamesInAChartWithLabels) {
+  const auto frames = frames_of(good(sided("", kSides + "[chart]\nx = \"time\"\ny = [\"nodes\"]\n"
+                                                        "labels = [\"nodes made\"]\n")));
+  const auto& series = frames.back().get<FrameChart>().series;
+  ASSERT_EQ(series.size(), 2u);
+  EXPECT_EQ(series[0].name + series[0].label, "eager");
+  EXPECT_EQ(series[1].name + series[1].label, "lazy");
 }
 
 TEST(Sides, OneThatHasFewerFramesHoldsItsLast) {
