@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string_view>
 #include <variant>
@@ -34,6 +35,9 @@ constexpr std::array<BeatSpans, static_cast<std::size_t>(Beat::count_beats)> kSp
     {{0, 0.65}, {0, 1, false}},              // fold
     {{0.4, 0.65}, {0.6, 1, false}},          // dusk
     {{0.999, 1, false}, {0.999, 1, false}},  // swap
+    {{0.1, 0.5}, {0, 1, false}},             // first
+    {{0.25, 0.65}, {0, 1, false}},           // second
+    {{0.4, 0.8}, {0, 1, false}},             // third
 }};
 
 // What becomes of a shape of either picture.
@@ -49,7 +53,8 @@ struct Fate {
   };
   Kind kind = fades;
   std::size_t mate = 0;
-  Box<2> own, other;  // where its thing is, and where that was or is to be
+  Box<2> own, other;              // where its thing is, and where that was or is to be
+  std::optional<Beat> wave = {};  // in which it comes or moves, among many
 };
 
 // One for each shape of either picture.
@@ -110,6 +115,7 @@ class Planner {
     for (const auto& [key, thing] : in_b_) come(key, thing);
     for (const auto& [key, thing] : in_a_)
       if (!in_b_.contains(key)) go(key, thing);
+    set_waves();
     return {std::move(of_a_), std::move(of_b_)};
   }
 
@@ -146,6 +152,32 @@ class Planner {
     if (end && !in_a_.contains(end->first) && pair_up(end->second, thing, of_a_))
       return set(end->second, Fate::hidden, of_b_);
     leave(key, thing, end, of_a_);
+  }
+
+  // New nodes of a tree, and textures on their way into an atlas, in the order of their painting.
+  // What is of one node or texture, which the end of its key names, goes together.
+  void set_waves() {
+    constexpr std::size_t kMany = 4, kWaves = 3;
+    std::map<std::string, std::size_t> ranks;
+    const auto name_of = [](const std::string& key) { return key.substr(key.rfind('/') + 1); };
+    for (const KeyedRun& run : b_.runs) {
+      const bool atlas = run.key.find("atlas/") != run.key.npos;
+      const auto found = in_b_.find(run.key);
+      if (found == in_b_.end() || (!atlas && run.key.find("tree/") == run.key.npos)) continue;
+      const std::size_t i = found->second.shapes[0];
+      const bool moves = of_b_[i].kind == Fate::meets && a_.shapes[of_b_[i].mate] != b_.shapes[i];
+      if (of_b_[i].kind == Fate::emerges || (atlas && moves))
+        ranks.emplace(name_of(run.key), ranks.size());
+    }
+    if (ranks.size() < kMany) return;
+    const auto set_wave = [&](const Things& things, std::vector<Fate>& fates) {
+      for (const auto& [key, thing] : things)
+        if (const auto rank = ranks.find(name_of(key)); rank != ranks.end())
+          for (const std::size_t i : thing.shapes)
+            fates[i].wave = static_cast<Beat>(static_cast<std::size_t>(Beat::first) +
+                                              rank->second * kWaves / ranks.size());
+    };
+    set_wave(in_a_, of_a_), set_wave(in_b_, of_b_);
   }
 
   static void set(const Thing& thing, Fate::Kind kind, std::vector<Fate>& fates) {
@@ -347,7 +379,7 @@ class Passages {
         return;
       case Fate::meets:
         if (leaves) return;  // painted with its mate
-        passage = {.a = fate.mate, .b = i, .move = Beat::move};
+        passage = {.a = fate.mate, .b = i, .move = fate.wave.value_or(Beat::move)};
         break;
       case Fate::stands:
         passage = {.a = passage.a, .b = passage.b};
@@ -357,14 +389,14 @@ class Passages {
         passage.fade = swaps ? Beat::swap : leaves ? Beat::out : Beat::in;
         break;
       case Fate::follows:
-        passage.move = Beat::move;
+        passage.move = fate.wave.value_or(Beat::move);
         passage.fade = swaps     ? Beat::swap
                        : is_text ? (leaves ? Beat::out : Beat::in)
                                  : (leaves ? Beat::under : Beat::over);
         break;
       case Fate::emerges:
-        passage.move = leaves ? Beat::fold : Beat::grow;
-        passage.fade = leaves ? Beat::dusk : Beat::dawn;
+        passage.move = leaves ? Beat::fold : fate.wave.value_or(Beat::grow);
+        passage.fade = leaves ? Beat::dusk : fate.wave.value_or(Beat::dawn);
         break;
     }
     out_.push_back(passage);

@@ -21,17 +21,20 @@ double eased(double t);
 
 // The parts of a change, each with a time of its own. They overlap, so that nothing waits.
 enum class Beat {
-  always,      // done from the first moment on
-  out,         // what goes
-  move,        // what moves
-  in,          // what comes
-  over,        // the new over the old,
-  under,       // which goes under it, so that nothing shows through
-  grow,        // what comes out of something: its way,
-  dawn,        // and how soon it is seen
-  fold,        // what goes back into something: its way,
-  dusk,        // and how long it is seen
-  swap,        // a text gives way to another one where it stands, when all has arrived
+  always,  // done from the first moment on
+  out,     // what goes
+  move,    // what moves
+  in,      // what comes
+  over,    // the new over the old,
+  under,   // which goes under it, so that nothing shows through
+  grow,    // what comes out of something: its way,
+  dawn,    // and how soon it is seen
+  fold,    // what goes back into something: its way,
+  dusk,    // and how long it is seen
+  swap,    // a text gives way to another one where it stands, when all has arrived
+  first,   // where many parts of a tree or an atlas come at once they do so in waves,
+  second,  // one after another
+  third,
   count_beats  // how many there are
 };
 

@@ -72,6 +72,23 @@ TEST(Tween, GoesFromRestToRest) {
   EXPECT_GT(eased(0.99), 0.999);
 }
 
+TEST(Tween, ManyTexturesSetOutInWaves) {
+  const auto moved = [](int many, int i) {  // how far on its way the i-th is, a third through
+    std::vector<Thing> from, to;
+    for (int k = 0; k < many; ++k) {
+      const std::string key = "atlas/texture/" + std::to_string(k);
+      from.push_back({key, "", kUpper, body_role(k + 1)});
+      to.push_back({key, "", kLower, body_role(k + 1)});
+    }
+    const auto [box, opacity] = only(between(things(from), things(to), 1.0 / 3), body_role(i + 1));
+    return box.center().y - kUpper.center().y;
+  };
+  EXPECT_EQ(moved(3, 0), moved(3, 2)) << "few go together";
+  EXPECT_GT(moved(6, 0), moved(6, 2));
+  EXPECT_EQ(moved(6, 0), moved(6, 1));
+  EXPECT_EQ(moved(6, 5), 0) << "the last wave waits";
+}
+
 TEST(Tween, WhatHasTheSameKeyGoesToItsNewPlaceWhereverItStandsInTheList) {
   const DrawList a =
       things({{"x", "", kUpper, Role::body_1}, {"y", "", {{5, 5}, {6, 6}}, Role::body_2}});
