@@ -114,6 +114,7 @@ struct StructureTraits {
   bool ignores_height = false;  // in three dimensions it looks at x and z only
   bool is_plain = false;        // makes all children, has no stop but the depth limit, and asks for
                                 // memory anew each time
+  bool is_of_lecture = false;   // the lecture's text weighs it against others
   bool is_own = false;          // a user's: seen from outside, its tests and memory are not counted
   NodeNames names = NodeNames::numbers;
   Bits tells = kAllBits;  // EventKinds of an insertion

@@ -4,6 +4,7 @@
 #include "geometry/shape.hpp"
 #include "spatial/broad_phase.hpp"
 #include "spatial/pairs.hpp"
+#include "spatial/trees/kd_tree.hpp"
 
 namespace lantern::spatial {
 namespace {
@@ -19,6 +20,58 @@ bool same_movers(std::span<const Proxy<D>> before, std::span<const Proxy<D>> aft
   return std::ranges::equal(before, after, [](const Proxy<D>& a, const Proxy<D>& b) {
     return a.is_static || (a.box.lo == b.box.lo && a.box.hi == b.box.hi);
   });
+}
+
+template <int D>
+bool some_stand(std::span<const Proxy<D>> boxes) {
+  return std::ranges::count(boxes, true, &Proxy<D>::is_static) > 0;
+}
+
+// Planes for a BSP as a level's compiler finds them (level_bsp.hpp): of those through an upper face
+// of a box that never moves, or of any box if all move, the best for these boxes. `tests` counts
+// comparisons of a box with a plane. No deeper than a tree that halves every axis `max_depth`
+// times.
+template <int D>
+std::vector<BspPlane<D>> compiled_planes(std::span<const Proxy<D>> boxes,
+                                         const StructureConfig<D>& config, std::uint64_t& tests) {
+  std::vector<BspPlane<D>> planes;
+  const auto divide = [&](const auto& self, const std::vector<Box<D>>& held, std::uint32_t parent,
+                          bool front, std::uint32_t depth) -> void {
+    if (held.size() <= config.capacity || depth == D * config.max_depth) return;
+    std::optional<KdCut> best;
+    for (const Box<D>& one : held)
+      for (int axis = 0; axis < D; ++axis) {
+        stop_if_asked();
+        KdCut cut{axis, one.hi[axis]};
+        std::size_t behind = 0, in_front = 0;
+        for (const Box<D>& box : held) {
+          behind += cut.behind(box);
+          in_front += cut.in_front(box);
+        }
+        tests += held.size();
+        cut.fuller = std::max(behind, in_front);
+        cut.both = behind + in_front - held.size();
+        if (cut.fuller < held.size() && (!best || cut.better_than(*best))) best = cut;
+      }
+    if (!best) return;
+    std::vector<Box<D>> behind, in_front;
+    for (const Box<D>& box : held) {
+      if (best->behind(box)) behind.push_back(box);
+      if (best->in_front(box)) in_front.push_back(box);
+    }
+    Vec<D> normal(0.0);
+    normal[best->axis] = 1;
+    const auto own = static_cast<std::uint32_t>(planes.size());
+    planes.push_back({{normal, best->plane}, parent, front});
+    self(self, behind, own, false, depth + 1);
+    self(self, in_front, own, true, depth + 1);
+  };
+  std::vector<Box<D>> all;
+  const bool some = some_stand(boxes);
+  for (const Proxy<D>& proxy : boxes)
+    if (proxy.is_static || !some) all.push_back(proxy.box);
+  divide(divide, all, kNone, false, 0);
+  return planes;
 }
 
 // What finding all pairs of a body costs, in ns, as measured: to compare it with another one,
@@ -129,22 +182,29 @@ template <int D>
 StructureWork structure_work(BroadPhaseConfig<D> config, std::span<const Proxy<D>> before,
                              std::span<const Proxy<D>> after, std::uint64_t most) {
   config.split_static = true;
-  BroadPhase<D> broad(config);
   StructureWork work;
-  broad.build(before);
-  const std::uint64_t at_first = dynamic_tests(broad);
-  const std::uint64_t builds = broad.counters().dynamic_builds;
-  work.build = at_first + broad.fixed().counters().box_tests;
-  broad.build(after);
+  const bool chooses = traits_of(config.kind).has(Setting::planes) && config.planes.empty();
+  if (chooses) config.planes = compiled_planes(before, config, work.build);
+  std::optional<BroadPhase<D>> broad(std::in_place, config);
+  broad->build(before);
+  std::uint64_t at_first = dynamic_tests(*broad), builds = broad->counters().dynamic_builds;
+  work.build += at_first + broad->fixed().counters().box_tests;
+  const bool moved = !same_movers(before, after);
+  if (chooses && moved && !some_stand(before)) {  // its planes were chosen for where they were
+    config.planes = compiled_planes(after, config, work.renew);
+    broad.emplace(config);
+    at_first = builds = 0;
+  }
+  broad->build(after);
   // What is built anew begins to count anew, as does a tree that follows its bodies; what stands
   // goes on.
-  const bool follows = traits_of(config.kind).follows && !same_movers(before, after);
-  const bool anew = follows || broad.counters().dynamic_builds > builds;
-  work.renew = dynamic_tests(broad) - (anew ? 0 : at_first);
+  const bool anew =
+      (traits_of(config.kind).follows && moved) || broad->counters().dynamic_builds > builds;
+  work.renew += dynamic_tests(*broad) - (anew ? 0 : at_first);
 
   std::unordered_map<BodyId, bool> stirs;
   for (const Proxy<D>& proxy : after) stirs[proxy.id] = proxy.awake && !proxy.is_static;
-  const PairChain chain = broad.pair_chain([&](BodyId id) { return stirs.at(id); }, most);
+  const PairChain chain = broad->pair_chain([&](BodyId id) { return stirs.at(id); }, most);
   work.pair = chain.met + chain.besides;
   work.pairs = chain.pairs.size();
   work.overlaps = chain.overlapping.size();

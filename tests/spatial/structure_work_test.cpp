@@ -26,7 +26,6 @@ void expect_same_pairs() {
   Random random(D);
   BroadPhaseConfig<D> config;
   config.bounds = {Vec<D>(0.0), Vec<D>(64.0)};
-  config.planes = {{Plane<D>::through(Vec<D>(32.0), Vec<D>(1.0))}};
   for (const std::uint32_t movers : {120u, 20u}) {
     const std::vector<Proxy<D>> before = town<D>(random, 120, movers);
     std::vector<Proxy<D>> after = before;
@@ -63,6 +62,28 @@ TEST(StructureWork, OfWhatNeverMovesIsDoneOnce) {
   const StructureWork work = structure_work<2>(config, still, still, kMost);
   EXPECT_GT(work.build, 50u);
   EXPECT_EQ(work.step(), 0u);
+}
+
+// The lecture, "Choosing a structure": to choose a BSP's planes is not fast, so it is for what
+// never moves. A plane for each face of each box is held against each box: n² at the root alone.
+TEST(StructureWork, ChoosesABspsPlanesAnewUnlessSomeBodiesNeverMove) {
+  const auto work = [](std::uint32_t movers) {
+    Random random(11);
+    BroadPhaseConfig<2> config;
+    config.bounds = {Vec<2>(0.0), Vec<2>(64.0)};
+    config.kind = StructureKind::bsp;
+    const std::vector<Proxy<2>> before = town<2>(random, 100, movers);
+    std::vector<Proxy<2>> after = before;
+    for (Proxy<2>& body : after)
+      if (!body.is_static) body.box = {body.box.lo + 0.25, body.box.hi + 0.25};
+    return structure_work<2>(config, before, after, kMost);
+  };
+  const StructureWork all_move = work(100), few_move = work(20);
+  EXPECT_GE(all_move.build, 2u * 100 * 100);
+  EXPECT_GE(all_move.renew, 2u * 100 * 100);
+  EXPECT_GE(few_move.build, 2u * 80 * 80);
+  EXPECT_LT(few_move.renew, 20u * 100) << "its planes stand";
+  EXPECT_LT(few_move.pairs, testable_pairs(100, 80)) << "they part the bodies";
 }
 
 TEST(StructureWork, OfAGridIsACellABody) {

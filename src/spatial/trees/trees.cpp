@@ -18,7 +18,8 @@ constexpr StructureTraits kTraits{
         {Setting::capacity, Setting::max_depth, Setting::children, Setting::no_progress_stop}),
     .least_dimension = D,
     .shares_array = true,
-    .ignores_height = D == 2};
+    .ignores_height = D == 2,
+    .is_of_lecture = true};
 
 }  // namespace
 
@@ -37,6 +38,7 @@ const StructureEntry kd_tree_entry{{.words = "kD-tree",
                                     .settings = bits_of({Setting::capacity, Setting::max_depth}),
                                     .is_fitted = true,
                                     .hugs = true,
+                                    .is_of_lecture = true,
                                     .tells = 0},
                                    made<KdTree<2>>,
                                    made<KdTree<3>>};
@@ -44,6 +46,7 @@ const StructureEntry kd_tree_entry{{.words = "kD-tree",
 const StructureEntry bsp_entry{{.words = "BSP",
                                 .settings = bits_of({Setting::planes}),
                                 .splits = false,
+                                .is_of_lecture = true,
                                 .names = NodeNames::sides},
                                made<Bsp<2>>,
                                made<Bsp<3>>};
