@@ -145,6 +145,8 @@ struct Compare {
   std::string row;
   std::vector<StructureKind> kinds;
   std::string verdict;  // with {count}; may be empty
+  std::vector<std::pair<StructureKind, int>> times;  // microseconds a step; may be empty
+  std::string machine;                               // on which they were measured
 };
 
 // A sort and sweep finds its pairs: one frame for each body at whose beginning the sweep stands.

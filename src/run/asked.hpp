@@ -233,7 +233,7 @@ std::vector<Proxy<D>> proxies_of(const World<D>& world) {
 }
 
 // What each of these kinds does for those bodies of the scenario, placed as they enter, in one
-// world step. `settings` are those of all kinds: capacity, depth limit, cells and planes. Throws
+// world step. `settings` are those of all kinds: capacity, depth limit and cells. Throws
 // Refused as world and structures do, and beyond kMostPairs pairs.
 template <int D>
 FrameComparison::Row compare_kinds(const Scenario& scenario, const StructureSpec& settings,
@@ -257,6 +257,7 @@ FrameComparison::Row compare_kinds(const Scenario& scenario, const StructureSpec
   for (const StructureKind kind : kinds) {
     StructureSpec spec = settings;
     spec.kind = kind;
+    spec.planes.clear();  // it chooses its own
     const BroadPhaseConfig<D> config =
         broad_phase_of<D>(spec, in_dimension<D>(scenario.world.bounds));
     row.cells.push_back({kind, structure_work<D>(config, before, after, kMostPairs)});

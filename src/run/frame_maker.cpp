@@ -35,7 +35,9 @@ constexpr CountDoc kAnswerCounts[] = {
     {"compared_overlaps", when::compared, "overlap of boxes/overlaps of boxes",
      "Those whose boxes overlap after its step, by every kind."},
     {"least_work", when::compared, "comparison a step/comparisons a step",
-     "Comparisons of the kind that needed fewest in its step, to make ready and to find pairs."}};
+     "Comparisons of the kind that needed fewest in its step, to make ready and to find pairs."},
+    {"least_lecture_work", when::compared, "by the lecture's best",
+     "The same of the quadtree, octree, BSP and kD-tree alone."}};
 
 // Frames of one run, all paces together.
 constexpr std::uint32_t kMostFrames = 100'000;
@@ -82,7 +84,6 @@ FrameMaker::FrameMaker(const Scenario& scenario, Pace pace, const Stage& stage,
       wants_(wants),
       headline_(scenario.headline),
       panels_(scenario.panels),
-      comparison_(empty_comparison(scenario)),
       looks_(scenario) {
   LANTERN_CHECK(counts_are_known(), ==, true);
   if (scenario.chart) plotter_.emplace(scenario);
@@ -356,16 +357,16 @@ void FrameMaker::add_finding(Frame& frame) const {
 
 // Of the world that was compared last.
 void FrameMaker::add_comparison(Frame& frame) {
-  if (comparison_.kinds.empty()) return;
-  FrameComparison& told = frame.add<FrameComparison>();
-  if (comparison_.rows.empty()) return void(told = comparison_);
+  if (comparison_.rows.empty()) return;
   FrameComparison::Row& last = comparison_.rows.back();
   frame.add_count("compared_bodies", last.bodies);
   frame.add_count("compared_pairs", last.testable);
   frame.add_count("compared_overlaps", last.cells.front().work.overlaps);
   frame.add_count("least_work", last.least());
+  if (const std::uint64_t least = last.least(true); least != FrameComparison::kNoWork)
+    frame.add_count("least_lecture_work", least);
   if (!answer_.empty()) last.answer = fill(std::exchange(answer_, {}), frame);
-  told = comparison_;
+  frame.add<FrameComparison>() = comparison_;
 }
 
 // Who is ruled out: not found in the end; before it, tested in vain or only in nodes left out.

@@ -298,20 +298,4 @@ std::optional<std::pair<Vec<3>, Vec<3>>> ends_of(const RulerSpec& ruler, const E
   return std::pair{*from, *to};
 }
 
-FrameComparison empty_comparison(const Scenario& scenario) {
-  FrameComparison comparison;
-  const auto some_has = [&](StructureKind kind) {
-    return std::ranges::any_of(scenario.steps, [&](const Step& step) {
-      const auto* compare = std::get_if<Compare>(&step.verb);
-      return compare && std::ranges::count(compare->kinds, kind) > 0;
-    });
-  };
-  for (const StructureKind kind : kStructureKinds)
-    if (some_has(kind)) comparison.kinds.push_back(kind);
-  for (const Step& step : scenario.steps)
-    if (const auto* compare = std::get_if<Compare>(&step.verb))
-      comparison.all_names.push_back(compare->row);
-  return comparison;
-}
-
 }  // namespace lantern::run

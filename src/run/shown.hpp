@@ -1,5 +1,5 @@
 // What a frame shows beside the state: what is lit, its cause and no more; from where it is looked
-// at; what the narrow phase was asked; rulers, comparisons and the chart.
+// at; what the narrow phase was asked; rulers and the chart.
 #pragma once
 
 #include "frame/frame.hpp"
@@ -93,9 +93,6 @@ class NarrowShown {
 // Where a step's ruler begins and ends in the world; nothing while a body that it is laid to is not
 // there. `engine` may be null if there are no bodies.
 std::optional<std::pair<Vec<3>, Vec<3>>> ends_of(const RulerSpec& ruler, const Engine* engine);
-
-// Before anything was compared: the columns and rows that the script will fill.
-FrameComparison empty_comparison(const Scenario& scenario);
 
 // Seconds of world time that the whole script takes, or only its part `only`. Nothing if none
 // passes, or if that depends on what happens.

@@ -218,6 +218,10 @@ void act(const Rebuild& rebuild, ScriptRun& run) {
 void act(const Compare& compare, ScriptRun& run) {
   FrameComparison::Row found = run.engine().compare(compare.bodies, compare.kinds);
   found.name = compare.row;
+  found.machine = compare.machine;
+  for (FrameComparison::Cell& cell : found.cells)
+    for (const auto& [kind, micros] : compare.times)
+      if (kind == cell.kind) cell.micros = micros;
   run.frames.add_row(std::move(found), compare.verdict);
   run.frames.settle("compare");
 }

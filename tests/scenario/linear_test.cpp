@@ -96,7 +96,8 @@ std::string text_of(const Setting& s, int bodies) {
     script.insert(before_removal, "do = \"solve_by\"\ncontacts = \"soft\"\nsub_steps = 4");
   else if (s.kind == StructureKind::sort_and_sweep)
     script.insert(before_removal, "do = \"sweep\"");
-  else if (counts_its_work(s.kind) && s.kind != StructureKind::grid)
+  // The nature of choosing a BSP's planes is the square.
+  else if (counts_its_work(s.kind) && s.kind != StructureKind::grid && s.kind != StructureKind::bsp)
     script.insert(
         before_removal,
         "do = \"compare\"\nbodies = [\"b\"]\nrow = \"all\"\nkinds = [\"grid\", \"" + kind + "\"]");

@@ -1,19 +1,22 @@
-// The table of what kinds of structures do (FrameComparison), a row a world with a small picture of
-// it; rows to come are named only.
+// What kinds of structures do (FrameComparison) in the world that a step compares: the world's
+// picture, and a bar of comparisons for each kind.
 //
-//                              brute force   quadtree     grid
-//   [picture] tall  80 bodies   each step   3160     | 1204 |     948
-//             A grid. A quad-   to build       0        812        80
-//             tree sees one     pairs left  3160        304       102
-//             floor.
+//   tower 1 500 bodies              a step: [##] to build [==] to find pairs   first built   µs
+//        /\                       the lecture's structures
+//       /##/                      quadtree   [#########==========] 115 618        52 200   310
+//      /##/                       octree     [###########=]( 81 692 )             75 300   250
+//     /__/                        others
+//   A quadtree sees one floor.    brute force [=========//=========] 1 124 250         0   900
 //
-// Behind each number of a step lies a bar, as long as the number is beside the row's largest. The
-// least of a row is framed and bold.
+// Ringed is the least of the lecture's own, and on a lit ground that of all. A bar much longer than
+// all others is cut. The ending has all worlds beside each other, each with three of its bars.
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
-#include "base/number.hpp"
+#include <fmt/format.h>
+
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 #include "frame/parts/panels.hpp"
@@ -23,115 +26,166 @@
 namespace lantern::draw {
 namespace {
 
-using frame::FrameComparison;
+using Row = frame::FrameComparison::Row;
+using Cell = frame::FrameComparison::Cell;
 
-constexpr double kPictureWidth = 128, kPictureHeight = 84;
-constexpr double kWorldWidth = 316, kWhenWidth = 124;  // of a world's words, of "each step"
-constexpr double kTableHeader = 66;
-constexpr double kTableLine = 30;               // from baseline to baseline in a row
-constexpr double kMostTableRow = 136;           // height
-constexpr double kLeastDot = 2.6;               // side of a body in a small picture
+constexpr double kPictureShare = 0.4;  // of a world's place
+constexpr double kLine = 34, kMostLine = 58;
+constexpr double kNames = 192, kNumbers = 160, kColumn = 140, kTimes = 126;  // widths
+constexpr double kBar = 26;                                                  // height
+constexpr std::size_t kAcross = 3;                                           // worlds on the ending
+constexpr double kLeastDot = 2.6;               // side of a body in a picture
 constexpr double kDepthX = 0.4, kDepthY = 0.3;  // how far on the page a unit of depth leads
+constexpr Role kBuild = Role::quiet_ink, kPair = Role::static_body;
 
-const TextStyle kTableName{26, Weight::semibold, Role::ink};
-const TextStyle kTableNumber{26, Weight::regular, Role::ink};
+bool is_of_lecture(const Cell& cell) { return traits_of(cell.kind).is_of_lecture; }
+bool is_ringed(const Row& row, const Cell& cell) {
+  return cell.work.step() == row.least() ||
+         (is_of_lecture(cell) && cell.work.step() == row.least(true));
+}
+// What a bar of full length stands for: the longest ones, each more than twice as long as the next,
+// are cut, but three are left.
+double scale_of(const Row& row) {
+  auto steps = mapped(row.cells, [](const Cell& cell) { return cell.work.step(); });
+  std::ranges::sort(steps, std::greater());
+  std::size_t longest = 0;
+  while (longest + 3 < steps.size() && steps[longest] > 2 * steps[longest + 1]) ++longest;
+  return static_cast<double>(std::max<std::uint64_t>(1, steps[longest]));
+}
+std::string text_of(std::uint64_t count) { return number_text(static_cast<double>(count)); }
 
 class ComparisonView : PanelPicture {
  public:
-  explicit ComparisonView(const PanelPicture& on) : PanelPicture(on) {
-    const double left = kPictureWidth + 18 + kWorldWidth + kWhenWidth;
-    columns_ = panel_.lo.x + left;
-    column_ = (panel_.size().x - left) / static_cast<double>(table_.kinds.size());
-    row_ = std::min(kMostTableRow, (panel_.size().y - kTableHeader) /
-                                       static_cast<double>(table_.all_names.size()));
-  }
+  explicit ComparisonView(const PanelPicture& on) : PanelPicture(on) {}
 
   void draw() {
-    if (table_.kinds.empty() || table_.all_names.empty()) return;
-    list_.referents.insert({"least_work", "compared_bodies"});
-    if (std::ranges::count(table_.kinds, StructureKind::brute_force) > 0)
-      list_.referents.emplace("compared_pairs");
-    draw_header();
-    for (std::size_t i = 0; i < table_.all_names.size(); ++i) {
-      const double top = panel_.lo.y + kTableHeader + row_ * static_cast<double>(i);
-      const Box<2> place{{panel_.lo.x, top}, {panel_.hi.x, top + row_}};
-      list_.crisp_line(place.lo, {place.hi.x, place.lo.y}, {Role::rule, 1.6});
-      const DrawList::Scope scope(list_, "comparison/row/" + table_.all_names[i]);
-      if (i < table_.rows.size())
-        draw_row(table_.rows[i], i + 1 == table_.rows.size() && !frame_.ending, place);
-      else
-        write(table_.all_names[i], {{words_x(), baseline(place, 0)}, 0}, kQuiet);
-    }
+    if (table_.rows.empty()) return;
+    list_.referents.insert(
+        {"least_work", "least_lecture_work", "compared_bodies", "compared_pairs"});
+    if (frame_.ending && table_.rows.size() > 1) return draw_all();
+    const Row& row = table_.rows.back();
+    const double middle = panel_.lo.x + kPictureShare * panel_.size().x;
+    draw_world(row, {panel_.lo, {middle - 24, panel_.hi.y}}, true);
+    draw_chart(row, {{middle, panel_.lo.y}, panel_.hi});
   }
 
  private:
-  double words_x() const { return panel_.lo.x + kPictureWidth + 18; }
-  // The lines of a row stand in its middle.
-  double baseline(const Box<2>& row, int line) const {
-    return row.center().y - kTableLine + 9 + kTableLine * line;
-  }
-  void draw_header() {
-    for (std::size_t i = 0; i < table_.kinds.size(); ++i) {
-      const std::string words(traits_of(table_.kinds[i]).words);
-      const std::vector<std::string> lines = wrapped(words, column_ - 8, kQuiet);
-      const double x = columns_ + column_ * (static_cast<double>(i) + 0.5);
-      double y = panel_.lo.y + kTableHeader - 14 - 28 * (static_cast<double>(lines.size()) - 1);
-      for (const std::string& line : lines) {
-        write(shortened(line, column_ - 6, kQuiet), {{x, y}, 0.5}, kQuiet);
-        y += 28;
+  void draw_all() {
+    write("filled: fewest of all; ringed: fewest of the lecture's structures",
+          {{panel_.lo.x, panel_.hi.y - 8}, 0}, kQuiet);
+    const std::size_t down = (table_.rows.size() + kAcross - 1) / kAcross;
+    const Vec<2> size{panel_.size().x / kAcross, panel_.size().y / static_cast<double>(down)};
+    for (std::size_t i = 0; i < table_.rows.size(); ++i) {
+      const Row& row = table_.rows[i];
+      const Vec<2> corner = panel_.lo + Vec<2>(static_cast<double>(i % kAcross) * size.x,
+                                               static_cast<double>(i / kAcross) * size.y);
+      const double middle = corner.x + (kPictureShare + 0.06) * size.x;
+      draw_world(row, {corner, {middle - 16, corner.y + size.y - 12}}, false);
+      std::vector<const Cell*> cells;
+      for (const Cell& cell : row.cells)
+        if (is_ringed(row, cell) || cell.kind == StructureKind::brute_force) cells.push_back(&cell);
+      std::ranges::stable_sort(cells, {}, [](const Cell* cell) { return cell->work.step(); });
+      double y = corner.y + 1.6 * kLine;
+      for (const Cell* cell : cells) {
+        write(traits_of(cell->kind).words, centred({middle, y}, kPlain, 0));
+        const double right = corner.x + size.x - 16;
+        draw_bar(row, *cell, {middle, y + kLine}, right - middle);
+        write_number(row, *cell, {right, y}, 1);
+        y += 2.3 * kLine;
       }
     }
   }
 
-  void draw_row(const FrameComparison::Row& row, bool lit, const Box<2>& place) {
-    if (lit) list_.rect({place.lo + Vec<2>(0, 2), place.hi - Vec<2>(0, 2)}, Role::lit_fill);
-    draw_picture(row, Box<2>{{place.lo.x + 4, place.center().y - kPictureHeight / 2},
-                             {place.lo.x + kPictureWidth, place.center().y + kPictureHeight / 2}});
-    draw_words(row, place);
-    const char* const kLines[] = {"each step", "to build", "pairs left"};
-    for (int line = 0; line < 3; ++line)
-      write(kLines[line], {{columns_ - 10, baseline(place, line)}, 1}, kQuiet);
-    std::uint64_t most = 1;
-    for (const FrameComparison::Cell& cell : row.cells) most = std::max(most, cell.work.step());
-    for (std::size_t i = 0; i < table_.kinds.size(); ++i)
-      if (const FrameComparison::Cell* cell = row.cell(table_.kinds[i]))
-        draw_cell(*cell, cell->work.step() == row.least(), most,
-                  columns_ + column_ * static_cast<double>(i), place);
+  // Its name, its picture, and what is said of it.
+  void draw_world(const Row& row, const Box<2>& place, bool says) {
+    const DrawList::Scope scope(list_, "comparison/row/" + row.name);
+    const double width = place.size().x, y = place.lo.y + 0.8 * kLabel;
+    write(shortened(row.name, width, kStrong), {{place.lo.x, y}, 0}, kStrong);
+    const std::string bodies = text_of(row.bodies) + " " + count_words("bodies", row.bodies == 1);
+    const double after = text_width(row.name, kStrong) + 12;
+    if (after + text_width(bodies, kQuiet) < 1.8 * width)
+      write(bodies, {{place.lo.x + after, y}, 0}, kQuiet);
+    double low = place.hi.y;
+    if (says) {
+      const std::vector<std::string> lines = wrapped(row.answer, width, kPlain);
+      low -= kLine * static_cast<double>(lines.size());
+      for (std::size_t i = 0; i < lines.size(); ++i)
+        write(lines[i], {{place.lo.x, low + kLine * (static_cast<double>(i) + 0.8)}, 0});
+    }
+    draw_picture(row, {{place.lo.x, y + 12}, {place.hi.x, low - 8}});
   }
 
-  // Its name, how many bodies it has, and what the row says.
-  void draw_words(const FrameComparison::Row& row, const Box<2>& place) {
-    write(shortened(row.name, kWorldWidth, kTableName), {{words_x(), baseline(place, 0)}, 0},
-          kTableName);
-    const double after = words_x() + text_width(row.name, kTableName) + 12;
-    const std::string bodies = grouped(static_cast<std::int64_t>(row.bodies)) + " " +
-                               count_words("bodies", row.bodies == 1);
-    if (after + text_width(bodies, kQuiet) < words_x() + kWorldWidth)
-      write(bodies, {{after, baseline(place, 0)}, 0}, kQuiet);
-    std::vector<std::string> lines = wrapped(row.answer, kWorldWidth, kPlain);
-    if (lines.size() > 2) lines = {lines[0], shortened(lines[1] + " …", kWorldWidth, kPlain)};
-    for (std::size_t i = 0; i < lines.size(); ++i)
-      write(lines[i], {{words_x(), baseline(place, static_cast<int>(i) + 1)}, 0});
+  void draw_chart(const Row& row, const Box<2>& place) {
+    const bool timed = !row.machine.empty();
+    const double line = std::min(
+        kMostLine, place.size().y / static_cast<double>(row.cells.size() + (timed ? 4 : 3)));
+    const double built = place.hi.x - (timed ? kTimes : 0);
+    double y = place.lo.y + 0.45 * kLabel;
+    const char* const what = "comparisons a step:";
+    write(what, centred({place.lo.x, y}, kQuiet, 0), kQuiet);
+    double x = place.lo.x + text_width(what, kQuiet) + 16;
+    for (const auto& [words, role] : {std::pair{"to build", kBuild}, {"to find pairs", kPair}}) {
+      list_.rect({{x, y - 11}, {x + 22, y + 11}}, role);
+      write(words, centred({x + 32, y}, kQuiet, 0), kQuiet);
+      x += 50 + text_width(words, kQuiet);
+    }
+    write("first built", centred({built, y}, kQuiet, 1), kQuiet);
+    if (timed) write("µs a step", centred({place.hi.x, y}, kQuiet, 1), kQuiet);
+    for (const bool of_lecture : {true, false}) {
+      const char* const group = of_lecture ? "the lecture's structures" : "others";
+      write(group, centred({place.lo.x, y += line}, kQuiet, 0), kQuiet);
+      list_.crisp_line({place.lo.x + text_width(group, kQuiet) + 12, y}, {place.hi.x, y},
+                       {Role::rule, 1.6});
+      for (const Cell& cell : row.cells) {
+        if (is_of_lecture(cell) != of_lecture) continue;
+        y += line;
+        write(traits_of(cell.kind).words, centred({place.lo.x, y}, kPlain, 0));
+        const double left = place.lo.x + kNames;
+        const double end = draw_bar(row, cell, {left, y}, built - kColumn - kNumbers - left);
+        write_number(row, cell, {end + 14, y}, 0);
+        write(text_of(cell.work.build), centred({built, y}, kQuiet, 1), kQuiet);
+        if (cell.micros > 0) write(number_text(cell.micros), centred({place.hi.x, y}, kPlain, 1));
+      }
+    }
+    if (timed) {
+      const std::string words = fmt::format("µs: processor time, {}", row.machine);
+      write(shortened(words, place.size().x, kQuiet), centred({place.hi.x, y + line}, kQuiet, 1),
+            kQuiet);
+    }
   }
 
-  void draw_cell(const FrameComparison::Cell& cell, bool best, std::uint64_t most, double x,
-                 const Box<2>& row) {
-    const double y = baseline(row, 0);
-    const Box<2> box{{x + 5, y - 27}, {x + column_ - 5, y + 9}};
-    const double share = static_cast<double>(cell.work.step()) / static_cast<double>(most);
-    list_.rect({box.lo, {box.lo.x + std::max(2.0, share * box.size().x), box.hi.y}}, Role::rule);
-    if (best) list_.rect(box, Role::none, {Role::lit, 3.4}, 5);
-    const double right = x + column_ - 14;
-    labels_.add_number(static_cast<std::int64_t>(cell.work.step()), {right, y},
-                       best ? kTableName : kTableNumber, panel_);
-    labels_.add_number(static_cast<std::int64_t>(cell.work.build), {right, baseline(row, 1)},
-                       kQuiet, panel_);
-    labels_.add_number(static_cast<std::int64_t>(cell.work.pairs), {right, baseline(row, 2)},
-                       kQuiet, panel_);
+  // From there, so long at most; gives the x where it ends.
+  double draw_bar(const Row& row, const Cell& cell, const Vec<2>& from, double length) {
+    const DrawList::Scope scope(
+        list_, fmt::format("comparison/bar/{}/{}", row.name, traits_of(cell.kind).words));
+    const double scale = scale_of(row);
+    const auto at = [&](std::uint64_t work) {
+      return from.x + length * std::min(1.0, static_cast<double>(work) / scale);
+    };
+    const double middle = at(cell.work.renew), end = std::max(at(cell.work.step()), from.x + 2);
+    list_.rect({{from.x, from.y - kBar / 2}, {end, from.y + kBar / 2}}, kPair);
+    if (middle > from.x)
+      list_.rect({{from.x, from.y - kBar / 2}, {middle, from.y + kBar / 2}}, kBuild);
+    if (static_cast<double>(cell.work.step()) > scale)
+      for (const double x : {end - 40, end - 28})
+        list_.line({x - 6, from.y + kBar / 2}, {x + 6, from.y - kBar / 2}, {Role::paper, 5});
+    return end;
+  }
+
+  void write_number(const Row& row, const Cell& cell, const Vec<2>& at, double align) {
+    const bool best = cell.work.step() == row.least();
+    const TextStyle style = best ? TextStyle{kLabel, Weight::semibold, Role::lit_ink} : kPlain;
+    const std::string text = text_of(cell.work.step());
+    const Anchor anchor = centred(at, style, align);
+    const Box<2> letters = Labels::extent(text, anchor, style);
+    if (is_ringed(row, cell))
+      list_.rect({{letters.lo.x - 8, at.y - 18}, {letters.hi.x + 8, at.y + 18}},
+                 best ? Role::lit_fill : Role::none, {Role::lit, 3.4}, 5);
+    write(text, anchor, style);
   }
 
   // The world from the front, its depth leading up to the right; what is far lies behind.
-  void draw_picture(const FrameComparison::Row& row, const Box<2>& place) {
+  void draw_picture(const Row& row, const Box<2>& place) {
     const Box<3>& world = frame_.bounds;
     const Vec<3> size = world.size();
     const bool solid = frame_.dimension == 3;
@@ -152,41 +206,40 @@ class ComparisonView : PanelPicture {
     const Vec<3> b = solid ? Vec<3>{c.x, a.y, a.z} : Vec<3>{c.x, a.y, 0};
     const Vec<3> d = solid ? Vec<3>{a.x, a.y, c.z} : Vec<3>{a.x, c.y, 0};
     list_.polygon({at(a), at(b), at(c), at(d)}, Role::panel, {Role::cell_line_2, 1.6});
-    std::vector<FrameComparison::Mark> marks;
-    for (FrameComparison::Mark mark : row.marks) {
+    std::vector<frame::FrameComparison::Mark> marks;
+    for (frame::FrameComparison::Mark mark : row.marks) {
       mark.box = common_part(mark.box, world);  // a half-space has no end
       if (is_valid(mark.box)) marks.push_back(mark);
     }
     std::ranges::stable_sort(marks, {}, [](const auto& mark) { return mark.box.center().z; });
-    for (const FrameComparison::Mark& mark : marks) {
+    for (const frame::FrameComparison::Mark& mark : marks) {
       const Vec<3> extent = mark.box.size();
       const Vec<2> half{std::max(kLeastDot, scale * extent.x) / 2,
                         std::max(kLeastDot, scale * extent.y) / 2};
       list_.rect(Box<2>::around(at(mark.box.center()), half),
                  mark.is_static ? Role::static_body : body_role(mark.color),
-                 {Role::body_line, 0.8});
+                 {Role::body_line, half.x + half.y > 6 ? 0.8 : 0.4});
     }
   }
 
-  const FrameComparison& table_ = frame_.get<FrameComparison>();
-  double columns_ = 0;  // where they begin
-  double column_ = 0;   // width
-  double row_ = 0;      // height
+  const frame::FrameComparison& table_ = frame_.get<frame::FrameComparison>();
 };
 
 }  // namespace
 
 PanelEntry comparison_panel() {
-  return {{.name = "comparison",
-           .words = "the `comparison`, a table of what each kind of structure does for each world "
-                    "that a step compares",
-           .needs = "it needs a step with do = \"compare\"",
-           .possible = language::some_step<language::Compare>,
-           .place = 6,
-           .by_itself = language::some_step<language::Compare>,
-           .example = [] { return language::example_with("world", "compare"); }},
-          {.shows = {{"worlds compared", lists<FrameComparison, &FrameComparison::rows>}}},
-          {.draw = draw_as<ComparisonView>, .inset = 3, .smallest = {900, -1e300}}};
+  return {
+      {.name = "comparison",
+       .words = "the `comparison`, bars of what each kind of structure does in the world that a "
+                "step compares",
+       .needs = "it needs a step with do = \"compare\"",
+       .possible = language::some_step<language::Compare>,
+       .place = 6,
+       .by_itself = language::some_step<language::Compare>,
+       .example = [] { return language::example_with("world", "compare"); }},
+      {.shows = {{"worlds compared",
+                  lists<frame::FrameComparison, &frame::FrameComparison::rows>}}},
+      {.draw = draw_as<ComparisonView>, .inset = 3, .smallest = {900, -1e300}}};
 }
 
 }  // namespace lantern::draw

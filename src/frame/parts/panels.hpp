@@ -95,12 +95,16 @@ struct FrameCollisions {
 // What kinds of structures do for the same bodies, world by world: a table, a row a world.
 struct FrameComparison {
   static constexpr std::string_view kName = "comparison";
+  static constexpr std::uint64_t kNoWork = ~std::uint64_t{0};
   // Of one kind for one world.
   struct Cell {
     StructureKind kind = StructureKind::none;
     StructureWork work;
+    int micros = 0;  // a step, as the script says; 0: it does not
 
-    static decltype(auto) fields(const auto& r, auto&& v) { return v("kind", r.kind).flat(r.work); }
+    static decltype(auto) fields(const auto& r, auto&& v) {
+      return v("kind", r.kind).flat(r.work).when(r.micros > 0, "microseconds", r.micros);
+    }
   };
   // A body, for a small picture of the world.
   struct Mark {
@@ -110,7 +114,8 @@ struct FrameComparison {
   };
   struct Row {
     std::string name;
-    std::string answer;  // counts filled in
+    std::string answer;   // counts filled in
+    std::string machine;  // that took the times; empty if there are none
     std::uint64_t bodies = 0;
     std::uint64_t testable = 0;  // pairs of them that brute force tests
     std::vector<Mark> marks;     // before the step
@@ -120,26 +125,27 @@ struct FrameComparison {
       const auto found = std::ranges::find(cells, kind, &Cell::kind);
       return found == cells.end() ? nullptr : &*found;
     }
-    // Comparisons of the kind that needs fewest in a step. There is one cell at least.
-    std::uint64_t least() const {
-      return std::ranges::min_element(cells, {}, [](const Cell& c) { return c.work.step(); })
-          ->work.step();
+    // Comparisons of the kind that needs fewest in a step; of the lecture's own alone, which may
+    // be none.
+    std::uint64_t least(bool of_lecture = false) const {
+      std::uint64_t least = kNoWork;
+      for (const Cell& cell : cells)
+        if (!of_lecture || traits_of(cell.kind).is_of_lecture)
+          least = std::min(least, cell.work.step());
+      return least;
     }
 
     static auto fields(auto& r, auto&& v) {
       return v("row", r.name)("answer", r.answer)("bodies", r.bodies)("testable_pairs", r.testable)(
                  "kinds", r.cells)
+          .when(!r.machine.empty(), "machine", r.machine)
           .drawn(r.marks);
     }
   };
 
-  std::vector<StructureKind> kinds;    // the columns, of the whole script
-  std::vector<std::string> all_names;  // of the rows, of the whole script
-  std::vector<Row> rows;               // so far
+  std::vector<Row> rows;  // so far
 
-  static auto fields(auto& r, auto&& v) {
-    return v.when(!r.rows.empty(), "comparison", r.rows).drawn(r.kinds, r.all_names);
-  }
+  static decltype(auto) fields(const auto& r, auto&& v) { return v("comparison", r.rows); }
 };
 
 }  // namespace lantern::frame

@@ -49,8 +49,6 @@ std::string why_not_compared(StructureKind kind, const ScriptReading& script) {
     return fmt::format("what a '{}' does is not counted", to_string(kind));
   if (script.draft.dimension == 2 && !is_possible(kind, 2))
     return "an octree needs a 3D world, this one is 2D";
-  if (traits_of(kind).has(Setting::planes) && script.state.past.structure().planes.empty())
-    return "a bsp needs the planes of a [structure] of kind \"bsp\", there are none";
   return {};
 }
 
@@ -71,6 +69,19 @@ void read_compare(Compare& compare, const TableReader& table, ScriptReading& scr
   }
   if (table.is_good("kinds") && compare.kinds.size() < 2)
     table.bad_value("kinds", "one kind alone has nothing beside it", "name two or more");
+  for (const auto& [name, micros] : table.list<std::pair<Named, int>>("times")) {
+    const auto kind = structure_named(name.name);
+    if (!kind)
+      script.draft.problems.add_unknown(name.where, "structure", name.name,
+                                        [] { return names(StructureKind()); });
+    else if (!compare.kinds.empty() && std::ranges::count(compare.kinds, *kind) == 0)
+      script.draft.problems.add(name.where, fmt::format("a '{}' is not compared here", name.name));
+    else
+      compare.times.emplace_back(*kind, micros);
+  }
+  if (table.has("times") != table.has("machine"))
+    table.bad_key(table.has("times") ? "times" : "machine",
+                  "'times' and the 'machine' that took them belong together");
 }
 
 // --- ray, cull, query ---
@@ -228,19 +239,25 @@ std::vector<VerbDoc> verbs_of_structures() {
           "not, and go through one world step; each kind of structure is built for them, "
           "then made ready for where they are after the step, and finds their pairs. "
           "Counted are comparisons. What never moves has a structure of its own, built "
-          "once. The panel `comparison` gets a row for it.",
+          "once. The panel `comparison` shows it.",
           {
               bodies_key(),
-              key(&Compare::row, "row", "What this world is called in the table.", must(),
-                  range(1, 24)),
+              key(&Compare::row, "row", "What this world is called.", must(), range(1, 24)),
               key(&Compare::kinds, "kinds",
-                  "Kinds of structures, with the settings of the [structure] that stands; a "
-                  "`bsp` with its planes.",
+                  "Kinds of structures, with the settings of the [structure] that stands. A `bsp` "
+                  "chooses planes of its own: once through faces of what never moves, or, where "
+                  "all move, anew after the step. To choose them counts as building.",
                   or_else("all of Lantern's own that are possible here and whose work is "
                           "counted")),
               key(&Compare::verdict, "verdict",
-                  "What the row says in words. It may quote counts, as a caption does.",
+                  "What is said of it, under its picture. It may quote counts, as a caption does.",
                   range(0, 56)),
+              key(KeyType::name_wholes, "times",
+                  "What a step of some kinds took, in microseconds, as `{ grid = 95 }`: measured "
+                  "once and written down, for a frame measures nothing.",
+                  range(1, 1e9)),
+              key(&Compare::machine, "machine", "The computer that took those `times`.",
+                  range(1, 40)),
           },
           read_compare),
       verb<CastRay>(
