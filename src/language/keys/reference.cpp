@@ -27,7 +27,7 @@ std::string short_range(const KeyDoc& doc) {
   if (doc.pattern) return std::string(doc.pattern->words);
   if (!std::isfinite(doc.most)) return "";
   if (doc.least == -doc.most) return std::string(doc.unit);  // said once for all coordinates
-  if (doc.type == KeyType::tables) return "up to " + short_number(doc.most);
+  if (doc.type == KeyType::tables || doc.may_be_empty) return "up to " + short_number(doc.most);
   std::string text = short_number(doc.most);
   if (std::isfinite(doc.least))
     text = doc.above_least ? fmt::format("above {}, to {}", short_number(doc.least), text)
