@@ -94,7 +94,7 @@ TEST(CommandLine, AtlasIsWrittenAsAnImageWithItsRectangles) {
   ASSERT_EQ(shell("lantern render " + kAtlas + kSmall + "-o " + out.string()).code, 0);
   const json atlas = json::parse(read_text(out / "kdtree_atlas" / "kdtree_atlas_atlas.json"));
   EXPECT_EQ(atlas["textures"].size(), 34u);
-  EXPECT_EQ(atlas["refused"], json::array({"banner"}));
+  EXPECT_EQ(atlas["refused"], json::array({"banner1"}));
   EXPECT_TRUE(fs::exists(out / "kdtree_atlas" / "kdtree_atlas_atlas.png"));
 }
 

@@ -34,6 +34,7 @@ std::vector<std::string> pages();
 
 // The file of a scenario that comes with Lantern.
 std::string scenario(const std::string& name);
-inline const std::string kGhosts = LANTERN_ROOT "/scenarios/ghost_quadtree.toml";
+// Eight frames that stay as they are, whatever becomes of the course's.
+inline const std::string kGhosts = LANTERN_ROOT "/tests/app/ghost_quadtree.toml";
 
 }  // namespace lantern::app

@@ -120,7 +120,7 @@ TEST_F(SameBytes, OfSolidAndMovingWorlds) {
                            const std::string& words) {
       const fs::path out = fresh_folder(folder + "-" + name);
       const Outcome o = shell(before + " lantern render " + scenario(name) +
-                              " --size 480x270 --frames 10-24 " + words + " -o " + out.string());
+                              " --size 480x270 --frames 0-10 " + words + " -o " + out.string());
       EXPECT_EQ(o.code, 0) << o.err;
       Files found;
       for (const auto& entry : fs::directory_iterator(out / name))
@@ -128,7 +128,7 @@ TEST_F(SameBytes, OfSolidAndMovingWorlds) {
       return found;
     };
     const Files expected = files("moving", "", "-j 1 --backend osmesa");
-    EXPECT_GE(expected.size(), 30u);
+    EXPECT_GE(expected.size(), 22u);
     expect_same(expected, files("moving-j", "", "-j 4"), name + " with -j 4");
     expect_same(expected, files("moving-egl", "", "--backend egl"), name + " with EGL");
     expect_same(expected, files("moving-sse2", "export GALLIUM_OVERRIDE_CPU_CAPS=sse2;", ""),
