@@ -30,7 +30,7 @@ using Row = frame::FrameComparison::Row;
 using Cell = frame::FrameComparison::Cell;
 
 constexpr double kPictureShare = 0.4;  // of a world's place
-constexpr double kLine = 34, kMostLine = 58;
+constexpr double kBarLine = 34, kMostBarLine = 58;
 constexpr double kNames = 192, kNumbers = 160, kColumn = 140, kTimes = 126;  // widths
 constexpr double kBar = 26;                                                  // height
 constexpr std::size_t kAcross = 3;                                           // worlds on the ending
@@ -85,13 +85,13 @@ class ComparisonView : PanelPicture {
       for (const Cell& cell : row.cells)
         if (is_ringed(row, cell) || cell.kind == StructureKind::brute_force) cells.push_back(&cell);
       std::ranges::stable_sort(cells, {}, [](const Cell* cell) { return cell->work.step(); });
-      double y = corner.y + 1.6 * kLine;
+      double y = corner.y + 1.6 * kBarLine;
       for (const Cell* cell : cells) {
         write(traits_of(cell->kind).words, centred({middle, y}, kPlain, 0));
         const double right = corner.x + size.x - 16;
-        draw_bar(row, *cell, {middle, y + kLine}, right - middle);
+        draw_bar(row, *cell, {middle, y + kBarLine}, right - middle);
         write_number(row, *cell, {right, y}, 1);
-        y += 2.3 * kLine;
+        y += 2.3 * kBarLine;
       }
     }
   }
@@ -108,9 +108,9 @@ class ComparisonView : PanelPicture {
     double low = place.hi.y;
     if (says) {
       const std::vector<std::string> lines = wrapped(row.answer, width, kPlain);
-      low -= kLine * static_cast<double>(lines.size());
+      low -= kBarLine * static_cast<double>(lines.size());
       for (std::size_t i = 0; i < lines.size(); ++i)
-        write(lines[i], {{place.lo.x, low + kLine * (static_cast<double>(i) + 0.8)}, 0});
+        write(lines[i], {{place.lo.x, low + kBarLine * (static_cast<double>(i) + 0.8)}, 0});
     }
     draw_picture(row, {{place.lo.x, y + 12}, {place.hi.x, low - 8}});
   }
@@ -118,7 +118,7 @@ class ComparisonView : PanelPicture {
   void draw_chart(const Row& row, const Box<2>& place) {
     const bool timed = !row.machine.empty();
     const double line = std::min(
-        kMostLine, place.size().y / static_cast<double>(row.cells.size() + (timed ? 4 : 3)));
+        kMostBarLine, place.size().y / static_cast<double>(row.cells.size() + (timed ? 4 : 3)));
     const double built = place.hi.x - (timed ? kTimes : 0);
     double y = place.lo.y + 0.45 * kLabel;
     const char* const what = "comparisons a step:";

@@ -255,7 +255,7 @@ void draw_world2d(World2D w) {
   draw_sights(w);
   if (w.frame.bodies.size() > kCrowd) {
     const std::size_t marks = draw_crowd(w);
-    if (marks < 0.98 * static_cast<double>(w.frame.bodies.size()))
+    if (50 * marks < 49 * w.frame.bodies.size())
       left_out.push_back(fmt::format("{} bodies as {} marks", w.frame.bodies.size(), marks));
     draw_marks(w, left_out);
     return note(left_out, w.map.picture(), w.labels);
