@@ -265,8 +265,12 @@ TEST(Marks, ALineOfALevelHasTheNumberOfItsWall) {
       EXPECT_EQ(labels(list, "11"), 1) << "in front of it";
       EXPECT_EQ(labels(list, "13"), 1) << "behind it";
     }
-    if (frame.event == "compiled") EXPECT_EQ(labels(list, "18"), 1) << "in the tree";
-    if (frame.event == "locate_court") EXPECT_EQ(labels(list, "18"), 2) << "the line is asked";
+    if (frame.event == "compiled") {
+      EXPECT_EQ(labels(list, "18"), 1) << "in the tree";
+    }
+    if (frame.event == "locate_court") {
+      EXPECT_EQ(labels(list, "18"), 2) << "the line is asked";
+    }
   }
   EXPECT_GT(chosen, 0);
 }
