@@ -32,6 +32,9 @@ Promise.all([pixels(arguments[0]), pixels(arguments[1])]).then(([a, b]) => {
 
 failures = []
 
+# Of 255, over a picture: hatches are nearly all edges, which each renderer smooths its own way.
+MOST_DIFFERENCE = 1.6
+
 
 def expect(what, found, expected=True):
     if found != expected:
@@ -61,12 +64,12 @@ def check_pictures(page, last, theme):
     for index in range(last + 1):
         page.run("window.lantern.go(arguments[0])", index)
         mean = difference(page, FOLDER / f"{theme}/lesson/lesson_{index:04}.png")
-        expect(f"frame {index}, {theme}: mean difference {mean} is small", isinstance(mean, float) and mean < 1.2)
+        expect(f"frame {index}, {theme}: mean difference {mean} is small", isinstance(mean, float) and mean < MOST_DIFFERENCE)
         if index == 0 or theme == "dark":
             continue
         page.run("const p = window.lantern.picture; p.show(arguments[0] - 1); p.showBetween(arguments[0], 0.5)", index)
         mean = difference(page, FOLDER / f"{theme}/lesson/lesson_{index - 1:04}_01.png")
-        expect(f"half way to frame {index}: mean difference {mean} is small", isinstance(mean, float) and mean < 1.2)
+        expect(f"half way to frame {index}: mean difference {mean} is small", isinstance(mean, float) and mean < MOST_DIFFERENCE)
     page.run("document.getElementById('alone').remove(); window.lantern.go(0)")
 
 
