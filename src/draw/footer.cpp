@@ -92,7 +92,7 @@ std::vector<Counter> default_counters(const Frame& frame) {
     counters.push_back(counted(n, n == 1 ? one : many, many, {name}));
   };
   if (pairs)
-    add(*pairs, "candidate pair", "candidate pairs", "pairs");
+    counters.push_back(counted(*pairs, "pairs"));
   else if (bodies)
     add(*bodies, "body", "bodies", "bodies");
   if (const auto all = frame.count("testable_pairs"); all && !counters.empty())

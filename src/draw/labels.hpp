@@ -164,12 +164,12 @@ std::array<Anchor, 8> on_its_side(std::array<Anchor, 8> anchors, const NameSides
 
 inline constexpr double kNameGap = 7;  // between a body's box and its name
 
-// What is written at a leaf, the best first; nothing for an unlit one of a BSP more than one step
-// down: its way is longer than anyone reads. Lit, it says on which side of its last plane it lies,
-// "net: back".
 // How the two children of a plane are told apart: "left" and "right" where it is upright, "below"
 // and "above" where it is level, and else "back" and "front".
 std::string side_word(const FrameNode& parent, std::uint32_t slot);
+// What is written at a leaf, the best first; nothing for an unlit one of a BSP more than one step
+// down: its way is longer than anyone reads. Lit, it says on which side of its last plane it lies,
+// "net: left".
 std::vector<std::string> leaf_names(const Frame& frame, const FrameNode& leaf);
 
 }  // namespace lantern::draw

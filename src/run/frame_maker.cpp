@@ -392,7 +392,6 @@ void FrameMaker::add_rulers(Frame& frame) const {
   }
 }
 
-// The leaves of an atlas that are large enough.
 // The free leaves that were asked: lit where there is room, passed where there is none.
 void FrameMaker::light_room(Frame& frame) const {
   const auto* ask = std::get_if<AskRoom>(&step_->verb);
@@ -413,7 +412,6 @@ std::optional<std::string> FrameMaker::text_of(std::string_view name, const Fram
   return std::nullopt;
 }
 
-// Those whose bodies and nodes are there by now.
 void FrameMaker::light_named(Frame& frame) {
   const LitSpec* strange = light_only(*step_->lit, frame);
   if (strange && reported_.insert(strange).second)
@@ -425,6 +423,7 @@ void FrameMaker::light_named(Frame& frame) {
     });
 }
 
+// Those whose bodies and nodes are there by now.
 void FrameMaker::add_notes(Frame& frame) {
   for (const NoteSpec& spec : step_->notes) {
     FrameNote note{fill(spec.text, frame), spec.of, {}, kNone, {}, spec.point};
