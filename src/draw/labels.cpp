@@ -7,6 +7,7 @@
 
 #include "base/stop.hpp"
 #include "draw/font.hpp"
+#include "draw/pen.hpp"
 #include "draw/world/world2d_parts.hpp"
 
 namespace lantern::draw {
@@ -48,13 +49,26 @@ bool names(const std::string& text, const std::string& name) {
   return false;
 }
 
-using Free = std::map<std::string, std::array<int, 8>, std::less<>>;  // by body: on how many frames
+// By body: on how many frames, once more where no link of a pair runs through the name.
+using Free = std::map<std::string, std::array<int, 8>, std::less<>>;
+
+std::vector<std::pair<Vec<2>, Vec<2>>> straight_links(const Frame& frame, const View2D& map) {
+  constexpr std::size_t kMostAvoided = 12;
+  std::vector<std::pair<Vec<2>, Vec<2>>> links;
+  if (!frame.display.pairs || frame.pairs.size() > kMostAvoided) return links;
+  for (const FramePair& pair : frame.pairs) {
+    const FrameBody *a = frame.body_of(pair.pair.a), *b = frame.body_of(pair.pair.b);
+    if (a && b) links.emplace_back(map.to_page(a->box.center()), map.to_page(b->box.center()));
+  }
+  return links;
+}
 
 void count_free(const Frame& frame, const Box<2>& panel, Free& free) {
   const View2D map(flat(frame.bounds), panel);
   const std::vector<Stand> stands = stands_of(frame, map);
   const Box<2> room = shrunk(map.picture(), 5);
   const std::vector<Box<2>> covered = mapped(stands, &Stand::box);
+  const auto links = straight_links(frame, map);
   for (const Stand& stand : stands) {
     const FrameBody& body = *stand.bodies.front();
     if (stand.bodies.size() > 1 || !shows_name(frame, body)) continue;
@@ -62,7 +76,14 @@ void count_free(const Frame& frame, const Box<2>& panel, Free& free) {
     std::array<int, 8>& counts = free[body.name];
     for (std::size_t k = 0; k < anchors.size(); ++k) {
       const Box<2> extent = Labels::extent(body.name, anchors[k], {});
-      counts[k] += holds(room, extent) && !touches(covered, extent);
+      if (!holds(room, extent) || touches(covered, extent)) continue;
+      counts[k] +=
+          std::ranges::any_of(links,
+                              [&](const auto& link) {
+                                return cut_line(link.first, link.second, extent).has_value();
+                              })
+              ? 1
+              : 2;
     }
   }
 }

@@ -302,8 +302,13 @@ void mark_missed(const Frame& frame, const Marks& marks, Labels& labels) {
     const std::string key = pair_key("world/missed", a, b);
     const Marks::Scope scope(marks, key, key);
     draw_missed(box, pen);
-    const auto places = anchors_around(box, 6, style);
-    labels.try_add("missed", {places[0], places[1], places[2]}, style, marks.place());
+    Box<2> both = box;
+    for (const FrameBody* body : {&a, &b})
+      for (const Vec<3>& corner : corners_of(body->box))
+        if (const auto seen = marks.projection().seen(corner)) both = united(both, {*seen, *seen});
+    const auto places = anchors_around(both, 6, style);
+    labels.try_add("missed", {places[1], places[0], places[4], places[5], places[2]}, style,
+                   marks.place());
     labels.block(box);
     marks.tell(MarkKind::missed);
   }

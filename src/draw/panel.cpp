@@ -12,15 +12,15 @@ namespace lantern::draw {
 // Each is in a file of its own; this is their order in the reference.
 PanelEntry world_panel(), tree_panel(), atlas_panel(), chart_panel(), memory_panel(),
     ledger_panel(), pool_panel(), bytes_panel(), sparkline_panel(), difference_panel(),
-    axes_panel(), comparison_panel(), islands_panel(), code_panel(), collisions_panel(),
-    matrix_panel(), screen_panel();
+    axes_panel(), comparison_panel(), clock_panel(), islands_panel(), code_panel(),
+    collisions_panel(), matrix_panel(), screen_panel();
 
 namespace {
 
 constexpr PanelEntry (*kPanels[])() = {
-    world_panel,   tree_panel,  atlas_panel,      chart_panel,      memory_panel, ledger_panel,
-    pool_panel,    bytes_panel, sparkline_panel,  difference_panel, axes_panel,   comparison_panel,
-    islands_panel, code_panel,  collisions_panel, matrix_panel,     screen_panel};
+    world_panel, tree_panel,    atlas_panel,     chart_panel,      memory_panel, ledger_panel,
+    pool_panel,  bytes_panel,   sparkline_panel, difference_panel, axes_panel,   comparison_panel,
+    clock_panel, islands_panel, code_panel,      collisions_panel, matrix_panel, screen_panel};
 
 std::vector<PanelView>& views() {
   static std::vector<PanelView> all;

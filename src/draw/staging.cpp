@@ -183,7 +183,8 @@ void Staging::add_nodes(const Frame& frame) {
 void AxisRanges::see(const frame::Frame& frame) {
   const frame::FrameChart& chart = frame.get<FrameChart>();
   for (const frame::FrameBar& bar : chart.bars) chart_.add(bar.value, chart.logarithmic);
-  if (chart.bars.size() > bars_.size()) bars_ = chart.bars;
+  std::vector<frame::FrameBar>& bars = bars_[chart.part];
+  if (chart.bars.size() > bars.size()) bars = chart.bars;
   for (const frame::FrameSeries& series : chart.series)
     for (const Vec<2>& p : series.points) {
       chart_.add(p.y, chart.logarithmic);
@@ -195,6 +196,12 @@ void AxisRanges::see(const frame::Frame& frame) {
     seconds = std::max(seconds, p.x);
   }
   for (const frame::Frame& side : frame.sides) see(side);
+}
+
+const std::vector<frame::FrameBar>& AxisRanges::bars(int part) const {
+  static const std::vector<frame::FrameBar> none;
+  const auto found = bars_.find(part);
+  return found == bars_.end() ? none : found->second;
 }
 
 std::optional<double> AxisRanges::seconds_of(const std::string& part) const {

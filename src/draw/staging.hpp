@@ -56,7 +56,8 @@ class AxisRanges {
   Ends chart() const { return ends_of(chart_); }      // of charts' values
   Ends chart_x() const { return ends_of(chart_x_); }  // of what they are drawn against
   double trace() const { return trace_; }             // the most of a sparkline
-  const std::vector<frame::FrameBar>& bars() const { return bars_; }  // all that come to be
+  // All that come to be in the chart, or in this part of one that begins anew with each.
+  const std::vector<frame::FrameBar>& bars(int part) const;
   // That a part's sparkline goes on for.
   std::optional<double> seconds_of(const std::string& part) const;
 
@@ -66,7 +67,7 @@ class AxisRanges {
   }
 
   PlotRange chart_, chart_x_;
-  std::vector<frame::FrameBar> bars_;
+  std::map<int, std::vector<frame::FrameBar>> bars_;  // by part
   double trace_ = 0;
   std::map<std::string, double> seconds_;  // by part
 };

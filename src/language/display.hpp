@@ -30,6 +30,7 @@ struct Display {
   bool cells = true;    // of the world panel: borders, grounds and names
   bool not_made = true;
   bool fill = false;
+  bool outlined = false;     // bodies, so that the cells under them can be seen
   bool boxes = false;        // the bodies' broad-phase boxes
   bool depths = false;       // beside contacts
   bool coordinates = false;  // of the lit way's borders, at the world's edges
@@ -58,8 +59,8 @@ inline EnumNames names(Look) {
   return {"ghost", "player", "ball", "bat", "disc", "box", "person", "demon", "item"};
 }
 
-// Panels: what a page is made of. Each is an entry (draw/panel.hpp) in the file that draws it, which
-// has all that is known of it; of that the language is given this.
+// Panels: what a page is made of. Each is an entry (draw/panel.hpp) in the file that draws it,
+// which has all that is known of it; of that the language is given this.
 struct Draft;
 
 // A panel by its place in the list.

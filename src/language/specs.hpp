@@ -217,9 +217,10 @@ inline constexpr std::string_view kTimeAxis = "time";
 struct ChartSpec {
   std::string x;                    // a count or measure, or "time"; empty for bars
   std::vector<std::string> y;       // counts and measures; of bars one
-  std::vector<std::string> labels;  // of the lines; none: what `y` says
+  std::vector<std::string> pieces;  // of bars: counts whose sum they show; may be empty
+  std::vector<std::string> labels;  // of the lines or pieces; none: what `y` or they say
   bool logarithmic = false;         // but for time
-  bool each_part = false;           // over time: lines begin anew with each part
+  bool each_part = false;           // bars, and lines over time, begin anew with each part
   std::optional<double> least;      // of the y axis; none: what is there
   std::optional<double> most;
   bool over_time() const { return x == kTimeAxis; }
@@ -301,6 +302,7 @@ struct TextureSpec {
   int height = 0;
   int color = 1;
   Picture picture = Picture::pattern;
+  bool later = false;  // it does not wait before a step packs it
   SourcePosition where;
 };
 

@@ -41,7 +41,8 @@ AtlasStage::AtlasStage(const Scenario& scenario, Work& work)
                          .color = t.color,
                          .picture = t.picture,
                          .width = t.width,
-                         .height = t.height};
+                         .height = t.height,
+                         .later = t.later};
     textures_.push_back(texture);
   }
 }

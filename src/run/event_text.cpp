@@ -106,14 +106,14 @@ std::string axis_text(const FrameSeparation& separation, const std::string& a,
                       const std::string& b) {
   const FrameAxis& axis = separation.axes.back();
   const std::string where =
-      axis.across ? fmt::format("across a face of {}", *axis.across == separation.a ? a : b)
-                  : fmt::format("from {} to {}, where they are closest", a, b);
+      axis.across
+          ? fmt::format("perpendicular to a side of {}", *axis.across == separation.a ? a : b)
+          : fmt::format("from {} to {}, where they are closest", a, b);
   const std::string name = fmt::format("Axis {}, {}", separation.axes.size(), where);
   if (axis.separation > 0)
     return fmt::format("{}: a gap of {:.4g}. One gap is enough: they are apart.", name,
                        axis.separation);
-  return fmt::format("{}: the shadows overlap. Along it the way out is {:.4g} long.", name,
-                     -axis.separation);
+  return fmt::format("{}: the shadows overlap by {:.4g}.", name, -axis.separation);
 }
 
 std::string search_text(const FrameSearch& search, const std::string& a, const std::string& b) {
@@ -124,7 +124,7 @@ std::string search_text(const FrameSearch& search, const std::string& a, const s
         "Search {} finds nothing farther that way: no point is nearer to the origin.", n);
   if (!search.taken && n == 1)
     return fmt::format(
-        "Search 1, from {} towards {}: farthest point of {} less farthest of {} the "
+        "Search 1, from {} towards {}: farthest point of {}, minus farthest of {} the "
         "other way.",
         a, b, a, b);
   if (!search.taken)

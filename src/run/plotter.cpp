@@ -1,6 +1,10 @@
 #include <algorithm>
+#include <cmath>
 #include <set>
 
+#include <fmt/ranges.h>
+
+#include "base/error.hpp"
 #include "language/counts.hpp"
 #include "run/shown.hpp"
 
@@ -64,6 +68,8 @@ Plotter::Plotter(const Scenario& scenario) : scenario_(scenario), spec_(*scenari
     chart_.y_name = spec_.y[0], chart_.y_unit = unit_of(spec_.y[0]);
   else if (!name_by_sides(scenario))
     name_series(scenario);
+  chart_.pieces = spec_.labels.empty() ? spec_.pieces : spec_.labels;
+  if (spec_.pieces.empty()) chart_.pieces.clear();
   if (!scenario.sides.empty() && !chart_.y_name.empty()) return;  // sides keep their names
   for (std::size_t i = 0; i < std::min(spec_.labels.size(), chart_.series.size()); ++i)
     chart_.series[i].label = spec_.labels[i];
@@ -123,8 +129,13 @@ void Plotter::name_series(const Scenario& scenario) {
 }
 
 void Plotter::begin_part(const std::string& part, double time) {
-  if (!over_time() || !spec_.each_part || part == part_) return;
+  if (!spec_.each_part || part == part_) return;
   part_ = part;
+  if (!over_time()) {
+    if (!chart_.bars.empty()) ++chart_.part;
+    chart_.bars.clear();
+    return;
+  }
   begun_ = time;
   chart_.seconds = script_seconds(scenario_, &part_);
   for (FrameSeries& series : chart_.series) series.points.clear();
@@ -132,17 +143,35 @@ void Plotter::begin_part(const std::string& part, double time) {
 
 void Plotter::add(const std::string& label, const std::string& part, const Frame& frame) {
   if (!chart_.bars.empty() && part != part_) ++group_;
+  begin_part(part, 0);
   part_ = part;
   if (spec_.x.empty()) {
-    for (std::size_t i = 0; i < spec_.y.size(); ++i)
-      if (const auto y = frame.number(spec_.y[i]))
-        chart_.bars.push_back({frame.sides.empty() ? label : label + ", " + before_dot(spec_.y[i]),
-                               *y, group_, static_cast<int>(i)});
+    for (std::size_t i = 0; i < spec_.y.size(); ++i) {
+      const auto y = frame.number(spec_.y[i]);
+      if (!y) continue;
+      const std::string side = frame.sides.empty() ? "" : before_dot(spec_.y[i]);
+      chart_.bars.push_back(
+          {side.empty() ? label : label + ", " + side, *y, group_, static_cast<int>(i)});
+      add_pieces(side.empty() ? "" : side + ".", frame);
+    }
     return;
   }
   for (std::size_t i = 0; i < chart_.series.size(); ++i)
     if (const auto x = x_of(spec_.y[i], frame), y = frame.number(spec_.y[i]); x && y)
       chart_.series[i].points.push_back({*x, *y});
+}
+
+// Of the newest bar.
+void Plotter::add_pieces(const std::string& side, const Frame& frame) {
+  FrameBar& bar = chart_.bars.back();
+  double sum = 0;
+  for (const std::string& name : spec_.pieces) {
+    bar.pieces.push_back(frame.number(side + name).value_or(0));
+    sum += bar.pieces.back();
+  }
+  if (!spec_.pieces.empty() && std::abs(sum - bar.value) > 1e-9 * std::abs(bar.value))
+    throw Refused("chart: the pieces {} make {}, but {} is {}", fmt::join(spec_.pieces, ", "), sum,
+                  spec_.y[static_cast<std::size_t>(bar.line)], bar.value);
 }
 
 void Plotter::add_moment(const Frame& frame) {

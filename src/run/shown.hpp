@@ -121,6 +121,7 @@ class Plotter {
   void name_series(const Scenario& scenario);
   bool name_by_sides(const Scenario& scenario);
   std::optional<double> x_of(const std::string& y, const Frame& frame) const;
+  void add_pieces(const std::string& side, const Frame& frame);
 
   const Scenario& scenario_;
   const ChartSpec& spec_;

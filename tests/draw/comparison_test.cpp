@@ -57,16 +57,35 @@ TEST(Comparison, HasABarForEachStructureAsLongAsItsWork) {
   EXPECT_NEAR(length_of(list, "stadium/brute force"), 2 * unit, 1e-9) << "it is cut";
   EXPECT_EQ(plates(list, Role::lit_fill), 1u) << "the grid's";
   EXPECT_EQ(plates(list, Role::none), 1u) << "the quadtree's, the best of the lecture's own";
-  EXPECT_FALSE(says(list, "µs a step"));
 }
 
-TEST(Comparison, HasTimesOnlyOfAMachine) {
+TEST(Comparison, SaysWhatIsBuiltOnceOnlyOfWhatNeverMoves) {
   Frame frame = frame_of({"stadium"});
-  frame.add<FrameComparison>().rows[0].machine = "a desk";
-  frame.add<FrameComparison>().rows[0].cells[3].micros = 95;
+  EXPECT_FALSE(says(samples::page_of(frame), "built once"));
+  frame.add<FrameComparison>().rows[0].marks[0].is_static = true;
+  EXPECT_TRUE(says(samples::page_of(frame), "built once"));
+}
+
+TEST(Clock, HasTheTimesThatAreKnownOfAllWorldsInOneScale) {
+  Frame frame = frame_of({"stadium", "tower"});
+  frame.panels = {panel_named("clock")};
+  for (FrameComparison::Row& row : frame.add<FrameComparison>().rows) {
+    row.machine = "a desk";
+    row.cells[0].micros = row.name == "tower" ? 240 : 300;  // brute force
+    row.cells[1].micros = 120;                              // the quadtree
+    row.cells[3].micros = 60;                               // the grid
+  }
   const DrawList list = samples::page_of(frame);
-  for (const char* const words : {"µs a step", "95", "µs: processor time, a desk"})
-    EXPECT_TRUE(says(list, words)) << words;
+  EXPECT_TRUE(says(list,
+                   "microseconds a step; filled: quickest of all; ringed: of the lecture's; "
+                   "processor time, a desk"));
+  const double unit = length_of(list, "stadium/grid");
+  EXPECT_GT(unit, 20);
+  EXPECT_NEAR(length_of(list, "tower/grid"), unit, 1e-9);
+  EXPECT_NEAR(length_of(list, "stadium/quadtree"), 2 * unit, 1e-9);
+  EXPECT_EQ(length_of(list, "stadium/octree"), -1) << "nobody knows";
+  EXPECT_EQ(plates(list, Role::lit_fill), 2u) << "a grid's in each world";
+  expect_laid_out(list, {{0, 0}, list.page}, 24, "the clock");
 }
 
 TEST(Comparison, IsOfTheNewestWorldUntilTheEndingHasAll) {

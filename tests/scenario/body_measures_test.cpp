@@ -203,9 +203,10 @@ TEST(ChartOverTime, NeedsNoPlotAndTakesNone) {
   expect_mistakes(
       world_text(kBobWorld, chart + kBobs + kInsertBobs + kHalfSecond + "@plot = \"here\"\n"),
       {"over time every frame is plotted by itself"});
-  expect_mistakes(world_text(kBobWorld, "[chart]\nbars = \"bodies\"\n@each_part = true\n" + kBobs +
-                                            kInsertBobs + "plot = \"a\"\n"),
-                  {"'each_part' is of a chart over time"});
+  expect_mistakes(
+      world_text(kBobWorld, "[chart]\nx = \"nodes\"\ny = [\"bodies\"]\n@each_part = true\n" +
+                                kBobs + kInsertBobs + "plot = \"a\"\n"),
+      {"'each_part' is of bars, or of a chart over time"});
   expect_mistakes(
       world_text(kBobWorld, chart + "least = 3\nmost = @3\n" + kBobs + kInsertBobs + kHalfSecond),
       {"'most' must be above 'least'"});

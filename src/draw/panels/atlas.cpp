@@ -22,6 +22,7 @@ constexpr double kAtlasHeading = 36;
 constexpr double kTextureGap = 8;   // between textures in the strip
 constexpr double kSingleName = 34;  // under a texture that is shown by itself
 constexpr double kSingleGap = 26;
+constexpr double kBeyond = 36;     // into the gap between panels
 constexpr double kMostSingle = 3;  // page units a pixel
 
 Vec<2> atlas_size(const Frame& frame) {
@@ -34,6 +35,8 @@ bool shows_single(const Frame& frame) {
          std::ranges::none_of(frame.get<FrameTextures>().textures,
                               [](const FrameTexture& t) { return t.packed || t.refused; });
 }
+
+bool waits(const FrameTexture& t) { return !t.packed && !t.refused && !t.later; }
 
 // Beside a screen there is a strip only while something is in it.
 bool has_strip(const Frame& frame) {
@@ -159,8 +162,7 @@ class AtlasView : PanelPicture {
     }
   }
 
-  // What a room is asked for, laid over the free leaf that comes
-  // nearest to it: what does not fit can be seen to stick out.
+  // What a room is asked for, laid over the free leaf that comes nearest to it.
   void draw_asked() {
     const Vec<2> asked = frame_.get<FrameTextures>().asked;
     const FrameNode* best = nullptr;
@@ -173,8 +175,11 @@ class AtlasView : PanelPicture {
     const Box<2> leaf = on_page(flat(best->box));
     const Vec<2> size = asked * scale_;
     const bool fits = most >= 1;
-    const Vec<2> beside = fits ? leaf.lo : Vec<2>(leaf.lo.x, leaf.center().y - size.y / 2);
-    const Vec<2> corner = glm::max(image_.lo, glm::min(beside, image_.hi - size));
+    // What does not fit sticks out of the leaf, beside the image if there is room.
+    const bool beside = !fits && leaf.lo.x + size.x <= panel_.hi.x + kBeyond;
+    const Box<2> limit = beside ? shrunk(panel_, -kBeyond) : image_;
+    const Vec<2> corner = glm::max(limit.lo, glm::min(leaf.lo, limit.hi - size));
+    if (!fits) list_.crisp_rect(leaf, Role::lit_fill, {Role::lit, 4});
     const Role role = fits ? Role::lit : Role::warning;
     const DrawList::Scope scope(list_, "atlas/asked");
     list_.rect({corner, corner + size}, Role::none, {Role::panel, 8});
@@ -182,9 +187,11 @@ class AtlasView : PanelPicture {
     const TextStyle style{kLabel, Weight::semibold, fits ? Role::lit_ink : Role::warning};
     const std::string words =
         fmt::format("{:.0f} × {:.0f}{}", asked.x, asked.y, fits ? "" : " does not fit");
-    const Vec<2> at = corner + Vec<2>(size.x * (fits ? 0.5 : 0.33), fits ? 24 : size.y / 2);
+    const double middle =
+        beside ? (image_.hi.x - corner.x + size.x) / 2 : size.x * (fits ? 0.5 : 0.33);
+    const Vec<2> at = corner + Vec<2>(middle, fits ? 24 : size.y / 2);
     const Box<2> plate = plate_of(words, at, style, {6, 5});
-    if (!holds(image_, plate) || !labels_.is_free(plate, panel_)) return;
+    if (!holds(limit, plate) || !labels_.is_free(plate, panel_)) return;
     list_.rect(plate, Role::panel, {}, 5);
     write(words, centred(at, style), style);
   }
@@ -239,11 +246,11 @@ class AtlasView : PanelPicture {
   void draw_strip() {
     std::vector<const FrameTexture*> waiting, refused;
     for (const FrameTexture& t : frame_.get<FrameTextures>().textures)
-      if (t.refused || !t.packed) (t.refused ? refused : waiting).push_back(&t);
+      if (t.refused || waits(t)) (t.refused ? refused : waiting).push_back(&t);
     choose_strip_scale();
     Box<2> upper = strip_;
     if (!refused.empty()) upper.hi.y -= 0.4 * strip_.size().y;
-    draw_queue("waiting", waiting, upper, false);
+    if (!waiting.empty() || refused.empty()) draw_queue("waiting", waiting, upper, false);
     if (!refused.empty())
       draw_queue("refused", refused, {{upper.lo.x, upper.hi.y}, strip_.hi}, true);
   }

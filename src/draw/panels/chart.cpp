@@ -47,7 +47,7 @@ class Bars : PanelPicture {
  public:
   explicit Bars(const PanelPicture& on) : PanelPicture(on) {
     for (const FrameBar& bar : chart_.bars) bars_.push_back({bar});
-    const std::vector<FrameBar>& all = staging_.axes().bars();
+    const std::vector<FrameBar>& all = staging_.axes().bars(chart_.part);
     for (std::size_t i = bars_.size(); i < all.size(); ++i) bars_.push_back({all[i], true});
     std::erase_if(bars_, [](const Row& row) { return !std::isfinite(row.value); });
     for (Row& row : bars_) row.label = chart_words(row.label);
@@ -57,6 +57,7 @@ class Bars : PanelPicture {
   void draw() {
     paper_.heading(title(), type_.title);
     if (area_.lo.y > panel_.lo.y) area_.lo.y += 0.28 * type_.name.size;
+    draw_key();
     find_room();
     if (bars_.empty()) return;
     measure();
@@ -79,9 +80,30 @@ class Bars : PanelPicture {
   };
 
   std::string title() const {
-    const std::string name = title_of(chart_);
+    const std::string name = chart_.y_unit.empty() && !chart_.y_name.empty()
+                                 ? count_words(frame_, chart_.y_name, false)
+                                 : title_of(chart_);
     if (!chart_.logarithmic) return name;
     return name + (name.empty() ? "" : ", ") + "logarithmic scale";
+  }
+
+  // What the pieces of bars are called.
+  void draw_key() {
+    if (chart_.pieces.empty()) return;
+    double x = panel_.lo.x;
+    const double y = area_.lo.y + 0.5 * kTickLine;
+    for (std::size_t i = 0; i < chart_.pieces.size(); ++i) {
+      const std::string words = chart_words(chart_.pieces[i]);
+      list_.rect({{x, y - 9}, {x + 18, y + 9}}, piece_role(i, 0), {Role::body_line, 1.2}, 2);
+      write(words, centred({x + 26, y}, type_.tick, 0), type_.tick);
+      x += 44 + text_width(words, type_.tick);
+    }
+    area_.lo.y += kTickLine;
+  }
+
+  // The first in a tone of its own, the last in the bar's.
+  Role piece_role(std::size_t piece, int line) const {
+    return piece + 1 < chart_.pieces.size() ? Role::quiet_ink : plot_role(line);
   }
 
   double rows() const {
@@ -182,6 +204,13 @@ class Bars : PanelPicture {
       const Box<2> box{{std::min(from, to), middle - thick / 2},
                        {std::max(from, to), middle + thick / 2}};
       if (box.size().x > 0.5) list_.rect(box, color_of(bar), {Role::body_line, 1.2}, 2);
+      double sum = 0;
+      for (std::size_t i = 0; i + 1 < bar.pieces.size(); ++i) {
+        const double begin = x_of(std::exchange(sum, sum + bar.pieces[i])), end = x_of(sum);
+        if (end - begin > 0.5)
+          list_.rect({{begin, box.lo.y}, {end, box.hi.y}}, piece_role(i, bar.line),
+                     {Role::body_line, 1.2}, 2);
+      }
     }
     const double left = std::max(from, to) + kAfter + (chart_.logarithmic ? 13 : 0);
     write(shortened(value_text(bar.value), panel_.hi.x - left, type_.title),

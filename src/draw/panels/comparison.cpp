@@ -1,17 +1,20 @@
 // What kinds of structures do (FrameComparison) in the world that a step compares: the world's
 // picture, and a bar of comparisons for each kind.
 //
-//   tower 1 500 bodies              a step: [##] to build [==] to find pairs   first built   µs
+//   tower 1 500 bodies              a step: [##] to build [==] to find pairs   first built
 //        /\                       the lecture's structures
-//       /##/                      quadtree   [#########==========] 115 618        52 200   310
-//      /##/                       octree     [###########=]( 81 692 )             75 300   250
+//       /##/                      quadtree   [#########==========] 115 618        52 200
+//      /##/                       octree     [###########=]( 81 692 )             75 300
 //     /__/                        others
-//   A quadtree sees one floor.    brute force [=========//=========] 1 124 250         0   900
+//   A quadtree sees one floor.    brute force [=========//=========] 1 124 250         0
 //
 // Ringed is the least of the lecture's own, and on a lit ground that of all. A bar much longer than
-// all others is cut. The ending has all worlds beside each other, each with three of its bars.
+// all others is cut. What was built first has a column where something never moves, for then it is
+// not built again. The ending has all worlds beside each other, each with three of its bars, all of
+// one scale; so has the `clock`, whose bars are the times that the scenario gives.
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <string>
 #include <vector>
 
@@ -31,17 +34,33 @@ using Cell = frame::FrameComparison::Cell;
 
 constexpr double kPictureShare = 0.4;  // of a world's place
 constexpr double kBarLine = 34, kMostBarLine = 58;
-constexpr double kNames = 192, kNumbers = 160, kColumn = 140, kTimes = 126;  // widths
-constexpr double kBar = 26;                                                  // height
-constexpr std::size_t kAcross = 3;                                           // worlds on the ending
-constexpr double kLeastDot = 2.6;               // side of a body in a picture
+constexpr double kNames = 192, kNumbers = 160, kColumn = 140;  // widths
+constexpr double kBar = 26;                                    // height
+constexpr std::size_t kAcross = 3;                             // worlds on the ending
+constexpr double kLeastDot = 2.6;                              // side of a body in a picture
 constexpr double kDepthX = 0.4, kDepthY = 0.3;  // how far on the page a unit of depth leads
 constexpr Role kBuild = Role::quiet_ink, kPair = Role::static_body;
 
+// What a bar is as long as: the comparisons of a step, or its microseconds.
+using Amount = std::uint64_t (*)(const Cell&);
+std::uint64_t comparisons(const Cell& cell) { return cell.work.step(); }
+constexpr std::uint64_t kNoAmount = frame::FrameComparison::kNoWork;
+std::uint64_t microseconds(const Cell& cell) {
+  return cell.micros > 0 ? static_cast<std::uint64_t>(cell.micros) : kNoAmount;
+}
+
 bool is_of_lecture(const Cell& cell) { return traits_of(cell.kind).is_of_lecture; }
-bool is_ringed(const Row& row, const Cell& cell) {
-  return cell.work.step() == row.least() ||
-         (is_of_lecture(cell) && cell.work.step() == row.least(true));
+
+// The amount of the kind that needs least; of the lecture's own alone, which may be none.
+std::uint64_t least_of(const Row& row, Amount amount, bool of_lecture) {
+  std::uint64_t least = kNoAmount;
+  for (const Cell& cell : row.cells)
+    if (!of_lecture || is_of_lecture(cell)) least = std::min(least, amount(cell));
+  return least;
+}
+bool is_ringed(const Row& row, const Cell& cell, Amount amount) {
+  return amount(cell) == least_of(row, amount, false) ||
+         (is_of_lecture(cell) && amount(cell) == least_of(row, amount, true));
 }
 // What a bar of full length stands for: the longest ones, each more than twice as long as the next,
 // are cut, but three are left.
@@ -62,17 +81,35 @@ class ComparisonView : PanelPicture {
     if (table_.rows.empty()) return;
     list_.referents.insert(
         {"least_work", "least_lecture_work", "compared_bodies", "compared_pairs"});
-    if (frame_.ending && table_.rows.size() > 1) return draw_all();
+    if (frame_.ending && table_.rows.size() > 1) return draw_all(comparisons, kAmongAll);
     const Row& row = table_.rows.back();
     const double middle = panel_.lo.x + kPictureShare * panel_.size().x;
     draw_world(row, {panel_.lo, {middle - 24, panel_.hi.y}}, true);
     draw_chart(row, {{middle, panel_.lo.y}, panel_.hi});
   }
 
+  void draw_clock() {
+    if (table_.rows.empty()) return;
+    draw_all(microseconds, "microseconds a step; " + std::string(kQuickest) + "; processor time, " +
+                               table_.rows.back().machine);
+  }
+
  private:
-  void draw_all() {
-    write("filled: fewest of all; ringed: fewest of the lecture's structures",
-          {{panel_.lo.x, panel_.hi.y - 8}, 0}, kQuiet);
+  static constexpr const char* kAmongAll =
+      "comparisons a step; filled: fewest of all; ringed: fewest of the lecture's";
+  static constexpr const char* kQuickest = "filled: quickest of all; ringed: of the lecture's";
+
+  // Bars longer than the longest of the lecture's best are cut.
+  void draw_all(Amount amount, const std::string& note) {
+    write(shortened(note, panel_.size().x, kQuiet), {{panel_.lo.x, panel_.hi.y - 8}, 0}, kQuiet);
+    std::uint64_t scale = 1;
+    for (const Row& row : table_.rows)
+      for (const Cell& cell : row.cells) {
+        if (amount(cell) == kNoAmount) continue;
+        if ((is_of_lecture(cell) && is_ringed(row, cell, amount)) ||
+            (amount == microseconds && cell.kind == StructureKind::brute_force))
+          scale = std::max(scale, amount(cell));
+      }
     const std::size_t down = (table_.rows.size() + kAcross - 1) / kAcross;
     const Vec<2> size{panel_.size().x / kAcross, panel_.size().y / static_cast<double>(down)};
     for (std::size_t i = 0; i < table_.rows.size(); ++i) {
@@ -81,16 +118,27 @@ class ComparisonView : PanelPicture {
                                                static_cast<double>(i / kAcross) * size.y);
       const double middle = corner.x + (kPictureShare + 0.06) * size.x;
       draw_world(row, {corner, {middle - 16, corner.y + size.y - 12}}, false);
-      std::vector<const Cell*> cells;
-      for (const Cell& cell : row.cells)
-        if (is_ringed(row, cell) || cell.kind == StructureKind::brute_force) cells.push_back(&cell);
-      std::ranges::stable_sort(cells, {}, [](const Cell* cell) { return cell->work.step(); });
+      std::vector<const Cell*> cells;  // the best, the lecture's best, and brute force
+      const auto add_if = [&](auto&& wanted) {
+        for (const Cell& cell : row.cells | std::views::reverse)
+          if (amount(cell) != kNoAmount && wanted(cell)) {
+            if (std::ranges::find(cells, &cell) == cells.end()) cells.push_back(&cell);
+            return;
+          }
+      };
+      for (const bool of_lecture : {false, true})
+        add_if([&, least = least_of(row, amount, of_lecture)](const Cell& cell) {
+          return amount(cell) == least && (!of_lecture || is_of_lecture(cell));
+        });
+      add_if([](const Cell& cell) { return cell.kind == StructureKind::brute_force; });
+      std::ranges::stable_sort(cells, {}, [&](const Cell* cell) { return amount(*cell); });
       double y = corner.y + 1.6 * kBarLine;
       for (const Cell* cell : cells) {
         write(traits_of(cell->kind).words, centred({middle, y}, kPlain, 0));
         const double right = corner.x + size.x - 16;
-        draw_bar(row, *cell, {middle, y + kBarLine}, right - middle);
-        write_number(row, *cell, {right, y}, 1);
+        draw_bar(row, *cell, {middle, y + kBarLine}, right - middle, amount,
+                 static_cast<double>(scale));
+        write_number(row, *cell, {right, y}, 1, amount);
         y += 2.3 * kBarLine;
       }
     }
@@ -116,10 +164,10 @@ class ComparisonView : PanelPicture {
   }
 
   void draw_chart(const Row& row, const Box<2>& place) {
-    const bool timed = !row.machine.empty();
-    const double line = std::min(
-        kMostBarLine, place.size().y / static_cast<double>(row.cells.size() + (timed ? 4 : 3)));
-    const double built = place.hi.x - (timed ? kTimes : 0);
+    const bool keeps = std::ranges::any_of(row.marks, &frame::FrameComparison::Mark::is_static);
+    const double line =
+        std::min(kMostBarLine, place.size().y / static_cast<double>(row.cells.size() + 3));
+    const double bars = place.hi.x - (keeps ? kColumn : 0);
     double y = place.lo.y + 0.45 * kLabel;
     const char* const what = "comparisons a step:";
     write(what, centred({place.lo.x, y}, kQuiet, 0), kQuiet);
@@ -129,8 +177,7 @@ class ComparisonView : PanelPicture {
       write(words, centred({x + 32, y}, kQuiet, 0), kQuiet);
       x += 50 + text_width(words, kQuiet);
     }
-    write("first built", centred({built, y}, kQuiet, 1), kQuiet);
-    if (timed) write("µs a step", centred({place.hi.x, y}, kQuiet, 1), kQuiet);
+    if (keeps) write("built once", centred({place.hi.x, y}, kQuiet, 1), kQuiet);
     for (const bool of_lecture : {true, false}) {
       const char* const group = of_lecture ? "the lecture's structures" : "others";
       write(group, centred({place.lo.x, y += line}, kQuiet, 0), kQuiet);
@@ -141,44 +188,41 @@ class ComparisonView : PanelPicture {
         y += line;
         write(traits_of(cell.kind).words, centred({place.lo.x, y}, kPlain, 0));
         const double left = place.lo.x + kNames;
-        const double end = draw_bar(row, cell, {left, y}, built - kColumn - kNumbers - left);
-        write_number(row, cell, {end + 14, y}, 0);
-        write(text_of(cell.work.build), centred({built, y}, kQuiet, 1), kQuiet);
-        if (cell.micros > 0) write(number_text(cell.micros), centred({place.hi.x, y}, kPlain, 1));
+        const double end =
+            draw_bar(row, cell, {left, y}, bars - kNumbers - left, comparisons, scale_of(row));
+        write_number(row, cell, {end + 14, y}, 0, comparisons);
+        if (keeps) write(text_of(cell.work.build), centred({place.hi.x, y}, kQuiet, 1), kQuiet);
       }
-    }
-    if (timed) {
-      const std::string words = fmt::format("µs: processor time, {}", row.machine);
-      write(shortened(words, place.size().x, kQuiet), centred({place.hi.x, y + line}, kQuiet, 1),
-            kQuiet);
     }
   }
 
-  // From there, so long at most; gives the x where it ends.
-  double draw_bar(const Row& row, const Cell& cell, const Vec<2>& from, double length) {
+  // From there, so long at most, which `scale` is; gives the x where it ends.
+  double draw_bar(const Row& row, const Cell& cell, const Vec<2>& from, double length,
+                  Amount amount, double scale) {
     const DrawList::Scope scope(
         list_, fmt::format("comparison/bar/{}/{}", row.name, traits_of(cell.kind).words));
-    const double scale = scale_of(row);
     const auto at = [&](std::uint64_t work) {
       return from.x + length * std::min(1.0, static_cast<double>(work) / scale);
     };
-    const double middle = at(cell.work.renew), end = std::max(at(cell.work.step()), from.x + 2);
+    const double middle = amount == comparisons ? at(cell.work.renew) : from.x;
+    const double end = std::max(at(amount(cell)), from.x + 2);
     list_.rect({{from.x, from.y - kBar / 2}, {end, from.y + kBar / 2}}, kPair);
     if (middle > from.x)
       list_.rect({{from.x, from.y - kBar / 2}, {middle, from.y + kBar / 2}}, kBuild);
-    if (static_cast<double>(cell.work.step()) > scale)
+    if (static_cast<double>(amount(cell)) > scale)
       for (const double x : {end - 40, end - 28})
         list_.line({x - 6, from.y + kBar / 2}, {x + 6, from.y - kBar / 2}, {Role::paper, 5});
     return end;
   }
 
-  void write_number(const Row& row, const Cell& cell, const Vec<2>& at, double align) {
-    const bool best = cell.work.step() == row.least();
+  void write_number(const Row& row, const Cell& cell, const Vec<2>& at, double align,
+                    Amount amount) {
+    const bool best = amount(cell) == least_of(row, amount, false);
     const TextStyle style = best ? TextStyle{kLabel, Weight::semibold, Role::lit_ink} : kPlain;
-    const std::string text = text_of(cell.work.step());
+    const std::string text = text_of(amount(cell));
     const Anchor anchor = centred(at, style, align);
     const Box<2> letters = Labels::extent(text, anchor, style);
-    if (is_ringed(row, cell))
+    if (is_ringed(row, cell, amount))
       list_.rect({{letters.lo.x - 8, at.y - 18}, {letters.hi.x + 8, at.y + 18}},
                  best ? Role::lit_fill : Role::none, {Role::lit, 3.4}, 5);
     write(text, anchor, style);
@@ -240,6 +284,23 @@ PanelEntry comparison_panel() {
       {.shows = {{"worlds compared",
                   lists<frame::FrameComparison, &frame::FrameComparison::rows>}}},
       {.draw = draw_as<ComparisonView>, .inset = 3, .smallest = {900, -1e300}}};
+}
+
+PanelEntry clock_panel() {
+  return {{.name = "clock",
+           .words = "the `clock`, bars of the times that steps of `compare` give, of all worlds",
+           .needs = "it needs a step with do = \"compare\"",
+           .possible = language::some_step<language::Compare>,
+           .place = 6,
+           .example = [] { return language::example_with("world", "compare"); }},
+          {.shows = {{"times", lists<frame::FrameComparison, &frame::FrameComparison::rows>}}},
+          {.draw =
+               [](const Frame& frame, const Staging& staging, const Box<2>& box, DrawList& list,
+                  Labels& labels) {
+                 ComparisonView({frame, staging, box, list, labels}).draw_clock();
+               },
+           .inset = 3,
+           .smallest = {900, -1e300}}};
 }
 
 }  // namespace lantern::draw

@@ -66,10 +66,32 @@ void draw_outside(const World2D& w, const Stand& stand) {
                  body_role(body.color), {Role::body_line, 1.6});
 }
 
+// Of what a body has painted from `first` on, its own colour becomes that of its lines, on both
+// sides of the outline's; what is under it shows.
+void leave_outlines(DrawList& list, std::size_t first, Role own) {
+  constexpr double kWide = 8;  // page units
+  std::vector<DrawShape> outlines;
+  for (std::size_t i = first; i < list.shapes.size(); ++i)
+    std::visit(
+        [&](auto& shape) {
+          if constexpr (requires { shape.fill; }) {
+            if (shape.fill != own && shape.fill != Role::panel) return;
+            const bool halo = shape.fill == Role::panel;
+            shape.fill = Role::none;
+            if (halo) return;
+            outlines.emplace_back(shape);
+            shape.stroke = {own, kWide};
+          }
+        },
+        list.shapes[i]);
+  list.shapes.insert(list.shapes.end(), outlines.begin(), outlines.end());
+}
+
 // What reaches too far out of the world is cut off.
 void draw_inside(const World2D& w, const FrameBody& body, const Box<2>& box, bool plain) {
   const std::size_t first = w.list.shapes.size();
   draw_character(body, box, plain, w.list);
+  if (w.frame.display.outlined) leave_outlines(w.list, first, fill_of(body));
   const Box<2> limit = drawing_limit(w.map);
   if (!holds(limit, box)) cut_shapes(w.list, first, limit);
 }

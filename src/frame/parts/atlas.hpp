@@ -14,6 +14,7 @@ struct FrameTexture {
   int height = 0;
   bool packed = false;
   bool refused = false;
+  bool later = false;   // it waits nowhere before it is packed or refused
   bool turned = false;  // by 90 degrees: width and height are exchanged
   int x = 0;            // of a packed one, upper left corner
   int y = 0;
@@ -21,7 +22,7 @@ struct FrameTexture {
   static auto fields(auto& r, auto&& v) {
     return v("id", r.id)("name", r.name)("size", r.width, r.height)
         .or_null(r.packed, "position", r.x, r.y)("refused", r.refused)
-        .drawn(r.color, r.picture, r.packed, r.turned);
+        .drawn(r.color, r.picture, r.packed, r.later, r.turned);
   }
 };
 

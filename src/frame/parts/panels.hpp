@@ -24,6 +24,7 @@ struct FrameBar {
   double value = 0;
   int group = 0;  // bars of one group stand together
   int line = 0;   // which of the chart's quantities, or sides: those of one look alike
+  std::vector<double> pieces = {};  // whose sum it is, from zero on; none: it is of one piece
 };
 
 struct FrameChart {
@@ -39,10 +40,12 @@ struct FrameChart {
   std::string y_unit;
   std::vector<FrameSeries> series;
   std::vector<FrameBar> bars;
+  std::vector<std::string> pieces;  // what those of a bar are called
+  int part = 0;  // of bars that begin anew with each: how many parts before had some
 
   static auto fields(auto& r, auto&& v) {
     return v.drawn(r.x_name, r.y_name, r.logarithmic, r.over_time, r.seconds, r.least, r.most,
-                   r.x_unit, r.y_unit, r.series, r.bars);
+                   r.x_unit, r.y_unit, r.series, r.bars, r.pieces, r.part);
   }
 };
 

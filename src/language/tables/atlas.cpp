@@ -164,6 +164,8 @@ TableDoc texture_table() {
       key(KeyType::size, "size", "Its width and height.", must(), range(1, kMostPixels), in("px")),
       key(&T::color, "color", "As a body's.", range(1, 8)),
       key(&T::picture, "picture", "What is seen on it; a `pattern` is like no other near it."),
+      key(&T::later, "later",
+          "It is not among those that wait, but comes with the step that packs it."),
   };
   return table;
 }

@@ -38,8 +38,9 @@ void check_axes(const TableReader& table, const ChartSpec& chart) {
     table.bad_value("least", "a logarithmic axis begins above 0", "as least = 0.001");
   if (chart.logarithmic && chart.most.value_or(1) <= 0)
     table.bad_value("most", "a logarithmic axis ends above 0");
-  if (chart.each_part && !chart.over_time())
-    table.bad_key("each_part", "'each_part' is of a chart over time", "give it x = \"time\"");
+  if (chart.each_part && !chart.over_time() && !chart.x.empty())
+    table.bad_key("each_part", "'each_part' is of bars, or of a chart over time",
+                  "give it x = \"time\"");
 }
 
 void read_lines(const TableReader& table, ChartSpec& chart, Draft& draft) {
@@ -52,11 +53,19 @@ void read_lines(const TableReader& table, ChartSpec& chart, Draft& draft) {
                          fmt::format("{} stands twice in 'y'", in_quotes(number.name)));
     chart.y.push_back(number.name);
   }
+  for (const Named& piece : table.names("pieces")) {
+    check_number(piece, draft);
+    chart.pieces.push_back(piece.name);
+  }
+  if (!chart.pieces.empty() && (!chart.x.empty() || chart.logarithmic))
+    table.bad_key("pieces", "only bars on a plain axis have pieces", "leave it out");
   for (const Named& label : table.names("labels")) chart.labels.push_back(label.name);
-  if (!chart.labels.empty() && chart.labels.size() != chart.y.size())
+  const std::size_t labelled = chart.pieces.empty() ? chart.y.size() : chart.pieces.size();
+  if (!chart.labels.empty() && chart.labels.size() != labelled)
     table.bad_value("labels",
-                    fmt::format("{} labels for {} lines", chart.labels.size(), chart.y.size()),
-                    "one for each of 'y'");
+                    fmt::format("{} labels for {} {}", chart.labels.size(), labelled,
+                                chart.pieces.empty() ? "lines" : "pieces"),
+                    "one for each");
   constexpr std::size_t kMostLines = 8;  // as many as a theme has colours
   if (chart.y.size() > kMostLines)
     table.bad_value(
@@ -95,16 +104,20 @@ TableDoc chart_table() {
   table.keys = {
       key(&C::x, "x", "The count or measure along the x axis of lines, or `time`.", range(1, 64)),
       key(KeyType::text, "bars", "The count that bars show, instead of lines.", range(1, 64)),
+      key(KeyType::texts, "pieces",
+          "Counts that make up what a bar shows: it is drawn in pieces, one for each.",
+          or_else("bars are of one piece")),
       key(KeyType::texts, "y", "Counts and measures, each a line; of one body as `energy.bob`.",
           or_else("none")),
-      key(KeyType::texts, "labels", "What the lines are called, one for each of `y`.",
-          or_else("what `y` says")),
+      key(KeyType::texts, "labels", "What the lines or pieces are called, one for each.",
+          or_else("what `y` or `pieces` say")),
       key(&C::logarithmic, "logarithmic", "Logarithmic axes; time never has one."),
       key(&C::least, "least", "Where the y axis begins; lines leave the picture below it.",
           range(-1e12, 1e12), or_else("where the lines do")),
       key(&C::most, "most", "Where the y axis ends.", range(-1e12, 1e12),
           or_else("where the lines do")),
-      key(&C::each_part, "each_part", "Over time: lines begin anew with each part of the script."),
+      key(&C::each_part, "each_part",
+          "Bars, and lines over time, begin anew with each part of the script."),
   };
   table.groups = {{{"x", "y"}, {"bars"}}};
   return table;

@@ -313,6 +313,8 @@ TableDoc display_table() {
           key(&D::not_made, "not_made", "Hatching where a child was not made."),
           key(&D::fill, "fill",
               "Leaves as buckets, with a level in each: how much of its capacity it holds."),
+          key(&D::outlined, "outlined",
+              "A 2D world's bodies in outline, so that the cells under them can be seen."),
           key(&D::boxes, "boxes", "The boxes of the broad phase; `show_boxes` of [world]."),
           key(&D::depths, "depths",
               "How deep bodies overlap, beside their contacts; `show_depths` of [world]."),
