@@ -245,6 +245,8 @@ std::string side_word(const FrameNode& parent, std::uint32_t slot) {
 std::vector<std::string> leaf_names(const Frame& frame, const FrameNode& leaf) {
   if (traits_of(frame.structure).names != NodeNames::sides || leaf.parent == kNone)
     return {leaf.label};
+  if (is_level(frame) && leaf.mark == Mark::lit) return {"sector " + leaf.label, leaf.label};
+  if (is_level(frame)) return {leaf.label};
   const FrameNode& parent = frame.nodes[leaf.parent];
   const std::string side = side_word(parent, leaf.slot);
   if (parent.parent == kNone) return {side};

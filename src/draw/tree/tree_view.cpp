@@ -171,7 +171,7 @@ class TreeView : PanelPicture {
 
   bool says_name_inside(std::size_t i) const {
     const std::string& label = name_inside(node_of(branches()[i]));
-    const Vec<2> room = layout_.boxes[i].size() - Vec<2>(is_level(frame_) ? 0 : 8, 4);
+    const Vec<2> room = layout_.boxes[i].size() - Vec<2>(is_level(frame_) ? -3 : 8, 4);
     return !label.empty() && room.y >= kLeastLabel * 0.8 &&
            text_width(label, kLeastLabel, Weight::semibold) <= room.x;
   }
