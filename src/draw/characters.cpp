@@ -174,9 +174,11 @@ void hatch_static(const FrameBody& body, const Figure& f, const Box<2>& place, D
 }
 
 void draw_round(const FrameBody& body, const Figure& f, DrawList& list) {
-  list.rect(Box<2>::around(f.center, f.half - Vec<2>(0.04 * f.unit)), fill_of(body),
-            rim_of(body, f), 0.96 * f.unit);
-  if (body.angle == 0 && body.angular_momentum.z == 0) return;
+  constexpr double kNoTurn = 1e-6;  // what is rounded is no turning
+  const Vec<2> half = f.half - Vec<2>(std::min(f.line / 2, f.unit / 2));
+  list.rect(Box<2>::around(f.center, half), fill_of(body), rim_of(body, f),
+            std::min(half.x, half.y));
+  if (std::abs(body.angle) < kNoTurn && std::abs(body.angular_momentum.z) < kNoTurn) return;
   const Vec<2> way = unit_at(-body.angle);  // how far it has turned
   const double r = 0.96 * f.unit - f.line;
   list.line(f.center + way * (0.36 * r), f.center + way * r, rim_of(body, f));

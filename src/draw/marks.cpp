@@ -428,15 +428,15 @@ std::vector<bool> full_links(const Frame& frame) {
     const auto found = bodies.find(id);
     return found != bodies.end() && found->second->lit;
   };
-  std::size_t left = kMostFullLinks;
-  for (const bool about : {true, false})
-    for (std::size_t i = 0; i < n && left > 0; ++i) {
+  // All pairs of what the frame is about, or none: some would look as if there were no others.
+  for (const bool about : {true, false}) {
+    std::vector<bool> more = full;
+    for (std::size_t i = 0; i < n; ++i) {
       const FramePair& p = frame.pairs[i];
-      const bool wanted = about ? is_lit(p.pair.a) || is_lit(p.pair.b) : p.lit;
-      if (full[i] || !wanted) continue;
-      full[i] = true;
-      --left;
+      if (about ? is_lit(p.pair.a) || is_lit(p.pair.b) : p.lit) more[i] = true;
     }
+    if (std::ranges::count(more, true) <= std::ptrdiff_t{kMostFullLinks}) full = std::move(more);
+  }
   return full;
 }
 

@@ -179,7 +179,7 @@ std::string phase_text(std::string_view phase, const Frame& frame) {
                        contacts == 1 ? "touches" : "touch");
   }
   return fmt::format(
-      "Resolution: impulses at {} push the bodies apart. The arrows show how strong they are.",
+      "Resolution: impulses at {} push the bodies apart. Each arrow shows how strong one is.",
       counted(frame.count("contact_points").value_or(0), "contact point"));
 }
 
