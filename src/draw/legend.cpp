@@ -195,7 +195,7 @@ constexpr MarkRow kRows[] = {
     {MarkKind::shadow, "reach along the axis",
      [](const Sample& s) { draw_shadow(s.left, s.right, body_role(4), s.pen); }},
     {MarkKind::shadow_gap, "gap", [](const Sample& s) { draw_gap(s.a, s.b, s.pen); }},
-    {MarkKind::shadow_overlap, "way out along the axis",
+    {MarkKind::shadow_overlap, "overlap along the axis",
      [](const Sample& s) { draw_shared_shadow(s.a, s.b, s.pen); }},
     {MarkKind::support, "farthest point", [](const Sample& s) { draw_support(s.c, s.pen); }},
     {MarkKind::simplex, "points kept",

@@ -1,7 +1,7 @@
 // The axes that two bodies were measured along (FrameSeparation), below each other, all lying the
 // same way and on one scale: how far both reach. As many rows as the sequence ever needs.
 //
-//   1  ======                way out 1.2
+//   1  ======                overlap 1.2
 //          =========
 //   2  =====  =======        gap 0.6
 #include <algorithm>
@@ -95,7 +95,7 @@ class AxesView : PanelPicture {
     else
       draw_shared_shadow({x(s.b_lo), y}, {x(s.a_hi), y}, pen_);
     const TextStyle& style = front ? kStrong : kPlain;
-    write(fmt::format("{} {}", apart ? "gap" : "way out", short_number(std::abs(axis.separation))),
+    write(fmt::format("{} {}", apart ? "gap" : "overlap", short_number(std::abs(axis.separation))),
           centred({panel_.hi.x - 8, y}, style, 1), style);
   }
 
