@@ -235,25 +235,20 @@ std::string text_of(const Expectation& e, int dimension) {
 
 }  // namespace
 
-std::vector<std::string> proofs_of(const Scenario& scenario, std::size_t step) {
-  std::vector<std::string> proofs;
-  const int dimension = scenario.world.dimension;
-  if (scenario.sides.empty()) {
+std::vector<Proof> proofs_of(const Scenario& scenario, std::size_t step) {
+  std::vector<Proof> proofs;
+  const auto text = [&](const Expectation& e) { return text_of(e, scenario.world.dimension); };
+  if (scenario.sides.empty())
     for (const Expectation* e : all_of(scenario.steps.at(step)))
-      proofs.push_back(text_of(*e, dimension));
-    return proofs;
-  }
+      proofs.push_back({text(*e), e->where});
   // What all sides expect stands in one place of the file.
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::string, std::size_t>> by_place;
+  std::map<std::pair<int, int>, Proof> by_place;
   for (const auto& side : scenario.sides)
     for (const Expectation* e : all_of(side->steps.at(step))) {
-      auto& [text, sides] = by_place[{e->where.line, e->where.column}];
-      if (sides++ == 0) text = fmt::format("{}: {}", side->side, text_of(*e, dimension));
+      Proof& proof = by_place[{e->where.line, e->where.column}];
+      proof = {(proof.text.empty() ? side->side + ": " : "") + text(*e), e->where};
     }
-  for (const auto& [place, proof] : by_place) {
-    const auto& [text, sides] = proof;
-    proofs.push_back(sides == 1 ? text : text.substr(text.find(": ") + 2));
-  }
+  for (auto& [place, proof] : by_place) proofs.push_back(std::move(proof));
   return proofs;
 }
 

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/error.hpp"
 #include "frame/body_state.hpp"
 #include "geometry/flat.hpp"
 #include "geometry/plane.hpp"
@@ -404,8 +405,12 @@ std::string to_json(const Frame& frame);
 std::vector<std::optional<std::string>> unmet(const std::vector<Expectation>& expectations,
                                               const Frame& frame);
 
-// What step `step` (from 0) expects when it is done, then what always, in the order of the file and
-// in a few signs each: "pairs = 0". What only one side expects begins with its name: "lazy: …".
-std::vector<std::string> proofs_of(const Scenario& scenario, std::size_t step);
+// An expectation in a few signs, "pairs = 0", of a single side "lazy: pairs = 0", and its place.
+struct Proof {
+  std::string text;
+  SourcePosition where;
+};
+// What step `step` (from 0) expects when it is done, then what always, in the order of the file.
+std::vector<Proof> proofs_of(const Scenario& scenario, std::size_t step);
 
 }  // namespace lantern::frame

@@ -264,7 +264,7 @@ std::string entry_of(const Scenario& s, const std::vector<QuestionSink::Asked>& 
         "It holds that {}.\n\n</details>\n",
         a.question.asked, a.question.answer,
         step.empty() ? fmt::format("step {}", a.step + 1) : fmt::format("`{}`", step), a.frame,
-        fmt::format("{}", fmt::join(proofs_of(s, a.step), "; ")));
+        fmt::format("{}", fmt::join(mapped(proofs_of(s, a.step), &Proof::text), "; ")));
   }
   return text;
 }
