@@ -184,6 +184,17 @@ void draw_round(const FrameBody& body, const Figure& f, DrawList& list) {
   list.line(f.center + way * (0.36 * r), f.center + way * r, rim_of(body, f));
 }
 
+// From the centre to the nearest edge of what has turned.
+double room_inside(const std::vector<Vec<2>>& outline, const Figure& f) {
+  double room = f.unit;
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const Vec<2> edge = outline[(i + 1) % outline.size()] - outline[i], to = f.center - outline[i];
+    if (const double length = geometry::hypot(edge.x, edge.y); length > 0)
+      room = std::min(room, std::abs(edge.x * to.y - edge.y * to.x) / length);
+  }
+  return room;
+}
+
 void draw_plain(const FrameBody& body, const Figure& f, DrawList& list) {
   const bool round = is_round(body.look);
   list.rect(Box<2>::around(f.center, f.half), fill_of(body),
@@ -275,7 +286,8 @@ void draw_character(const FrameBody& body, const Box<2>& place, bool plain, Draw
     draw_zz(f.center + corner * f.unit, f.unit, std::max(1.2, 0.9 * f.line), list);
   }
   if (!is_character(body) && !body.asleep && fill_of(body) != Role::static_body)
-    draw_emblem(body.color, body.look == Look::item ? f.at(0, 0.17) : f.center, 0.3 * f.unit, list);
+    draw_emblem(body.color, body.look == Look::item ? f.at(0, 0.17) : f.center,
+                0.3 * room_inside(turned_outline(body, place), f), list);
   if (body.refused)
     for (const Stroke& stroke : {Stroke{Role::panel, 6}, Stroke{Role::ink, 2.6}})
       list.line(f.at(-0.9, 0.9), f.at(0.9, -0.9), stroke);

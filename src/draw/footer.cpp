@@ -72,10 +72,11 @@ std::vector<Counter> default_counters(const Frame& frame) {
     const std::int64_t all = std::max<std::int64_t>(1, count("atlas_area"));
     auto percent = static_cast<std::int64_t>(std::llround(100.0 * double(used) / double(all)));
     if (used > 0 && used < all) percent = std::clamp<std::int64_t>(percent, 1, 99);
+    const auto known = std::ranges::count_if(
+        frame.get<FrameTextures>().textures,
+        [](const auto& texture) { return texture.packed || texture.refused || !texture.later; });
     return {counted(percent, "% used", "", {}),
-            counted(count("textures"),
-                    fmt::format("of {} textures", frame.get<FrameTextures>().textures.size()), "",
-                    {"textures"})};
+            counted(count("textures"), fmt::format("of {} textures", known), "", {"textures"})};
   }
   // Of a ray, view or region: how few bodies it had to test.
   if (!frame.get<FrameFinding>().rays.empty() || !frame.get<FrameFinding>().views.empty() ||

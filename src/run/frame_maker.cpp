@@ -394,6 +394,7 @@ void FrameMaker::add_rulers(Frame& frame) const {
 
 // The free leaves that were asked: lit where there is room, passed where there is none.
 void FrameMaker::light_room(Frame& frame) const {
+  if (asked.x > 0) frame.add<FrameTextures>().asked = asked;
   const auto* ask = std::get_if<AskRoom>(&step_->verb);
   if (!ask) return;
   frame.add<FrameTextures>().asked = {ask->width, ask->height};

@@ -30,6 +30,7 @@ class FrameMaker {
   std::optional<SweptSoFar> swept;  // a sweep is under way
   std::set<BodyId> focus;
   std::string texture;
+  Vec<2> asked{0.0};  // the room that a texture is looking for
   void note_refused(const std::string& name);
 
   // What a ray, view or region has found, so far or in all: shown on this step's frames, counted

@@ -158,10 +158,13 @@ void witness(const AtlasEvent& event, ScriptRun& run) {
   Touched now = frames.touched;
   now.lit = {event.node};
   const FrameTexture& texture = run.stage.atlas->texture(event.texture);
+  if (event.kind == Kind::cut || event.kind == Kind::too_small)
+    frames.asked = {texture.width, texture.height};
   frames.emit(now, event_name(event.kind),
               event_text(event, run.stage.atlas->label_of(event.node),
                          texture.turned ? texture.name + ", turned" : texture.name, texture.width,
                          texture.height));
+  frames.asked = Vec<2>(0.0);
 }
 
 std::string refusal_text(const TextureSpec& texture) {

@@ -77,7 +77,7 @@ TEST(Clock, HasTheTimesThatAreKnownOfAllWorldsInOneScale) {
   }
   const DrawList list = samples::page_of(frame);
   EXPECT_TRUE(says(list,
-                   "microseconds a step; filled: quickest of all; ringed: of the lecture's; "
+                   "microseconds a step; filled: least of all; ringed: least of the lecture's; "
                    "processor time, a desk"));
   const double unit = length_of(list, "stadium/grid");
   EXPECT_GT(unit, 20);

@@ -162,13 +162,16 @@ class AtlasView : PanelPicture {
     }
   }
 
-  // What a room is asked for, laid over the free leaf that comes nearest to it.
+  // What a room is asked for, laid over the free leaf that is looked at, or that comes nearest.
   void draw_asked() {
     const Vec<2> asked = frame_.get<FrameTextures>().asked;
     const FrameNode* best = nullptr;
     double most = 0;
-    for (const FrameNode* node : free_leaves()) {
+    const std::vector<const FrameNode*> leaves = free_leaves();
+    const bool one = std::ranges::count(leaves, Mark::lit, &FrameNode::mark) == 1;
+    for (const FrameNode* node : leaves) {
       const Vec<2> share = flat(node->box).size() / glm::max(asked, 1.0);
+      if (one && node->mark != Mark::lit) continue;
       if (const double least = std::min(share.x, share.y); least > most) most = least, best = node;
     }
     if (asked.x == 0 || !best) return;
@@ -178,7 +181,8 @@ class AtlasView : PanelPicture {
     // What does not fit sticks out of the leaf, beside the image if there is room.
     const bool beside = !fits && leaf.lo.x + size.x <= panel_.hi.x + kBeyond;
     const Box<2> limit = beside ? shrunk(panel_, -kBeyond) : image_;
-    const Vec<2> corner = glm::max(limit.lo, glm::min(leaf.lo, limit.hi - size));
+    const double down = std::max(0.0, fits ? 0.0 : (leaf.size().y - size.y) / 2);
+    const Vec<2> corner = glm::max(limit.lo, glm::min(leaf.lo + Vec<2>(0, down), limit.hi - size));
     if (!fits) list_.crisp_rect(leaf, Role::lit_fill, {Role::lit, 4});
     const Role role = fits ? Role::lit : Role::warning;
     const DrawList::Scope scope(list_, "atlas/asked");
@@ -187,8 +191,8 @@ class AtlasView : PanelPicture {
     const TextStyle style{kLabel, Weight::semibold, fits ? Role::lit_ink : Role::warning};
     const std::string words =
         fmt::format("{:.0f} × {:.0f}{}", asked.x, asked.y, fits ? "" : " does not fit");
-    const double middle =
-        beside ? (image_.hi.x - corner.x + size.x) / 2 : size.x * (fits ? 0.5 : 0.33);
+    const double inside = image_.hi.x - corner.x;  // how much of it lies on the image
+    const double middle = inside < size.x ? (inside + size.x) / 2 : size.x / 2;
     const Vec<2> at = corner + Vec<2>(middle, fits ? 24 : size.y / 2);
     const Box<2> plate = plate_of(words, at, style, {6, 5});
     if (!holds(limit, plate) || !labels_.is_free(plate, panel_)) return;

@@ -94,16 +94,16 @@ class Bars : PanelPicture {
     const double y = area_.lo.y + 0.5 * kTickLine;
     for (std::size_t i = 0; i < chart_.pieces.size(); ++i) {
       const std::string words = chart_words(chart_.pieces[i]);
-      list_.rect({{x, y - 9}, {x + 18, y + 9}}, piece_role(i, 0), {Role::body_line, 1.2}, 2);
+      list_.rect({{x, y - 9}, {x + 18, y + 9}}, piece_role(i), {Role::body_line, 1.2}, 2);
       write(words, centred({x + 26, y}, type_.tick, 0), type_.tick);
       x += 44 + text_width(words, type_.tick);
     }
     area_.lo.y += kTickLine;
   }
 
-  // The first in a tone of its own, the last in the bar's.
-  Role piece_role(std::size_t piece, int line) const {
-    return piece + 1 < chart_.pieces.size() ? Role::quiet_ink : plot_role(line);
+  // Of all bars: the last piece has that of bars of one quantity.
+  Role piece_role(std::size_t piece) const {
+    return piece + 1 < chart_.pieces.size() ? Role::quiet_ink : plot_role(0);
   }
 
   double rows() const {
@@ -185,7 +185,8 @@ class Bars : PanelPicture {
   double x_of(double value) const { return area_.lo.x + axis_.share(value) * area_.size().x; }
 
   // A structure's, or that of all bars of one quantity or side.
-  static Role color_of(const FrameBar& bar) {
+  Role color_of(const FrameBar& bar) const {
+    if (!bar.pieces.empty()) return piece_role(bar.pieces.size() - 1);
     return plot_role(look_of_structure(bar.label).value_or(bar.line));
   }
 
@@ -208,8 +209,8 @@ class Bars : PanelPicture {
       for (std::size_t i = 0; i + 1 < bar.pieces.size(); ++i) {
         const double begin = x_of(std::exchange(sum, sum + bar.pieces[i])), end = x_of(sum);
         if (end - begin > 0.5)
-          list_.rect({{begin, box.lo.y}, {end, box.hi.y}}, piece_role(i, bar.line),
-                     {Role::body_line, 1.2}, 2);
+          list_.rect({{begin, box.lo.y}, {end, box.hi.y}}, piece_role(i), {Role::body_line, 1.2},
+                     2);
       }
     }
     const double left = std::max(from, to) + kAfter + (chart_.logarithmic ? 13 : 0);

@@ -81,7 +81,8 @@ class ComparisonView : PanelPicture {
     if (table_.rows.empty()) return;
     list_.referents.insert(
         {"least_work", "least_lecture_work", "compared_bodies", "compared_pairs"});
-    if (frame_.ending && table_.rows.size() > 1) return draw_all(comparisons, kAmongAll);
+    if (frame_.ending && table_.rows.size() > 1)
+      return draw_all(comparisons, "comparisons a step; " + std::string(kBest));
     const Row& row = table_.rows.back();
     const double middle = panel_.lo.x + kPictureShare * panel_.size().x;
     draw_world(row, {panel_.lo, {middle - 24, panel_.hi.y}}, true);
@@ -90,14 +91,12 @@ class ComparisonView : PanelPicture {
 
   void draw_clock() {
     if (table_.rows.empty()) return;
-    draw_all(microseconds, "microseconds a step; " + std::string(kQuickest) + "; processor time, " +
+    draw_all(microseconds, "microseconds a step; " + std::string(kBest) + "; processor time, " +
                                table_.rows.back().machine);
   }
 
  private:
-  static constexpr const char* kAmongAll =
-      "comparisons a step; filled: fewest of all; ringed: fewest of the lecture's";
-  static constexpr const char* kQuickest = "filled: quickest of all; ringed: of the lecture's";
+  static constexpr const char* kBest = "filled: least of all; ringed: least of the lecture's";
 
   // Bars longer than the longest of the lecture's best are cut.
   void draw_all(Amount amount, const std::string& note) {
@@ -166,7 +165,7 @@ class ComparisonView : PanelPicture {
   void draw_chart(const Row& row, const Box<2>& place) {
     const bool keeps = std::ranges::any_of(row.marks, &frame::FrameComparison::Mark::is_static);
     const double line =
-        std::min(kMostBarLine, place.size().y / static_cast<double>(row.cells.size() + 3));
+        std::min(kMostBarLine, place.size().y / static_cast<double>(row.cells.size() + 4));
     const double bars = place.hi.x - (keeps ? kColumn : 0);
     double y = place.lo.y + 0.45 * kLabel;
     const char* const what = "comparisons a step:";
@@ -194,6 +193,7 @@ class ComparisonView : PanelPicture {
         if (keeps) write(text_of(cell.work.build), centred({place.hi.x, y}, kQuiet, 1), kQuiet);
       }
     }
+    write(kBest, centred({place.hi.x, y + line}, kQuiet, 1), kQuiet);
   }
 
   // From there, so long at most, which `scale` is; gives the x where it ends.

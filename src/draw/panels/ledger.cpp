@@ -133,7 +133,8 @@ class Ledger : PanelPicture {
     for (const FrameBody& body : frame_.bodies) bodies_.push_back(&body);
     std::ranges::sort(bodies_, {},
                       [](const FrameBody* body) { return std::pair(body->place, body->id); });
-    rows_ = std::max<std::size_t>(frame_.cast, bodies_.size());
+    keeps_rows_ = frame_.cast > 0 && frame_.cast <= kMostLedgerBodies;
+    rows_ = keeps_rows_ ? std::max<std::size_t>(frame_.cast, bodies_.size()) : bodies_.size();
     states_ = states_of(pairs_);
     for (const PairState state : states_)
       key_width_ = std::max(
@@ -158,8 +159,8 @@ class Ledger : PanelPicture {
  private:
   Box<2> area() const { return {panel_.lo + Vec<2>(0, kLedgerHeading), panel_.hi}; }
 
-  // Bodies keep their rows when others come and go.
-  std::size_t row_of(std::size_t i) const { return frame_.cast > 0 ? bodies_[i]->place : i; }
+  // Bodies keep their rows when others come and go, unless too many will come.
+  std::size_t row_of(std::size_t i) const { return keeps_rows_ ? bodies_[i]->place : i; }
 
   std::size_t key_columns() const {
     const double room = panel_.size().x + kKeyGap;
@@ -283,7 +284,8 @@ class Ledger : PanelPicture {
 
   PairStates pairs_;
   std::vector<const FrameBody*> bodies_;  // in the scenario's order
-  std::size_t rows_ = 0;                  // of bodies that are there and of those that are not
+  bool keeps_rows_ = false;
+  std::size_t rows_ = 0;  // of bodies that are there and of those that are not
   std::vector<PairState> states_;
   double key_width_ = 0;
 };

@@ -78,7 +78,8 @@ class GridView : PanelPicture {
     double width =
         std::min(kMostSlot, (place.hi.x - origin.x) / static_cast<double>(extent.columns));
     const double height =
-        std::min(0.8 * width, (place.hi.y - origin.y) / static_cast<double>(extent.rows));
+        std::min(0.8 * width, (place.hi.y - origin.y - (structure_.hashed ? 34 : 0)) /
+                                  static_cast<double>(extent.rows));
     width = std::min(width, 3 * height);
     if (width < kLeastShownSlot || height < kLeastShownSlot) return origin.y;
     slot_ = {width, height};
@@ -87,8 +88,9 @@ class GridView : PanelPicture {
     draw_empty({origin, origin + whole}, extent);
     number_rows(origin, extent);
     for (const auto& [number, cells] : levels_[level]) {
-      const Vec<2> lo = origin + Vec<2>(static_cast<double>(number % extent.columns) * width,
-                                        static_cast<double>(number / extent.columns) * height);
+      const Vec<2> lo =
+          origin + Vec<2>(static_cast<double>(number % extent.columns) * width,
+                          static_cast<double>(line_of(number / extent.columns, extent)) * height);
       const DrawList::Scope scope(
           list_, fmt::format("grid/{}x{}/{}", extent.columns, extent.rows, number));
       draw_slot(cells, {lo, lo + slot_});
@@ -109,16 +111,28 @@ class GridView : PanelPicture {
     }
   }
 
-  // The number of its first slot before each row, as far as there is room.
+  // A hash's rows go upwards, as those of the world do that they are the remainders of.
+  std::uint64_t line_of(std::uint64_t row, const GridExtent& extent) const {
+    return structure_.hashed ? extent.rows - 1 - row : row;
+  }
+
+  // The number of its first slot before each row, as far as there is room; of a hash the remainders
+  // that rows and columns stand for.
   void number_rows(const Vec<2>& origin, const GridExtent& extent) {
     double last = -1e9;
     for (std::uint64_t row = 0; row < extent.rows; ++row) {
       const double y = origin.y + (static_cast<double>(row) + 0.5) * slot_.y;
       if (y < last + 30) continue;
       last = y;
-      write(number_text(static_cast<double>(row * extent.columns + 1)),
-            centred({origin.x - 8, y}, kQuiet, 1), kQuiet);
+      const std::uint64_t number =
+          structure_.hashed ? line_of(row, extent) : row * extent.columns + 1;
+      write(number_text(static_cast<double>(number)), centred({origin.x - 8, y}, kQuiet, 1),
+            kQuiet);
     }
+    const double under = origin.y + static_cast<double>(extent.rows) * slot_.y + 18;
+    for (std::uint64_t i = 0; structure_.hashed && slot_.x >= 30 && i < extent.columns; ++i)
+      write(number_text(static_cast<double>(i)),
+            centred({origin.x + (static_cast<double>(i) + 0.5) * slot_.x, under}, kQuiet), kQuiet);
   }
 
   void draw_slot(const std::vector<const FrameNode*>& cells, const Box<2>& box) {

@@ -33,7 +33,8 @@ std::vector<Fact> facts_of(const Frame& frame, const Staging& staging, const Box
   const std::pair<const char*, const char*> counted[] = {
       {"nodes", "node"}, {"leaves", "leaf"}, {"entries", "entry"}};
   for (const auto& [many, one] : counted)
-    if (const auto n = staging.is_headed(many) ? std::nullopt : frame.count(many); n)
+    if (const auto n = staging.is_headed(many) ? std::nullopt : frame.count(many);
+        n && !(has_cells(frame.structure) && many != std::string_view("entries")))
       facts.push_back({*n == 1 ? one : many, *n, many, staging.most(many)});
   if (!frame.display.settings || !staging.tells_settings(frame) ||
       panel.size().y < kLeastForSettings)

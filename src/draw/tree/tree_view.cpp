@@ -287,7 +287,8 @@ class TreeView : PanelPicture {
     const Box<2>& box = layout_.boxes[i];
     const Vec<2> c = box.center();
     if (const std::uint32_t place = node.met != kNone ? node.met : node.order; place != kNone)
-      for (const Vec<2>& at : {Vec<2>(c.x, box.hi.y + 17), Vec<2>(c.x, box.lo.y - 17)})
+      for (const Vec<2>& at : {Vec<2>(c.x, box.hi.y + 17), Vec<2>(c.x, box.lo.y - 17),
+                               Vec<2>(box.lo.x - 17, c.y), Vec<2>(box.hi.x + 17, c.y)})
         if (draw_met(place, at, panel_, list_, labels_)) return;
     const bool warns = node.over_capacity && node.leaf, lit = branch.mark == Mark::lit;
     if (!warns && !lit && !(node.leaf && layout_.scale.names_all())) return;

@@ -14,10 +14,11 @@ namespace {
 constexpr double kOnePlace = 6;          // page units between centres that count as one place
 constexpr std::ptrdiff_t kMostOver = 7;  // drawn of the bodies at one place: the uppermost
 constexpr std::size_t kMostDetailed = 160;
-constexpr std::size_t kMostBoxed = 60;
-constexpr double kRim = 24;      // from the bounds to an outside body's marker
-const Vec<2> kOverhang{34, 20};  // a body may reach this far out of the world's bounds
+constexpr std::size_t kMostBoxed = 12;  // of more bodies only broken corners of boxes would be seen
+constexpr double kRim = 24;             // from the bounds to an outside body's marker
+const Vec<2> kOverhang{34, 20};         // a body may reach this far out of the world's bounds
 constexpr double kLeastBody = 5;
+constexpr double kNested = 9;  // from one outline to the next at one place
 
 // A body's box on the page, never too small to be seen.
 Box<2> page_box(const FrameBody& body, const View2D& map) {
@@ -66,25 +67,26 @@ void draw_outside(const World2D& w, const Stand& stand) {
                  body_role(body.color), {Role::body_line, 1.6});
 }
 
-// Of what a body has painted from `first` on, its own colour becomes that of its lines, on both
-// sides of the outline's; what is under it shows.
+// Of what a body has painted from `first` on only its outline is left, in its own colour on both
+// sides of the line; what is under it shows.
 void leave_outlines(DrawList& list, std::size_t first, Role own) {
   constexpr double kWide = 8;  // page units
-  std::vector<DrawShape> outlines;
+  std::vector<DrawShape> kept;
   for (std::size_t i = first; i < list.shapes.size(); ++i)
     std::visit(
-        [&](auto& shape) {
+        [&](auto shape) {
           if constexpr (requires { shape.fill; }) {
-            if (shape.fill != own && shape.fill != Role::panel) return;
-            const bool halo = shape.fill == Role::panel;
+            if (shape.fill != own) return;
             shape.fill = Role::none;
-            if (halo) return;
-            outlines.emplace_back(shape);
-            shape.stroke = {own, kWide};
+            const Stroke line = std::exchange(shape.stroke, {own, kWide});
+            kept.emplace_back(shape);
+            shape.stroke = line;
+            kept.emplace_back(shape);
           }
         },
         list.shapes[i]);
-  list.shapes.insert(list.shapes.end(), outlines.begin(), outlines.end());
+  list.shapes.resize(first, LineShape{});
+  list.shapes.insert(list.shapes.end(), kept.begin(), kept.end());
 }
 
 // What reaches too far out of the world is cut off.
@@ -102,10 +104,12 @@ void draw_stand(const World2D& w, const Stand& stand, bool plain) {
   std::ranges::stable_sort(order, std::greater(),
                            [&](const FrameBody* body) { return size_of(*body, w.map); });
   if (std::ssize(order) > kMostOver) order.erase(order.begin(), order.end() - kMostOver);
+  double inset = 0;  // outlines at one place lie in each other
   for (const FrameBody* body : order) {
     const std::string key = body_key("world/body", *body);
     const DrawList::Scope scope(w.list, key, key);
-    draw_inside(w, *body, page_box(*body, w.map), plain);
+    draw_inside(w, *body, shrunk(page_box(*body, w.map), inset), plain);
+    if (w.frame.display.outlined) inset += kNested;
   }
 }
 

@@ -200,7 +200,7 @@ void draw_links(const World2D& w, const PageLinks& links, bool over) {
       const DrawList::Scope scope(w.list, link.key, link.key);
       if (!link.bow.empty())
         draw_bow(link, pen);
-      else if (!link.close || !link.common)  // the boxes' common frame says it
+      else
         draw_link(link.from, link.to, link.look, pen);
     }
   if (!over) return;
