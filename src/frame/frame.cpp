@@ -436,9 +436,11 @@ std::vector<Pair> missed_pairs(const Frame& frame) {
   const auto rests = [](const FrameBody& body) { return body.is_static || body.asleep; };
   std::set<Pair> missed;
   for (const FrameBody& a : frame.bodies) {
-    if (!a.stored_box || united(*a.stored_box, a.box) == *a.stored_box) continue;
+    if (!frame.as_printed && (!a.stored_box || united(*a.stored_box, a.box) == *a.stored_box))
+      continue;
     for (const FrameBody& b : frame.bodies)
-      if (a.id != b.id && overlap(a.box, b.box) && !(rests(a) && rests(b)))
+      if (a.id != b.id && a.has_volume && b.has_volume && overlap(a.box, b.box) &&
+          !(rests(a) && rests(b)))
         missed.insert({std::min(a.id, b.id), std::max(a.id, b.id)});
   }
   for (const FramePair& named : frame.pairs) missed.erase(named.pair);

@@ -145,9 +145,11 @@ struct FrameBody : BodyState {
   std::optional<FramePlace> ahead;   // after the step that is about to be taken, if nothing is met
   bool is_static = false;
   bool asleep = false;
-  bool lit = false;      // the step is about it
-  bool dimmed = false;   // the step has ruled it out: culled, or not met by the ray
-  bool refused = false;  // a ray, view or region has tested it in vain
+  bool has_volume = true;     // else nothing meets it
+  std::uint64_t address = 0;  // in the memory of the lecture's program
+  bool lit = false;           // the step is about it
+  bool dimmed = false;        // the step has ruled it out: culled, or not met by the ray
+  bool refused = false;       // a ray, view or region has tested it in vain
 };
 
 struct FrameNode {
@@ -335,6 +337,7 @@ struct Frame : FramePage, FrameParts {
   std::string caption;            // counts filled in
   std::vector<std::string> told;  // the counts and measures that the caption quotes, in order
   StructureKind structure = StructureKind::none;
+  bool as_printed = false;       // the structure makes the mistakes of the lecture's text
   std::uint32_t cast = 0;        // bodies of the scenario, there or not
   std::optional<Camera> camera;  // of a solid world
   std::optional<Box<2>> view;    // the part of a flat world that is shown; none: all of it

@@ -63,7 +63,7 @@ std::vector<SourceLine> statements_of(std::string_view file) {
 
 bool is_name(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-         c == ':' || c == '~';
+         c == ':' || c == '~' || c == '<';  // of an operator
 }
 
 // The last name of what stands before `end`: "Insert" of "void Insert".
@@ -134,7 +134,7 @@ constexpr std::pair<std::string_view, CodePlace> kPlaces[] = {
     {"test", {"QuadTreeNode::Insert", "Reached(objectPos, objectSize)"}},
     {"miss", {"QuadTreeNode::Insert", "if (!reached) return;"}},
     {"store", {"QuadTreeNode::Insert", "contents.push_back("}},
-    {"split", {"QuadTreeNode::Insert", "Split();"}},
+    {"split", {"QuadTreeNode::Insert", "Split("}},
     {"make_child", {"QuadTreeNode::Split", "children["}},
     {"hand_down", {"QuadTreeNode::Insert", "for (const auto& entry : contents)"}},
     {"depth_limit", {"QuadTreeNode::Insert", "depthLeft > 0"}},

@@ -54,11 +54,19 @@ constexpr CountDoc kBodyMeasures[] = {
     {"z", when::solid, "", "The same along z, in a 3D world.", Most::unbounded, "units"},
     {"penetration", when::contacts, "",
      "How deep its deepest contact of the last world step overlaps.", Most::size, "units"},
-    {"leaves", when::structure, "leaf/leaves", "Leaves that store it: a count, as the next two.",
+    {"half_width", when::bodies, "",
+     "Half the width of its box, as the lecture's UpdateBroadphaseAABB finds it.", Most::size,
+     "units"},
+    {"half_height", when::bodies, "", "The same along y.", Most::size, "units"},
+    {"leaves", when::structure, "leaf/leaves", "Leaves that store it: a count, as the next four.",
      Most::parts},
     {"pairs", when::structure, "", "Candidate pairs that it is one of.", Most::bodies},
     {"depth", when::structure, "level deep/levels deep",
      "Depth of the deepest leaf that stores it.", Most::depth},
+    {"address", when::structure, "", "Where it lies in memory, as the scenario says.",
+     Most::unbounded},
+    {"key", when::structure, "", "The lecture's key a + (b << 8) of the first pair it is in.",
+     Most::unbounded},
 };
 
 std::vector<CountDoc>& counts() {
@@ -125,6 +133,9 @@ const CountRule tree = {"with a structure", "there is no structure at this step"
 const CountRule kd_tree = {
     "with a kD-tree", "there is no kd_tree at this step",
     [](const Past& past) { return traits_of(past.structure().kind).is_fitted; }, &structure};
+const CountRule printed = {"with `as_printed`", "no lecture_quadtree is as printed at this step",
+                           [](const Past& past) { return past.structure().as_printed; },
+                           &structure};
 const CountRule sweep = {"with `sort_and_sweep`", "there is no sort_and_sweep at this step",
                          stands_with<Setting::axis>, &structure};
 const CountRule boxes = {"with an `aabb_tree`", "there is no aabb_tree at this step",

@@ -67,8 +67,8 @@ struct CountRule {
 // Rules of Lantern's own counts. Each of them asks its `first` first.
 namespace when {
 extern const CountRule with_atlas, room, drawn, no_atlas, time, bodies, solid, structure, any_tree,
-    tree, kd_tree, sweep, boxes, array, inside, split, asleep_nodes, contacts, joints, sleep,
-    physics, islands, query, shapes, separated, searched, compared, level, compiled, located,
+    tree, kd_tree, printed, sweep, boxes, array, inside, split, asleep_nodes, contacts, joints,
+    sleep, physics, islands, query, shapes, separated, searched, compared, level, compiled, located,
     sighted, eyed;
 }  // namespace when
 

@@ -136,6 +136,8 @@ struct StructureSpec {
   double margin = 0;          // aabb_tree only
   Following following = Following::automatic;  // aabb_tree only
   SweepAxis axis = SweepAxis::widest;          // sort_and_sweep only
+  bool as_printed = false;                     // lecture_quadtree only
+  Vec<3> root{0.0};                            // lecture_quadtree only; 0: as large as the world
   std::vector<PlaneSpec> planes;               // bsp only; a plane's parent stands before it
   bool of_level = false;                       // bsp only: its planes are the compiled level's
   std::vector<std::uint32_t> sectors;  // of its nodes, in the order of visiting; kNone: inner ones
@@ -161,6 +163,8 @@ struct BodySpec {
   double linear_drag = 0;
   double angular_drag = 0;
   bool may_turn = true;
+  bool has_volume = true;                  // else nothing meets it
+  std::uint32_t address = 0;               // in the memory of the lecture's program; 0: none said
   bool asleep = false;                     // when it enters
   std::optional<Integrator> integrator;    // none: the world's
   std::optional<RotationMethod> rotation;  // none: the world's
@@ -242,9 +246,13 @@ enum class BodyMeasure {
   y,
   z,
   penetration,
+  half_width,
+  half_height,
   leaves,  // from here on it is counted
   pairs,
   depth,
+  address,
+  key,
 };
 inline bool is_counted(BodyMeasure what) { return what >= BodyMeasure::leaves; }
 

@@ -13,6 +13,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstdint>
 
 #include "geometry/vec.hpp"
 
@@ -45,6 +46,21 @@ struct CollisionDetection {
     // same sum; the std::set then mistakes the second for the first, and it never collides. The
     // order, and with it the outcome, also changes from run to run. With ids neither happens.
     bool operator<(const CollisionInfo& other) const;
+  };
+
+  // The text's own order, for pictures of what it loses. The addresses are those that a scenario
+  // gives, so that every run loses the same.
+  struct CollisionInfoAsPrinted {
+    std::uint64_t a = 0;
+    std::uint64_t b = 0;
+
+    bool operator<(const CollisionInfoAsPrinted& other) const {
+      const std::uint64_t otherHash = other.a + (other.b << 8);
+      const std::uint64_t thisHash = a + (b << 8);
+      return thisHash < otherHash;
+    }
+    // Added: for pictures to tell.
+    std::uint64_t GetHash() const { return a + (b << 8); }
   };
 
   // Do two boxes overlap, each given by its centre and half sizes?

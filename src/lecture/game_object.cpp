@@ -4,6 +4,11 @@
 
 namespace lantern::lecture {
 
+// The text's names of them.
+using AABBVolume = AxisBox<3>;
+using SphereVolume = Sphere;
+using OBBVolume = OrientedBox<3>;
+
 bool GameObject::GetBroadphaseAABB(Vector3& outSize) const {
   if (!boundingVolume) return false;
   outSize = broadphaseAABB;
@@ -12,15 +17,16 @@ bool GameObject::GetBroadphaseAABB(Vector3& outSize) const {
 
 void GameObject::UpdateBroadphaseAABB() {
   if (!boundingVolume) return;
-  if (const auto* box = std::get_if<AxisBox<3>>(&*boundingVolume)) {
-    broadphaseAABB = box->half_size;
-  } else if (const auto* ball = std::get_if<Sphere>(&*boundingVolume)) {
-    const double r = ball->radius;
+  const auto* volume = &*boundingVolume;
+  if (auto* aabb = std::get_if<AABBVolume>(volume)) {
+    broadphaseAABB = aabb->half_size;
+  } else if (auto* sphere = std::get_if<SphereVolume>(volume)) {
+    const double r = sphere->radius;
     broadphaseAABB = Vector3(r, r, r);
-  } else if (const auto* turned_box = std::get_if<OrientedBox<3>>(&*boundingVolume)) {
+  } else if (auto* obb = std::get_if<OBBVolume>(volume)) {
     Matrix3 mat = glm::mat3_cast(transform.GetWorldOrientation());
     for (int i = 0; i < 3; ++i) mat[i] = glm::abs(mat[i]);
-    broadphaseAABB = mat * turned_box->half_size;
+    broadphaseAABB = mat * obb->half_size;
   } else {
     // Mended: the text stops here, and for any other volume the half sizes are never set. This is
     // the smallest box around the object's position that contains the volume.

@@ -35,7 +35,7 @@ struct QuadTreeEntry {
       : pos(objPos), size(objSize), object(obj) {}
 };
 
-// Added: a watcher is told of these four things while the tree grows; pictures and counts need
+// Added: a watcher is told of these five things while the tree grows; pictures and counts need
 // them. This one ignores them all, and the calls compile to nothing.
 struct NobodyWatches {
   template <class Node, class T>
@@ -45,7 +45,9 @@ struct NobodyWatches {
   template <class Node, class T>
   void HandedDown(const Node&, const T&) {}
   template <class Node, class T>
-  void Split(Node&, const T& /*last*/, int /*depthLeft*/) {}
+  void Split(const Node&, const T& /*last*/, int /*depthLeft*/) {}
+  template <class Node>
+  void Made(Node&) {}
 };
 
 template <class T>
@@ -71,8 +73,8 @@ class QuadTreeNode {
       contents.push_back(QuadTreeEntry<T>(object, objectPos, objectSize));
       watch.Stored(*this, object, depthLeft);
       if (static_cast<int>(contents.size()) > maxSize && depthLeft > 0) {
-        Split();
         watch.Split(*this, object, depthLeft);
+        Split(watch);
         // we need to reinsert the contents so far!
         for (const auto& entry : contents) {
           watch.HandedDown(*this, entry.object);
@@ -84,13 +86,18 @@ class QuadTreeNode {
     }
   }
 
-  void Split() {
+  template <class Watch>
+  void Split(Watch& watch) {
     const Vector2 halfSize = size / 2.0;
     children.resize(4);
     children[0] = QuadTreeNode<T>(position + Vector2(-halfSize.x, halfSize.y), halfSize);
+    watch.Made(children[0]);
     children[1] = QuadTreeNode<T>(position + Vector2(halfSize.x, halfSize.y), halfSize);
+    watch.Made(children[1]);
     children[2] = QuadTreeNode<T>(position + Vector2(-halfSize.x, -halfSize.y), halfSize);
+    watch.Made(children[2]);
     children[3] = QuadTreeNode<T>(position + Vector2(halfSize.x, -halfSize.y), halfSize);
+    watch.Made(children[3]);
   }
 
   void OperateOnContents(const QuadTreeFunc& func) {
@@ -114,7 +121,8 @@ class QuadTreeNode {
   const std::vector<QuadTreeNode<T>>& GetChildren() const { return children; }
   std::vector<QuadTreeNode<T>>& GetChildren() { return children; }
   const std::list<QuadTreeEntry<T>>& GetContents() const { return contents; }
-  int number = 0;  // Added: for the watcher to set; the tree does not use it
+  // Added: for the watcher to set, below 0 until then; the tree does not use it.
+  int number = -1;
 
  protected:
   friend class QuadTree<T>;
@@ -142,10 +150,14 @@ template <class T>
 class QuadTree {
  public:
   // Added: `position`, the centre of the tree; in the text that is the origin. Depths above 32 are
-  // not supported.
+  // not supported. Added: `printed`, for the text's own way with what lies outside.
   explicit QuadTree(const Vector2& size, int depth = 6, int sizeOfNode = 5,
-                    const Vector2& position = Vector2(0.0))
-      : root(position, size), maxDepth(depth), maxSize(sizeOfNode) {}
+                    const Vector2& position = Vector2(0.0), bool printed = false) {
+    root = QuadTreeNode<T>(position, size);
+    maxDepth = depth;
+    maxSize = sizeOfNode;
+    asPrinted = printed;
+  }
 
   template <class Watch = NobodyWatches>
   void Insert(const T& object, const Vector3& pos, const Vector3& size, Watch&& watch = {}) {
@@ -173,6 +185,7 @@ class QuadTree {
   // neighbours into which a small object falls. A tiny margin closes it: a centre is off by at most
   // half a unit in the last place of the root's largest coordinate per level.
   std::pair<Vector3, Vector3> Clamped(Vector3 pos, Vector3 size) const {
+    if (asPrinted) return {pos, size};
     for (const auto& [axis, rootAxis] : {std::pair(0, 0), std::pair(2, 1)}) {
       const double at = root.position[rootAxis], half = root.size[rootAxis];
       const double reach = size[axis] + kMargin * (std::abs(pos[axis]) + size[axis]);
@@ -189,8 +202,9 @@ class QuadTree {
 
   QuadTreeNode<T> root;  // Mended: the text declares a pointer and uses it as a value
 
-  int maxDepth;
-  int maxSize;
+  int maxDepth = 6;
+  int maxSize = 5;
+  bool asPrinted = false;
 };
 
 }  // namespace lantern::lecture

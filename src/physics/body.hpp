@@ -44,6 +44,7 @@ struct Body {
   bool may_turn = true;     // false: contacts and forces never turn it
   bool asleep = false;
   bool collides = true;                      // false: nothing meets it, no structure holds it
+  std::uint64_t address = 0;                 // for a lecture_quadtree as printed
   std::optional<Integrator> integrator{};    // of this body; none: the world's
   std::optional<RotationMethod> rotation{};  // the same
 

@@ -76,6 +76,7 @@ struct World<D>::Step : World<D>::StepIslands {
     structure.follow(boxes);
     note_told();
     outcome.pairs.assign(structure.pairs().begin(), structure.pairs().end());
+    if (structure.config().as_printed) lose_pairs(structure);
     ++world.work_.broad_phases;
     world.work_.pair_tests += structure.counters().pair_tests;
     world.work_.candidate_pairs += outcome.pairs.size();
@@ -272,6 +273,13 @@ struct World<D>::Step : World<D>::StepIslands {
   }
 
  private:
+  // As printed, the lecture takes some pairs for others.
+  void lose_pairs(BroadPhase<D>& structure) {
+    structure.build(all_boxes());
+    const std::vector<Pair> kept = world.pair_chain(structure.config().most_pairs).pairs;
+    std::erase_if(outcome.pairs,
+                  [&](const Pair& pair) { return !std::ranges::binary_search(kept, pair); });
+  }
   // Whether nothing moves, nothing ends, and nothing is new: then the next step is as this one.
   bool rests() const {
     return std::ranges::none_of(moved, &Body<D>::stirs) &&
@@ -505,6 +513,7 @@ void World<D>::store(std::span<const BodyId> ids, double h,
   Scratch<Proxy<D>> proxies;
   for (const BodyId id : ids) {
     const Body<D>& body = bodies_[index_of(id)];
+    if (!body.collides) continue;
     const Look<D> look(body, h);
     const Vec<D> reach(config_.contacts == ContactMethod::none ? 0 : look.coasting_reach(h));
     const Box<D> box = bounding_box(body.shape, body.position, look.axes);
@@ -552,10 +561,18 @@ Body<D> World<D>::flown(BodyId id, double h) const {
   return body;
 }
 
+template <int D>
+PairChain World<D>::pair_chain(std::uint64_t most) const {
+  const auto stirs = [&](BodyId id) { return find(id)->stirs(); };
+  if (!broad_phase_->config().as_printed) return broad_phase_->pair_chain(stirs, most);
+  return broad_phase_->pair_chain(stirs, most, [&](BodyId id) { return find(id)->address; });
+}
+
 #define LANTERN_INSTANTIATE(D)                                                      \
   template void World<D>::step(double);                                             \
   template void World<D>::look_ahead(double, const typename BroadPhase<D>::Watch&); \
   template Body<D> World<D>::flown(BodyId, double) const;                           \
+  template PairChain World<D>::pair_chain(std::uint64_t) const;                     \
   template void World<D>::store(std::span<const BodyId>, double,                    \
                                 const typename BroadPhase<D>::Watch&);
 

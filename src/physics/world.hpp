@@ -126,6 +126,9 @@ class World {
   const std::vector<Contact<D>>& contacts() const { return told_whole().contacts; }
   const std::vector<ContactEvent>& events() const { return told_whole().events; }
   const std::vector<Pair>& pairs() const { return outcome_.pairs; }
+  // What the broad phase finds in its structures as they stand, one that is as printed with what
+  // the lecture's text loses.
+  PairChain pair_chain(std::uint64_t most) const;
   // The same for who looks at each step: without those that sleep, of which nothing is new, unless
   // somebody asked for all; and how many touch in all.
   const std::vector<Contact<D>>& fresh_contacts() const { return outcome_.contacts; }

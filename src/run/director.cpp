@@ -52,9 +52,11 @@ void ScriptRun::witness(const Event& event) {
   if (!frames.emits(event_name(event.kind))) return;
   Touched now = frames.touched;
   (event.kind == Kind::miss ? now.passed : now.lit).insert(event.node);
-  const std::string text =
-      event_text(event, structure, engine().label_of(event.node), name_of(event.body));
-  frames.emit(now, event_name(event.kind), text, event.body);
+  const std::string node = engine().label_of(event.node);
+  const std::string text = event_text(event, structure, node, name_of(event.body));
+  const bool is_child = event.kind == Kind::make_child && !node.empty();
+  frames.emit(now, event_name(event.kind), text, event.body,
+              is_child ? fmt::format("children[{}] =", node.back() - '1') : "");
 }
 
 EventWatch ScriptRun::watch_of_insertion() {

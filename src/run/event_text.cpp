@@ -68,6 +68,8 @@ std::string event_text(const Event& e, const StructureSpec& structure, const std
   const auto kind = static_cast<std::size_t>(e.kind);
   const bool has_own = traits.holds_once && kFittingTexts[kind] != nullptr;
   const char* text = has_own ? kFittingTexts[kind] : kTexts[kind];
+  if (traits.is_plain && e.kind == Event::Kind::make_child)
+    text = "Split makes {1}: one quarter of the node that was too full.";
   if (!has_own && e.kind == Event::Kind::store && (e.limit == 0 || e.count <= e.limit))
     text = e.limit == 0 ? "{3} stores {0} and holds {4}."
                         : "{3} stores {0} and holds {4} of at most {5}.";

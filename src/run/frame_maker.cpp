@@ -218,11 +218,11 @@ void FrameMaker::begin_code() {
 }
 
 // The line in which the lecture's code is, if the step runs that.
-void FrameMaker::light_code(std::string_view event) {
+void FrameMaker::light_code(std::string_view event, std::string_view line) {
   const auto place = code_ ? code_place(event) : std::nullopt;
   if (!place) return;
   if (code_->function != place->function) code_ = code_of(place->function);
-  light_line(*code_, place->line);
+  light_line(*code_, line.empty() ? place->line : line);
 }
 
 void FrameMaker::show_phase(std::string_view phase, Frame& frame) {
@@ -284,10 +284,10 @@ void FrameMaker::settle(std::string_view verb, bool last, const std::string& cap
 }
 
 void FrameMaker::emit(const Touched& now, std::string_view event, std::string caption,
-                      std::optional<BodyId> about) {
+                      std::optional<BodyId> about, std::string_view line) {
   if (stage_.engine && traits_of(stage_.engine->structure().kind).is_plain &&
       std::holds_alternative<Insert>(step_->verb))
-    light_code(event);
+    light_code(event, line);
   Frame frame = picture(now, event, true);
   frame.caption = std::move(caption);
   for (FrameBody& body : frame.bodies) body.lit = body.id == about;

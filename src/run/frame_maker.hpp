@@ -47,9 +47,10 @@ class FrameMaker {
   // A frame of a finished state, on which the step's promises are verified; its `expect` on the
   // last one of the step.
   void settle(std::string_view verb, bool last = true, const std::string& caption = {});
-  // A frame in the midst of the algorithm, about one body if there is one.
+  // A frame in the midst of the algorithm, about one body if there is one. Of the lecture's code
+  // that line is lit, or the one that the event is in.
   void emit(const Touched& touched, std::string_view event, std::string caption,
-            std::optional<BodyId> about = {});
+            std::optional<BodyId> about = {}, std::string_view line = {});
   void give(Frame frame, bool midst = false);
   // The frame is of this phase of a world step: the lecture's code is in that line.
   void show_phase(std::string_view phase, Frame& frame);
@@ -65,7 +66,7 @@ class FrameMaker {
   void add_comparison(Frame& frame);
   void trace(Frame& frame);
   void begin_code();
-  void light_code(std::string_view event);
+  void light_code(std::string_view event, std::string_view line = {});
   void add_collisions(Frame& frame) const;
   std::uint32_t next_index();
   void tell_faults();

@@ -59,6 +59,7 @@ Body<D> body_of(const BodySpec& spec) {
           .linear_drag = spec.linear_drag,
           .angular_drag = spec.angular_drag,
           .may_turn = spec.may_turn,
+          .collides = spec.has_volume,
           .integrator = spec.integrator,
           .rotation = spec.rotation};
 }
@@ -71,6 +72,7 @@ BroadPhaseConfig<D> broad_phase_of(const StructureSpec& spec, const Box<D>& boun
   const bool any = spec.kind != StructureKind::none;
   config.kind = any ? spec.kind : StructureKind::brute_force;
   config.bounds = bounds;
+  if (spec.root != Vec<3>(0.0)) config.bounds.hi = bounds.lo + in_dimension<D>(spec.root);
   config.capacity = spec.capacity;
   config.max_depth = spec.max_depth;
   config.eager_children = spec.eager_children;
@@ -82,6 +84,7 @@ BroadPhaseConfig<D> broad_phase_of(const StructureSpec& spec, const Box<D>& boun
   config.cell = spec.cell;
   config.levels = spec.levels;
   config.open = spec.open;
+  config.as_printed = spec.as_printed;
   config.split_static = spec.split_static;
   config.in_proportion = false;
   config.most_entries = kMostEntries;
@@ -105,7 +108,9 @@ Players<D>::Players(const Scenario& scenario)
 template <int D>
 void Players<D>::enter(std::size_t index) {
   const BodySpec& spec = scenario_.bodies[index];
-  const BodyId id = world_.add(body_of<D>(spec), spin_about<D>(spec.axis_of_spin(), spec.spin));
+  Body<D> body = body_of<D>(spec);
+  body.address = spec.address > 0 ? spec.address : 64 * (index + 1);
+  const BodyId id = world_.add(std::move(body), spin_about<D>(spec.axis_of_spin(), spec.spin));
   ids_[index] = id;
   index_of_.push_back(index);
   stop_if_asked();

@@ -124,6 +124,8 @@ class SidesRun {
     Frame frame;
     static_cast<FramePage&>(frame) = sides_[0].at(k).frame;
     frame.index = report_.frames;
+    if (const auto* code = sides_[0].at(k).frame.find<FrameCode>())
+      frame.add<FrameCode>() = *code;  // drawn once, for all
     for (const Side& side : sides_) {
       Frame& shown = frame.sides.emplace_back(side.at(k).frame);
       const bool held = shown.add<FrameSide>().held = side.holds(k);

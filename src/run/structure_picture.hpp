@@ -43,6 +43,8 @@ inline constexpr CountDoc kStructureCounts[] = {
     {"overlaps", when::structure, "overlap of boxes/overlaps of boxes",
      "Candidate pairs whose boxes overlap: of these the narrow phase tests all that may collide.",
      Most::pairs},
+    {"pairs_lost", when::printed, "pair lost/pairs lost",
+     "Pairs met that the lecture's text takes for others, as they have the same key.", Most::pairs},
     {"box_tests", when::inside, "",
      "Tests of a body against a node or plane since the tree was built; of `sort_and_sweep`, "
      "comparisons while sorting; of a `grid`, bodies put into their cells; of an `aabb_tree`, when "
@@ -131,7 +133,9 @@ inline std::string settings_text(const StructureSpec& s, int sweep_axis) {
   if (!traits.has(Setting::capacity)) return std::string(traits.words) + split;
   const std::string limits = fmt::format("capacity {}, depth limit {}", s.capacity, s.max_depth);
   if (traits.is_own) return fmt::format("{}, {}{}, events inferred", traits.words, limits, split);
-  if (traits.is_plain) return "the lecture's own code, " + limits + split;
+  if (traits.is_plain)
+    return fmt::format("the lecture's {}, {}{}", s.as_printed ? "code as printed" : "own code",
+                       limits, split);
   if (traits.is_fitted) return "fitted to its bodies, " + limits + split;
   return fmt::format("{}, {}{}{}", limits,
                      s.eager_children ? "all children made" : "children on demand",
@@ -295,9 +299,12 @@ inline void measure_boxes(Frame& frame) {
 
 // Pairs of which a broad phase would test one: not both never move.
 inline std::uint64_t testable_pairs_of(const Frame& frame) {
-  const auto never_move = static_cast<std::uint64_t>(
-      std::ranges::count_if(frame.bodies, [](const FrameBody& body) { return body.is_static; }));
-  return testable_pairs(frame.bodies.size(), never_move);
+  std::uint64_t bodies = 0, never_move = 0;
+  for (const FrameBody& body : frame.bodies) {
+    bodies += body.has_volume;
+    never_move += body.has_volume && body.is_static;
+  }
+  return testable_pairs(bodies, never_move);
 }
 
 // f(node, labels) for each node, until it gives false; `labels` are "root", "1.3", "front.back", of
@@ -376,7 +383,8 @@ void picture_structure(const StructureSpec& spec, const World<D>& world, bool te
   if (spec.split_static) picture.add(structure.fixed(), nullptr, true);
   number_leaves_met(frame);
 
-  PairChain chain = structure.pair_chain(awake, kMostPairs);
+  PairChain chain = world.pair_chain(kMostPairs);
+  frame.as_printed = spec.as_printed;
   if (swept) {
     const auto unmet = [&](const Pair& pair) { return !swept->met.contains(pair); };
     std::erase_if(chain.pairs, unmet);
@@ -399,6 +407,7 @@ void picture_structure(const StructureSpec& spec, const World<D>& world, bool te
   frame.add_count("all_pairs", all_pairs(frame.bodies.size()));
   frame.add_count("testable_pairs", testable_pairs_of(frame));
   frame.add_count("overlaps", chain.overlapping.size());
+  if (spec.as_printed) frame.add_count("pairs_lost", chain.lost);
   const bool inside = !traits_of(spec.kind).is_own;
   if (inside) frame.add_count("box_tests", c.box_tests);
   if (inside) frame.add_count("tests", c.box_tests + chain.met);

@@ -7,6 +7,7 @@
 #include "frame/frame.hpp"
 #include "frame/parts/motion.hpp"
 #include "language/counts.hpp"
+#include "lecture/game_object.hpp"
 #include "physics/forces.hpp"
 #include "physics/joint.hpp"
 #include "run/players.hpp"
@@ -66,6 +67,8 @@ FrameBody frame_body(const Body<D>& body, const BodySpec& spec, std::size_t plac
   b.box = solid(body.box());
   b.is_static = !body.moves();
   b.asleep = body.asleep;
+  b.has_volume = body.collides;
+  b.address = body.address;
   return b;
 }
 
@@ -86,6 +89,19 @@ inline double deepest_of(BodyId id, const Frame& frame) {
   return deepest;
 }
 
+// Of its box, by the lecture's own code; of a body without a volume 0.
+template <int D>
+Vec<3> lecture_half_sizes(const Body<D>& body) {
+  lecture::GameObject object(
+      0, body.collides ? std::optional(in_dimension<3>(body.shape)) : std::nullopt);
+  object.GetTransform().SetWorldPosition(solid(body.position));
+  object.GetTransform().SetWorldOrientation(state_of(body).orientation.q);
+  object.UpdateBroadphaseAABB();
+  Vec<3> half_sizes(0.0);
+  object.GetBroadphaseAABB(half_sizes);
+  return half_sizes;
+}
+
 template <int D>
 double measured(BodyMeasure what, const Body<D>& body, const World<D>& world, const Frame& frame) {
   const auto energy = [&] { return energy_of<D>(body, world.bodies(), world.forces()); };
@@ -103,6 +119,8 @@ double measured(BodyMeasure what, const Body<D>& body, const World<D>& world, co
   if (what == M::x) return position.x;
   if (what == M::y) return position.y;
   if (what == M::z) return position.z;
+  if (what == M::half_width) return lecture_half_sizes(body).x;
+  if (what == M::half_height) return lecture_half_sizes(body).y;
   return deepest_of(body.id, frame);
 }
 
@@ -165,10 +183,24 @@ void measure_world(const Players<D>& players, const Scenario& scenario, Frame& f
   if (scenario.has_joints()) frame.measures.emplace_back("joint_gap", widest_gap(players.world()));
 }
 
+// As the lecture's text has it, of the first pair that shares a leaf, kept or lost.
+inline std::uint64_t key_of_first_pair(BodyId id, const Frame& frame) {
+  for (const FrameNode& node : frame.nodes)
+    for (const BodyId other : node.bodies) {
+      if (other == id || std::ranges::count(node.bodies, id) == 0) continue;
+      const auto [low, high] =
+          std::minmax(frame.body_of(id)->address, frame.body_of(other)->address);
+      return lecture::CollisionDetection::CollisionInfoAsPrinted{low, high}.GetHash();
+    }
+  return 0;
+}
+
 inline std::uint64_t count_of(BodyMeasure what, BodyId id, const Frame& frame) {
   if (what == BodyMeasure::pairs)
     return static_cast<std::uint64_t>(std::ranges::count_if(
         frame.pairs, [&](const FramePair& p) { return p.pair.a == id || p.pair.b == id; }));
+  if (what == BodyMeasure::address) return frame.body_of(id)->address;
+  if (what == BodyMeasure::key) return key_of_first_pair(id, frame);
   const auto stored = stored_bodies(frame)[id];
   return what == BodyMeasure::leaves ? stored.leaves : stored.depth;
 }

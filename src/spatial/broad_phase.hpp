@@ -44,6 +44,7 @@ struct PairChain {
   std::uint64_t besides = 0;      // tests that it took to meet them: of nodes, rows, planes
   std::vector<Pair> pairs;        // each once, in order of ids
   std::vector<Pair> overlapping;  // of these, those whose boxes overlap: the narrow phase's work
+  std::uint64_t lost = 0;         // as printed: met, but mistaken for another pair
 };
 
 template <int D>
@@ -103,8 +104,10 @@ class BroadPhase {
   StructureKind kind() const { return dynamic_.kind; }
 
   // What an update would find in the structures as they stand, bodies with `awake(id)` moving. At
-  // most `most` pairs of each kind: throws Refused beyond.
-  PairChain pair_chain(FunctionRef<bool(BodyId)> awake, std::uint64_t most) const;
+  // most `most` pairs of each kind: throws Refused beyond. With addresses, of those that the
+  // lecture's text takes for the same pair, only the first that was met.
+  PairChain pair_chain(FunctionRef<bool(BodyId)> awake, std::uint64_t most,
+                       FunctionRef<std::uint64_t(BodyId)> address = {}) const;
 
   // Of the last update.
   const std::vector<Pair>& pairs() const { return pairs_; }

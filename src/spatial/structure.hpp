@@ -205,6 +205,7 @@ struct StructureConfig {
   double margin = 0;         // of an aabb_tree: how far boxes are enlarged on every side
   Following following = Following::automatic;  // of an aabb_tree
   std::optional<int> sweep_axis = {};          // of sort_and_sweep; none: that of most variance
+  bool as_printed = false;  // of lecture_quadtree: with the two mistakes of the lecture's text
 };
 
 // What an algorithm does, told while it does it.

@@ -67,11 +67,13 @@ enum class Setting {
   margin,
   following,
   axis,
-  planes
+  planes,
+  as_printed,
+  root
 };
 inline constexpr std::string_view kSettingNames[] = {
-    "capacity",  "max_depth", "children", "no_progress_stop", "cell", "levels", "open", "margin",
-    "following", "axis",      "planes"};
+    "capacity", "max_depth", "children", "no_progress_stop", "cell",       "levels", "open",
+    "margin",   "following", "axis",     "planes",           "as_printed", "root"};
 constexpr std::string_view to_string(Setting setting) {
   return kSettingNames[static_cast<std::size_t>(setting)];
 }

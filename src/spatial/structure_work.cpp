@@ -1,7 +1,10 @@
 // What is told of structures beside the pairs: the way to them, their work, and which to choose.
+#include <map>
+#include <set>
 #include <unordered_map>
 
 #include "geometry/shape.hpp"
+#include "lecture/collision_detection.hpp"
 #include "spatial/broad_phase.hpp"
 #include "spatial/pairs.hpp"
 #include "spatial/trees/kd_tree.hpp"
@@ -133,7 +136,8 @@ std::string percent(double share) {
 }  // namespace
 
 template <int D>
-PairChain BroadPhase<D>::pair_chain(FunctionRef<bool(BodyId)> awake, std::uint64_t most) const {
+PairChain BroadPhase<D>::pair_chain(FunctionRef<bool(BodyId)> awake, std::uint64_t most,
+                                    FunctionRef<std::uint64_t(BodyId)> address) const {
   std::vector<bool> stirring;
   for (std::size_t i = 0; i < dynamic_.boxes.size(); ++i)
     stirring.push_back(!dynamic_.state(i).is_static && awake(dynamic_.id(i)));
@@ -159,6 +163,15 @@ PairChain BroadPhase<D>::pair_chain(FunctionRef<bool(BodyId)> awake, std::uint64
     if (stirring[i]) chain.besides += of_static.near(dynamic_.boxes[i], near);
     for (const BodyId j : near) meet(i, static_, j);
   }
+  std::map<lecture::CollisionDetection::CollisionInfoAsPrinted, Pair> first;
+  std::set<Pair> lost;
+  if (address)
+    std::erase_if(met, [&](const Met& both) {
+      const auto [low, high] = std::minmax({address(both.pair.a), address(both.pair.b)});
+      const Pair& known = first.try_emplace({low, high}, both.pair).first->second;
+      return known != both.pair && (lost.insert(both.pair), true);
+    });
+  chain.lost = lost.size();
   std::ranges::sort(met, [](const Met& x, const Met& y) {
     stop_if_asked();
     return x.pair < y.pair;
@@ -171,8 +184,10 @@ PairChain BroadPhase<D>::pair_chain(FunctionRef<bool(BodyId)> awake, std::uint64
   return chain;
 }
 
-template PairChain BroadPhase<2>::pair_chain(FunctionRef<bool(BodyId)>, std::uint64_t) const;
-template PairChain BroadPhase<3>::pair_chain(FunctionRef<bool(BodyId)>, std::uint64_t) const;
+template PairChain BroadPhase<2>::pair_chain(FunctionRef<bool(BodyId)>, std::uint64_t,
+                                             FunctionRef<std::uint64_t(BodyId)>) const;
+template PairChain BroadPhase<3>::pair_chain(FunctionRef<bool(BodyId)>, std::uint64_t,
+                                             FunctionRef<std::uint64_t(BodyId)>) const;
 
 bool counts_its_work(StructureKind kind) {
   return std::ranges::count(kStructureKinds, kind) > 0 && !traits_of(kind).is_plain;

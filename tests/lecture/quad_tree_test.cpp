@@ -1,7 +1,9 @@
 // The lecture's quadtree against all pairs, and each of its mended mistakes.
 #include "lecture/quad_tree.hpp"
 
+#include <algorithm>
 #include <set>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -116,6 +118,46 @@ TEST(LectureQuadTree, MendedTouchingIsOverlap) {
   EXPECT_EQ(shared_leaves(tree), (Pairs{{0, 1}}));
 }
 
+// Each is there before the next line of Split has run.
+TEST(LectureQuadTree, SplitMakesOneChildAfterTheOther) {
+  struct Counting : NobodyWatches {
+    const QuadTree<int>* tree;
+    std::vector<std::ptrdiff_t> made = {};
+    void Made(QuadTreeNode<int>& child) {
+      child.number = static_cast<int>(made.size()) + 1;
+      made.push_back(std::ranges::count_if(tree->GetRoot().GetChildren(),
+                                           [](const auto& node) { return node.number > 0; }));
+    }
+  };
+  QuadTree<int> tree(Vector2(8.0), 1, 1);
+  Counting watch{{}, &tree};
+  tree.Insert(0, {-4, 0, 4}, Vector3(1.0), watch);
+  tree.Insert(1, {4, 0, 4}, Vector3(1.0), watch);
+  EXPECT_EQ(watch.made, (std::vector<std::ptrdiff_t>{1, 2, 3, 4}));
+}
+
+TEST(LectureQuadTree, AsPrintedWhatLiesOutsideIsLost) {
+  for (const bool printed : {true, false}) {
+    QuadTree<int> tree(Vector2(8.0), 2, 1, Vector2(0.0), printed);
+    tree.Insert(0, {20, 0, 3}, Vector3(1.0));
+    tree.Insert(1, {21, 0, 3}, Vector3(1.0));
+    EXPECT_EQ(leaves_of(tree, 0) > 0, !printed);
+    EXPECT_EQ(shared_leaves(tree), printed ? Pairs{} : (Pairs{{0, 1}}));
+    tree.Insert(2, {-4, 0, -4}, Vector3(1.0));
+    tree.Insert(3, {-5, 0, -4}, Vector3(1.0));
+    EXPECT_TRUE(shared_leaves(tree).contains({2, 3})) << "inside nothing is";
+  }
+}
+
+TEST(LectureQuadTree, AsPrintedTwoPairsMayHaveOneKey) {
+  using Info = CollisionDetection::CollisionInfoAsPrinted;
+  EXPECT_EQ((Info{8096, 9984}.GetHash()), 8096u + 256u * 9984u);
+  EXPECT_EQ((std::set<Info>{{8096, 9984}, {4000, 10000}}.size()), 1u);
+  EXPECT_EQ((std::set<Info>{{8096, 9984}, {4000, 10001}}.size()), 2u);
+  const Info low{1, 2}, high{2, 2};
+  EXPECT_TRUE(low < high && !(high < low) && low.GetHash() < high.GetHash());
+}
+
 TEST(LectureQuadTree, MendedWhatLiesOutsideIsKept) {
   QuadTree<int> tree(Vector2(8.0), 4, 1);
   tree.Insert(0, {100, 0, 50}, Vector3(1.0));
@@ -169,7 +211,8 @@ struct Counts {
   void Tested(const QuadTreeNode<int>&, int, bool) { ++tested; }
   void Stored(const QuadTreeNode<int>&, int, int) { ++stored; }
   void HandedDown(const QuadTreeNode<int>&, int) { ++handed_down; }
-  void Split(QuadTreeNode<int>&, int, int) { ++splits; }
+  void Split(const QuadTreeNode<int>&, int, int) { ++splits; }
+  void Made(QuadTreeNode<int>&) {}
 };
 
 TEST(LectureQuadTree, AsksForMemoryOnceAnEntryAndOnceASplit) {

@@ -1,4 +1,5 @@
 // The lecture's quadtree behind the contract of all structures.
+#include <array>
 #include <map>
 #include <set>
 #include <string>
@@ -6,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/random_vec.hpp"
+#include "spatial/broad_phase.hpp"
 #include "spatial/pairs.hpp"
 #include "spatial/picture.hpp"
 #include "spatial/query.hpp"
@@ -105,6 +107,27 @@ TEST(LectureQuadtree, HasTheNodesOfTheEngines) {
                                           .max_depth = 4,
                                           .eager_children = true,
                                           .no_progress_stop = false}));
+}
+
+// Four bodies in one leaf: as many pairs are lost as the lecture's set takes for others.
+TEST(LectureQuadtree, AsPrintedOnePairOfAKeyIsKept) {
+  BroadPhaseConfig<2> config;
+  config.kind = StructureKind::lecture_quadtree;
+  config.bounds = {Vec<2>(0.0), Vec<2>(64.0)};
+  BroadPhase<2> broad(config);
+  std::vector<Proxy<2>> proxies;
+  for (BodyId id = 0; id < 4; ++id) proxies.push_back({id, Box<2>::around(Vec<2>(20), Vec<2>(2))});
+  broad.build(proxies);
+  const auto chain = [&](const std::array<std::uint64_t, 4>& addresses) {
+    return broad.pair_chain([](BodyId) { return true; }, 100,
+                            [&](BodyId id) { return addresses[id]; });
+  };
+  const PairChain whole = chain({64, 128, 192, 256}), less = chain({8096, 9984, 4000, 10000});
+  EXPECT_EQ(whole.pairs.size(), 6u);
+  EXPECT_EQ(whole.lost, 0u);
+  EXPECT_EQ(less.lost, 1u);
+  EXPECT_EQ(less.pairs, (std::vector<Pair>{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}}))
+      << "2 and 3 have the key of 0 and 1, which came first";
 }
 
 TEST(LectureQuadtree, HandlesAreNumbersBelowTheCountAndStay) {

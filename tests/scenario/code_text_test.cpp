@@ -63,7 +63,9 @@ TEST(CodeText, PlacesEventsWhereTheWatcherIsTold) {
     ASSERT_EQ(light_line(code, place->line), 1u) << event;
     for (const FrameCode::Line& line : code.lines)
       if (line.lit) {
-        EXPECT_NE(lines_of(code.file).at(line.number).find(call), std::string::npos) << event;
+        const auto lines = lines_of(code.file);  // one before it, and one behind
+        const std::string near = lines.at(line.number - 2) + lines.at(line.number);
+        EXPECT_NE(near.find(call), std::string::npos) << event;
       }
   }
   for (const char* event :
@@ -93,7 +95,7 @@ TEST(CodeText, FollowsEventsAndSteps) {
   };
   const std::vector<Frame> frames = frames_of("lecture_code");
   EXPECT_TRUE(lit(at(frames, "store")).starts_with("contents.push_back("));
-  EXPECT_EQ(lit(at(frames, "split")), "Split();");
+  EXPECT_EQ(lit(at(frames, "split")), "Split(watch);");
   EXPECT_EQ(lit(at(frames, "three")), "contents.clear();");
   EXPECT_EQ(at(frames, "narrow_phase").find<FrameCode>()->function, "PhysicsSystem::NarrowPhase");
   EXPECT_EQ(at(frames, "answer").find<FrameCode>()->lines.front().lit, false);

@@ -65,21 +65,24 @@ void expect_no_pair_missed(const Frame& frame, const Rules& rules) {
     EXPECT_FALSE(rules.rests(*by_id[p.a]) && rules.rests(*by_id[p.b]))
         << by_id[p.a]->name << " and " << by_id[p.b]->name << " rest, on " << frame.index;
   }
-  if (is_midst_of_insertion(frame) || frame.get<FrameStructure>().swept_to || rules.is_stale(frame))
+  if (is_midst_of_insertion(frame) || frame.get<FrameStructure>().swept_to ||
+      rules.is_stale(frame) || frame.as_printed)
     return;
   for (const FrameBody& a : frame.bodies)
     for (const FrameBody& b : frame.bodies) {
-      if (a.id >= b.id || !overlap(a.box, b.box)) continue;
+      if (a.id >= b.id || !overlap(a.box, b.box) || !a.has_volume || !b.has_volume) continue;
       if (rules.rests(a) && rules.rests(b)) continue;
       EXPECT_TRUE(listed.contains({a.id, b.id}))
           << a.name << " and " << b.name << " overlap, but are no pair on " << frame.index;
     }
 }
 
-// The course shows one missed pair, and says so.
+// The course shows one missed pair, and says so; the lecture's code as printed misses one at a
+// time.
 void expect_missed_where_told(const Frame& frame) {
-  const bool told = frame.scenario == "kdtree_static" && frame.event == "missed" &&
-                    frame.structure == StructureKind::kd_tree;
+  const bool told = (frame.scenario == "kdtree_static" && frame.event == "missed" &&
+                     frame.structure == StructureKind::kd_tree) ||
+                    (frame.as_printed && frame.time > 0);
   EXPECT_EQ(missed_pairs(frame).size(), told ? 1u : 0u) << frame.event;
   for (const Frame& side : frame.sides) expect_missed_where_told(side);
 }

@@ -263,6 +263,12 @@ TEST(PhysicsPromises, AreOfWhatIsCountedHere) {
   expect_mistakes(kPhysicsScene + steps({show + "@stale = 1 }"}), {"no kd_tree at this step"});
   good(kPhysicsScene + steps({"do = \"rebuild\"\nkind = \"kd_tree\"\nexpect = { stale = 0 }"}));
   expect_mistakes(kPhysicsScene + steps({show + "@swaps = 1 }"}), {"no sort_and_sweep"});
+  expect_mistakes(kPhysicsScene + steps({show + "@pairs_lost = 1 }"}), {"is as printed"});
+  expect_mistakes(
+      kPhysicsScene + steps({"do = \"rebuild\"\nkind = \"quadtree\"\n@as_printed = true"}),
+      {"is not printed"});
+  good(kPhysicsScene + steps({"do = \"rebuild\"\nkind = \"lecture_quadtree\"\nas_printed = true\n"
+                              "expect = { pairs_lost = 0 }"}));
   for (const std::string count : {"reinserted", "refitted", "tree_cost"})
     expect_mistakes(kPhysicsScene + steps({show + "@" + count + " = 1 }"}), {"no aabb_tree"});
   for (const std::string count : {"slots", "node_bytes", "node_bytes_with_bounds", "nodes_asleep",

@@ -76,8 +76,8 @@ TEST(Sides, ShareTheClockAndThePage) {
 // What FRAME.md says of a frame with sides: no facts but those of all sides.
 void expect_no_facts_of_its_own(const Frame& frame) {
   static const std::set<std::string> kOfAll = {
-      "format", "scenario", "frame",    "time",     "step",  "event", "caption",
-      "seed",   "ending",   "headline", "question", "sides", "hash"};
+      "format", "scenario", "frame",    "time",  "step", "event", "caption", "seed",
+      "ending", "headline", "question", "sides", "hash", "code",  "words"};
   const nlohmann::json facts = nlohmann::json::parse(to_json(frame));
   ASSERT_TRUE(facts.contains("sides"));
   for (const auto& [member, value] : facts.items())

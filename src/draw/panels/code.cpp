@@ -199,11 +199,12 @@ PanelEntry code_panel() {
            .words = "the `code` of the lecture, one function of it",
            .needs = "it needs a step with 'code'",
            .possible = language::has_code,
+           .of_all_sides = true,
            .example =
                [] {
                  return language::example_of("world") +
                         "\n[[step]]\ndo = \"show\"\ncode = { function = \"Insert\", line = "
-                        "\"Split();\" }\n";
+                        "\"Split(\" }\n";
                }},
           {.shows = {{"lines of code", has_part<FrameCode>}}},
           {.draw = draw_as<CodeView>, .weight = 1.3, .inset = 3, .smallest = {300, 160}}};

@@ -207,8 +207,9 @@ void draw_bodies(const World2D& w, bool boxes) {
     }
     const DrawList::Scope scope(w.list, body_key("world/box", *stand->bodies[0]));
     const Look look = stand->bodies[0]->look;
-    const bool is_its_box = look == Look::bat || look == Look::box || look == Look::person;
-    if (!stand->outside && (is_lit(*stand) || (boxes && count <= kMostBoxed && !is_its_box &&
+    const bool has_none = look == Look::bat || look == Look::box || look == Look::person ||
+                          !stand->bodies[0]->has_volume;
+    if (!stand->outside && (is_lit(*stand) || (boxes && count <= kMostBoxed && !has_none &&
                                                !stand->bodies[0]->dimmed)))
       w.list.rect(page_part(page_box(*stand->bodies[0], w.map), w.map), Role::none,
                   is_lit(*stand) ? Stroke{Role::lit, 2.8} : Stroke{Role::quiet_ink, 1.5, 5});

@@ -176,7 +176,7 @@ void draw_broad_boxes(const World2D& w) {
   Pen pen(w.list, mark_limit(w.map));
   std::size_t drawn = 0;
   for (const FrameBody& body : w.frame.bodies) {
-    if (is_half_space(body) || body.dimmed) continue;
+    if (is_half_space(body) || body.dimmed || !body.has_volume) continue;
     if (++drawn > kMostBoxes) return;
     const Box<2> box = w.map.to_page(body.box);
     if (!holds(shrunk(w.map.picture(), -30), box)) continue;

@@ -78,6 +78,10 @@ constexpr OwnSetting kOwnSettings[] = {
      "follows no bodies", "does"},
     {Setting::axis, [](const StructureSpec& s) { return s.axis != SweepAxis::widest; },
      "has no axis"},
+    {Setting::as_printed, [](const StructureSpec& s) { return s.as_printed; }, "is not printed",
+     "is"},
+    {Setting::root, [](const StructureSpec& s) { return s.root != Vec<3>(0.0); },
+     "is as large as the world"},
 };
 
 void check_kind(const TableReader& table, const StructureSpec& s, const Draft& draft) {
@@ -170,6 +174,14 @@ TableDoc structure_table() {
       key(&S::axis, "axis",
           "Of `sort_and_sweep`: along which it sorts, `widest` for the one along which centres "
           "vary most."),
+      key(&S::as_printed, "as_printed",
+          "Of a `lecture_quadtree`: with two mistakes of the lecture's text. A pair's key is a + "
+          "(b "
+          "<< 8), of the bodies' addresses, and of pairs with the same key one is kept; what lies "
+          "outside of the root is in no leaf."),
+      key(&S::root, "root",
+          "Of a `lecture_quadtree`: how large its root is, from the world's lowest corner on.",
+          range(1e-6, kFar), or_else("as large as the world")),
       key(KeyType::tables, "planes", "A BSP's dividing lines or planes.", at_most(255),
           holds("structure.planes")),
   };

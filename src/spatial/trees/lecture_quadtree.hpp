@@ -30,7 +30,7 @@ class LectureQuadtree final : public StructureOf<LectureQuadtree, 2> {
   template <class Observer>
   void add(const Item<2>& item, Observer&& observer) {
     const auto [pos, size] = flat(item.box);
-    Watch<Observer> watch{*this, observer};
+    Watch<Observer> watch{*this, observer, item.id};
     tree_.Insert(item.id, pos, size, watch);
   }
 
@@ -77,15 +77,17 @@ class LectureQuadtree final : public StructureOf<LectureQuadtree, 2> {
   Tree empty_tree() const {
     const Box<2>& box = config_.bounds;
     return Tree(box.hi * 0.5 - box.lo * 0.5, static_cast<int>(config_.max_depth),
-                static_cast<int>(config_.capacity), Halving<2>::middle(box));
+                static_cast<int>(config_.capacity), Halving<2>::middle(box), config_.as_printed);
   }
 
   // Centre and half sizes, as the text wants them. Of a box that is endless on one side they would
-  // lose the other, so the box is clamped to the root first, as the tree would do anyway.
+  // lose the other, so the box is clamped to the root first, as the tree would do anyway, unless it
+  // is as printed.
   std::pair<Vector3, Vector3> flat(const Box<2>& box) const {
     Vector3 pos(0.0), size(0.0);
     for (const int axis : {0, 1}) {
-      const double from = config_.bounds.lo[axis], to = config_.bounds.hi[axis];
+      const Box<2>& room = config_.as_printed ? box : config_.bounds;
+      const double from = room.lo[axis], to = room.hi[axis];
       const double lo = std::clamp(box.lo[axis], from, to), hi = std::clamp(box.hi[axis], from, to);
       pos[2 * axis] = lo * 0.5 + hi * 0.5;
       size[2 * axis] = hi * 0.5 - lo * 0.5;
@@ -98,6 +100,7 @@ class LectureQuadtree final : public StructureOf<LectureQuadtree, 2> {
   struct Watch {
     LectureQuadtree& tree;
     Observer& observer;
+    BodyId last;
 
     void tell(Event::Kind kind, const Node& node, BodyId body, std::uint32_t count = 0) {
       observer(Event{kind, handle(node), body, count, count > 0 ? tree.config_.capacity : 0});
@@ -116,16 +119,17 @@ class LectureQuadtree final : public StructureOf<LectureQuadtree, 2> {
       if (count <= tree.config_.capacity) return;
       tell(depthLeft > 0 ? Event::Kind::split : Event::Kind::depth_limit, node, body, count);
     }
-    void Split(Node& node, BodyId last, int depthLeft) {
+    void Split(const Node& node, BodyId /*last*/, int depthLeft) {
       Counters& c = tree.counters_;
       ++c.splits;
       ++c.allocations;
       c.entries -= node.GetContents().size();
       c.depth = std::max<std::uint64_t>(c.depth, tree.config_.max_depth - depthLeft + 1);
-      // All are there before the first is told of.
-      for (Node& child : node.GetChildren()) child.number = static_cast<int>(c.nodes++);
-      for (Node& child : node.GetChildren()) tell(Event::Kind::make_child, child, last);
-      tree.require_room(c.nodes, "nodes", last);
+      tree.require_room(c.nodes + 4, "nodes", last);
+    }
+    void Made(Node& child) {
+      child.number = static_cast<int>(tree.counters_.nodes++);
+      tell(Event::Kind::make_child, child, last);
     }
     void HandedDown(const Node& node, BodyId body) { tell(Event::Kind::hand_down, node, body); }
   };
@@ -139,7 +143,9 @@ class LectureQuadtree final : public StructureOf<LectureQuadtree, 2> {
         config_.capacity);
   }
 
-  static NodeHandle handle(const Node& node) { return static_cast<NodeHandle>(node.number); }
+  static NodeHandle handle(const Node& node) {  // the root has none of its own
+    return static_cast<NodeHandle>(std::max(node.number, 0));
+  }
 
   // Boxes are halved on the way down, so that neighbours share their borders exactly; the tree's
   // own centres and sizes are rounded.
@@ -158,6 +164,7 @@ class LectureQuadtree final : public StructureOf<LectureQuadtree, 2> {
     if (!f(std::as_const(view)) || view.leaf) return;
     const Vec<2> middle = Halving<2>::middle(view.box);
     for (std::uint32_t i = 0; i < 4; ++i) {
+      if (node.GetChildren()[i ^ first].number < 0) continue;  // in the midst of a split
       NodeView<2> child = view;
       child.parent = view.id;
       child.slot = i ^ first;

@@ -28,7 +28,8 @@ const StructureEntry octree_entry{kTraits<3>, nullptr, made<Octree>};
 
 const StructureEntry lecture_quadtree_entry{
     {.words = "lecture's quadtree",
-     .settings = bits_of({Setting::capacity, Setting::max_depth}),
+     .settings =
+         bits_of({Setting::capacity, Setting::max_depth, Setting::as_printed, Setting::root}),
      .ignores_height = true,
      .is_plain = true},
     made<LectureQuadtree>,
