@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -118,22 +119,28 @@ TEST(LectureQuadTree, MendedTouchingIsOverlap) {
   EXPECT_EQ(shared_leaves(tree), (Pairs{{0, 1}}));
 }
 
-// Each is there before the next line of Split has run.
+// Each child is told of when it covers its quarter, and the later ones cover nothing yet.
 TEST(LectureQuadTree, SplitMakesOneChildAfterTheOther) {
-  struct Counting : NobodyWatches {
+  struct Looking : NobodyWatches {
     const QuadTree<int>* tree;
-    std::vector<std::ptrdiff_t> made = {};
-    void Made(QuadTreeNode<int>& child) {
-      child.number = static_cast<int>(made.size()) + 1;
-      made.push_back(std::ranges::count_if(tree->GetRoot().GetChildren(),
-                                           [](const auto& node) { return node.number > 0; }));
+    std::vector<std::string> made = {};
+    void Made(QuadTreeNode<int>&) {
+      std::string& covered = made.emplace_back();
+      for (const auto& child : tree->GetRoot().GetChildren()) {
+        char is_there = '-';
+        for (const double x : {-4, 4})
+          for (const double z : {-4, 4})
+            child.OperateOnContents([&](const Entries&) { is_there = '+'; }, {x, 0, z},
+                                    Vector3(1.0));
+        covered += is_there;
+      }
     }
   };
   QuadTree<int> tree(Vector2(8.0), 1, 1);
-  Counting watch{{}, &tree};
+  Looking watch{{}, &tree};
   tree.Insert(0, {-4, 0, 4}, Vector3(1.0), watch);
   tree.Insert(1, {4, 0, 4}, Vector3(1.0), watch);
-  EXPECT_EQ(watch.made, (std::vector<std::ptrdiff_t>{1, 2, 3, 4}));
+  EXPECT_EQ(watch.made, (std::vector<std::string>{"+---", "++--", "+++-", "++++"}));
 }
 
 TEST(LectureQuadTree, AsPrintedWhatLiesOutsideIsLost) {

@@ -189,10 +189,10 @@ void draw_broad_boxes(const World2D& w) {
     w.list.marks.add(MarkKind::box);
     if (!body.lit)  // the others have one already
       w.list.rect(box, Role::none, {Role::quiet_ink, 1.8, 6});
-    if (const auto edges = half_edges_of(body, w.map.scale()))
-      draw_projections(w, body, *edges, box, pen);
-    else if (body.lit || w.frame.bodies.size() <= kFewBodies)
-      draw_half_sizes(w, body, box, pen);
+    const auto edges = half_edges_of(body, w.map.scale());
+    if (!edges && !body.lit && w.frame.bodies.size() > kFewBodies) continue;
+    edges ? draw_projections(w, body, *edges, box, pen) : draw_half_sizes(w, body, box, pen);
+    w.list.referents.insert({"half_width." + body.name, "half_height." + body.name});
   }
 }
 
