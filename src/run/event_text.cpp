@@ -163,11 +163,11 @@ std::string phase_text(std::string_view phase, const Frame& frame) {
   const auto pairs = static_cast<std::int64_t>(frame.pairs.size());
   const auto contacts = static_cast<std::int64_t>(frame.contacts.size());
   if (phase == "broad_phase")
-    return fmt::format("Broad phase: {}, where brute force has {}. These might touch.",
+    return fmt::format("Broad phase: {}, instead of {} by brute force. These might touch.",
                        counted(pairs, "candidate pair"), frame.count("testable_pairs").value_or(0));
   const std::int64_t overlaps = frame.count("overlaps").value_or(0);
   if (phase == "boxes")
-    return fmt::format("Boxes: of {}, {} overlap. Only their shapes need a test.",
+    return fmt::format("Broad phase, second part: of {}, {} overlap. Only their shapes need a test.",
                        counted(pairs, "candidate pair"),
                        overlaps == pairs ? "all" : fmt::format("the boxes of {}", overlaps));
   if (phase == "narrow_phase") {
