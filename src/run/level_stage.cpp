@@ -86,6 +86,15 @@ void LevelStage::compile(const Watch& watch) {
   lit_line_ = {};
 }
 
+// "13 − 11 + 3 · 2 = 8": how far the sides differ, and what the cuts cost.
+static std::string score_text(const LineChoice& line, double balance, double cut) {
+  const auto [less, more] = std::minmax(line.front, line.back);
+  std::string sum = fmt::format("{} − {}", more, less);
+  if (balance != 1) sum = fmt::format("{:.4g} · ({})", balance, sum);
+  if (line.cuts > 0) sum += fmt::format(" + {:.4g} · {}", cut, line.cuts);
+  return fmt::format("{} = {:.4g}", sum, line.score);
+}
+
 std::string LevelStage::told(const LevelBsp& level, const LevelEvent& event) {
   using Kind = LevelEvent::Kind;
   const LevelNode& node = level.nodes()[event.node];
@@ -94,14 +103,9 @@ std::string LevelStage::told(const LevelBsp& level, const LevelEvent& event) {
       return fmt::format("A region with {}. Does one of them lie behind another?",
                          counted(event.line.front, "wall piece"));
     case Kind::choose:
-      return fmt::format(
-                 "Wall {} has the best line: {} in front, {} behind, {} cut. Score {:.4g}; ",
-                 event.line.wall + 1, event.line.front, event.line.back, event.line.cuts,
-                 event.line.score) +
-             (event.line.score < node.first.score
-                  ? fmt::format("the first line that divides them at all would score {:.4g}.",
-                                node.first.score)
-                  : "the first line that divides them is as good.");
+      return fmt::format("Wall {} has the best line: {} in front, {} behind, {} cut. Score: {}.",
+                         event.line.wall + 1, event.line.front, event.line.back, event.line.cuts,
+                         score_text(event.line, spec_.balance, spec_.cuts));
     case Kind::cut:
       return fmt::format("The line cuts wall {} in two.", event.line.wall + 1);
     case Kind::sector:
@@ -167,7 +171,7 @@ void LevelStage::see(const std::optional<Vec<2>>& eye, const Watch& watch) {
 
 std::string LevelStage::told(const LevelVisibility& seen) const {
   if (viewer_ == kNone)
-    return fmt::format("{} between the sectors: what is no wall can be looked through.",
+    return fmt::format("{} between the sectors: openings that one can look through.",
                        counted(seen.portals.size(), "portal"));
   std::uint32_t others = 0;
   for (std::uint32_t s = 0; s < seen.sectors; ++s) others += s != viewer_ && seen.sees(viewer_, s);

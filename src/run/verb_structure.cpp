@@ -29,7 +29,8 @@ std::vector<BodyId> in_order(const Frame& frame) {
 
 // With what of those that begin later, and before it ends, it was compared.
 std::string text_of(const std::string& name, const std::vector<std::string>& others) {
-  if (others.empty()) return fmt::format("Nobody begins before {} ends: nothing to compare.", name);
+  if (others.empty())
+    return fmt::format("No later body begins before {} ends: nothing to compare.", name);
   return fmt::format("Before {} ends, {} begin{}: {} to compare.", name, fmt::join(others, " and "),
                      others.size() == 1 ? "s" : "", counted(others.size(), "pair"));
 }
