@@ -68,7 +68,7 @@ void LevelStage::compile(const Watch& watch) {
     const bool lights = event.kind == Kind::choose || event.kind == Kind::cut;
     lit_line_ = lights ? event.line : LineChoice();
     constexpr std::string_view kNames[] = {"consider", "", "choose", "cut", "", "sector"};
-    watch({kNames[static_cast<int>(event.kind)], told(level, event)});
+    watch({kNames[static_cast<int>(event.kind)], told(event)});
   };
   level_.reset();
   visibility_.reset();
@@ -95,9 +95,8 @@ static std::string score_text(const LineChoice& line, double balance, double cut
   return fmt::format("{} = {:.4g}", sum, line.score);
 }
 
-std::string LevelStage::told(const LevelBsp& level, const LevelEvent& event) {
+std::string LevelStage::told(const LevelEvent& event) const {
   using Kind = LevelEvent::Kind;
-  const LevelNode& node = level.nodes()[event.node];
   switch (event.kind) {
     case Kind::consider:
       return fmt::format("A region with {}. Does one of them lie behind another?",

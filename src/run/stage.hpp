@@ -54,7 +54,7 @@ class LevelStage {
   using NodeOfSector = std::vector<std::uint32_t>;   // of frame.nodes
 
   const LevelBsp& compiled() const;
-  std::string told(const LevelBsp& level, const LevelEvent& event);
+  std::string told(const LevelEvent& event) const;
   std::string told(const LevelVisibility& seen) const;
   bool is_seen(std::uint32_t sector) const;
   void picture_walls(Frame& frame) const;
