@@ -245,8 +245,9 @@ std::string side_word(const FrameNode& parent, std::uint32_t slot) {
 std::vector<std::string> leaf_names(const Frame& frame, const FrameNode& leaf) {
   if (traits_of(frame.structure).names != NodeNames::sides || leaf.parent == kNone)
     return {leaf.label};
-  if (is_level(frame) && leaf.mark == Mark::lit) return {"sector " + leaf.label, leaf.label};
-  if (is_level(frame)) return {leaf.label};
+  if (is_level(frame) && std::isdigit(static_cast<unsigned char>(leaf.label[0])) != 0)
+    return leaf.mark == Mark::lit ? std::vector{"sector " + leaf.label, leaf.label}
+                                  : std::vector{leaf.label};
   const FrameNode& parent = frame.nodes[leaf.parent];
   const std::string side = side_word(parent, leaf.slot);
   if (parent.parent == kNone) return {side};

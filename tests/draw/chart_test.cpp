@@ -214,7 +214,7 @@ TEST(Chart, OfBarsThatAreToComeHasNoAxes) {
   FrameChart chart;
   chart.y_name = "pairs";
   const DrawList list = page_of(charted(chart));
-  EXPECT_TRUE(says(list, "pairs"));
+  EXPECT_TRUE(says(list, "candidate pairs"));
   for (const LabelBox& label : list.labels) EXPECT_NE(label.text, "0") << "a tick of nothing";
 }
 

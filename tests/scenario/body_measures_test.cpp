@@ -204,7 +204,7 @@ TEST(ChartOverTime, NeedsNoPlotAndTakesNone) {
       world_text(kBobWorld, chart + kBobs + kInsertBobs + kHalfSecond + "@plot = \"here\"\n"),
       {"over time every frame is plotted by itself"});
   expect_mistakes(
-      world_text(kBobWorld, "[chart]\nx = \"nodes\"\ny = [\"bodies\"]\n@each_part = true\n" +
+      world_text(kBobWorld, "[chart]\nx = \"joints\"\ny = [\"bodies\"]\n@each_part = true\n" +
                                 kBobs + kInsertBobs + "plot = \"a\"\n"),
       {"'each_part' is of bars, or of a chart over time"});
   expect_mistakes(

@@ -15,7 +15,7 @@ TEST(Facts, Pong) {
                           [](const Frame& f) {
                             return f.event == "right" || f.event == "across" || f.event == "left";
                           }),
-            6);
+            3);
   const Frame& split = at(frames, "split");
   EXPECT_EQ(node(split, "root").plane_name, "net");
   EXPECT_EQ(bodies_in(split, "back"), Names({"blue bat"}));

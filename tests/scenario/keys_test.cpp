@@ -859,6 +859,7 @@ std::vector<KeyCase> key_cases() {
         {"[@-1, 8]", "0 to 16384"},
         {"@[9, 0]", "at most [8, 8]"}}},
       {"texture", "size", {"[1, 16384]"}, bad_size()},
+      {"texture", "later", {"true", "false"}, bad_truth()},
       {"texture", "color", {"1", "8"}, color},
       {"texture_pattern", "name", {"\"t\""}, bad_name()},
       {"texture_pattern", "count", {"1", "19999"}, bad_whole("0", "20001", "1 to 20000")},

@@ -227,7 +227,10 @@ void expect_step_from(const Frame& before, const Frame& after, const Chain& chai
     return;
   }
   if (did.steps != 1 || did.broad_phases != 1 || before.structure == StructureKind::none) return;
-  EXPECT_EQ(std::int64_t(did.pair_tests), before.count("pair_tests"));
+  // What follows is asked about those alone that have moved on, and by rows of boxes.
+  if (!traits_of(before.structure).follows) {
+    EXPECT_EQ(std::int64_t(did.pair_tests), before.count("pair_tests"));
+  }
   EXPECT_EQ(std::int64_t(did.candidate_pairs), before.count("overlaps"));
   const std::vector<Pair> overlapping = pairs_of(before, true);
   const auto tested = std::count_if(overlapping.begin(), overlapping.end(),

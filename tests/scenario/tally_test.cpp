@@ -321,7 +321,7 @@ TEST(Tally, OfALevelThatIsNotCompiled) {
 TEST(Tally, TellsAKindOfStructureByItsBuilds) {
   const DryRun run(shipped("pong_bsp"));
   EXPECT_EQ(run.count("structure", "brute_force builds"), 1u);
-  EXPECT_EQ(run.count("structure", "bsp builds"), 12u);
+  EXPECT_EQ(run.count("structure", "bsp builds"), 7u);
 }
 
 TEST(Panels, AreDerivedUnlessGiven) {
