@@ -31,8 +31,8 @@ std::vector<std::string> blocks(const std::string& page, const std::string& lang
 
 // `./run demo` draws with the release build whoever asks, and what is measured under sanitizers
 // says nothing, and sanitized libraries are large to install: their tests need not. The measurement
-// of everything takes a minute, every frame of the demo half of one, and two more of the lab some ten
-// seconds each: these are run where LANTERN_ALL is set, as tests/deep/readme.sh does.
+// of everything takes a minute, every frame of the demo half of one, and two more of the lab some
+// ten seconds each: these are run where LANTERN_ALL is set, as tests/deep/readme.sh does.
 #ifdef __SANITIZE_ADDRESS__
 constexpr bool kRunsAll = false;
 #else

@@ -120,7 +120,7 @@ TEST_F(SameBytes, OfSolidAndMovingWorlds) {
                            const std::string& words) {
       const fs::path out = fresh_folder(folder + "-" + name);
       const Outcome o = shell(before + " lantern render " + scenario(name) +
-                              " --size 480x270 --frames 0-10 " + words + " -o " + out.string());
+                              " --size 480x270 --frames 0-8 " + words + " -o " + out.string());
       EXPECT_EQ(o.code, 0) << o.err;
       Files found;
       for (const auto& entry : fs::directory_iterator(out / name))

@@ -180,7 +180,8 @@ TEST(MeasureErrors, PointAtTheProblemAndLeaveNothingBehind) {
   EXPECT_FALSE(fs::exists(folder / "new")) << "an empty folder is left";
   const Outcome waits = shell("cd " + folder.string() + "; lantern measure waits.toml -o new");
   EXPECT_EQ(waits.code, 3);
-  EXPECT_NE(waits.err.find("waits.toml:17:1: error: no touch of 'a' and 'b' within 1 s"), std::string::npos)
+  EXPECT_NE(waits.err.find("waits.toml:17:1: error: no touch of 'a' and 'b' within 1 s"),
+            std::string::npos)
       << waits.err;
   EXPECT_FALSE(fs::exists(folder / "new"));
   fs::create_directories(folder / "old");

@@ -49,6 +49,7 @@ std::uint64_t microseconds(const Cell& cell) {
   return cell.micros > 0 ? static_cast<std::uint64_t>(cell.micros) : kNoAmount;
 }
 
+bool is_brute_force(const Cell& cell) { return cell.kind == StructureKind::brute_force; }
 bool is_of_lecture(const Cell& cell) { return traits_of(cell.kind).is_of_lecture; }
 
 // The amount of the kind that needs least; of the lecture's own alone, which may be none.
@@ -106,7 +107,7 @@ class ComparisonView : PanelPicture {
       for (const Cell& cell : row.cells) {
         if (amount(cell) == kNoAmount) continue;
         if ((is_of_lecture(cell) && is_ringed(row, cell, amount)) ||
-            (amount == microseconds && cell.kind == StructureKind::brute_force))
+            (amount == microseconds && is_brute_force(cell)))
           scale = std::max(scale, amount(cell));
       }
     const std::size_t down = (table_.rows.size() + kAcross - 1) / kAcross;
@@ -129,7 +130,7 @@ class ComparisonView : PanelPicture {
         add_if([&, least = least_of(row, amount, of_lecture)](const Cell& cell) {
           return amount(cell) == least && (!of_lecture || is_of_lecture(cell));
         });
-      add_if([](const Cell& cell) { return cell.kind == StructureKind::brute_force; });
+      add_if(is_brute_force);
       std::ranges::stable_sort(cells, {}, [&](const Cell* cell) { return amount(*cell); });
       double y = corner.y + 1.6 * kBarLine;
       for (const Cell* cell : cells) {
