@@ -49,7 +49,7 @@ class DifferenceView : PanelPicture {
 
   void draw() {
     if (difference_.corners.empty()) return;
-    heading(fmt::format("every point of {} less every point of {}", name_of(difference_.a),
+    heading(fmt::format("every point of {} minus every point of {}", name_of(difference_.a),
                         name_of(difference_.b)),
             22);
     draw_axes();
