@@ -167,9 +167,10 @@ std::string phase_text(std::string_view phase, const Frame& frame) {
                        counted(pairs, "candidate pair"), frame.count("testable_pairs").value_or(0));
   const std::int64_t overlaps = frame.count("overlaps").value_or(0);
   if (phase == "boxes")
-    return fmt::format("Broad phase, second part: of {}, {} overlap. Only their shapes need a test.",
-                       counted(pairs, "candidate pair"),
-                       overlaps == pairs ? "all" : fmt::format("the boxes of {}", overlaps));
+    return fmt::format(
+        "Broad phase, second part: of {}, {} overlap. Only their shapes need a test.",
+        counted(pairs, "candidate pair"),
+        overlaps == pairs ? "all" : fmt::format("the boxes of {}", overlaps));
   if (phase == "narrow_phase") {
     const std::int64_t tested = frame.count("pairs_tested").value_or(0);
     if (overlaps == 0) return "Narrow phase: no boxes overlap, so no shapes are tested.";
