@@ -256,6 +256,32 @@ TEST(Marks, WhatAStaleStructureMissesIsSaid) {
   }
 }
 
+// How much of the bodies is filled.
+int filled_parts(const DrawList& list) {
+  int filled = 0;
+  for (std::size_t i = 0; i < list.runs.size(); ++i) {
+    if (!list.runs[i].key.starts_with("world/body")) continue;
+    const std::size_t end = i + 1 < list.runs.size() ? list.runs[i + 1].first : list.shapes.size();
+    for (std::size_t k = list.runs[i].first; k < end; ++k)
+      if (const auto* shape = std::get_if<PolygonShape>(&list.shapes[k]))
+        filled += shape->fill != Role::none;
+  }
+  return filled;
+}
+
+TEST(Marks, WhatIsOutlinedHidesNoCells) {
+  Frame frame = run::at(run::frames_of("coincident_max_depth"), "limit_6");
+  EXPECT_EQ(filled_parts(page_of(frame)), 0);
+  frame.display.outlined = false;
+  EXPECT_GT(filled_parts(page_of(frame)), 0);
+}
+
+TEST(Marks, ATextureThatComesLaterWaitsNowhere) {
+  const auto frames = run::frames_of("kdtree_atlas");
+  EXPECT_EQ(labels(page_of(frames.front()), "banner"), 0);
+  EXPECT_GT(labels(page_of(run::at(frames, "refused")), "banner"), 0);
+}
+
 TEST(Marks, ALineOfALevelHasTheNumberOfItsWall) {
   int chosen = 0;
   for (const Frame& frame : run::frames_of("doom_level_bsp")) {

@@ -198,13 +198,35 @@ TEST(ChartOverTime, EachPartMayBeginAnew) {
   EXPECT_NEAR(last.series[0].points.front().x, 0.05, 1e-12) << "time is the part's own";
 }
 
+TEST(ChartOfBars, HasPiecesThatAddUp) {
+  const FrameChart chart = frames_of("buckets").back().get<FrameChart>();
+  ASSERT_EQ(chart.bars.size(), 3u);
+  for (const FrameBar& bar : chart.bars) {
+    ASSERT_EQ(bar.pieces.size(), 2u);
+    EXPECT_EQ(bar.pieces[0] + bar.pieces[1], bar.value) << bar.label;
+  }
+  std::string text = read_text(LANTERN_ROOT "/scenarios/buckets.toml");
+  const std::string both = "[\"box_tests\", \"pair_tests\"]";
+  text.replace(text.find(both), both.size(), "[\"box_tests\", \"pairs\"]");
+  EXPECT_THROW(frames_of(good(text)), ScenarioError) << "a pair met twice is missing";
+}
+
+TEST(ChartOfBars, BeginsAnewWithEachPart) {
+  const auto frames = frames_of("coincident_max_depth");
+  const auto chart = [&](const char* event) { return at(frames, event).get<FrameChart>(); };
+  EXPECT_EQ(chart("limit_8").bars.size(), 3u);
+  EXPECT_EQ(chart("limit_8").part, 0);
+  EXPECT_EQ(chart("before").bars.size(), 1u);
+  EXPECT_EQ(chart("before").part, 1);
+}
+
 TEST(ChartOverTime, NeedsNoPlotAndTakesNone) {
   const std::string chart = "[chart]\nx = \"time\"\ny = [\"energy\"]\n";
   expect_mistakes(
       world_text(kBobWorld, chart + kBobs + kInsertBobs + kHalfSecond + "@plot = \"here\"\n"),
       {"over time every frame is plotted by itself"});
   expect_mistakes(
-      world_text(kBobWorld, "[chart]\nx = \"joints\"\ny = [\"bodies\"]\n@each_part = true\n" +
+      world_text(kBobWorld, "[chart]\nx = \"bodies\"\ny = [\"bodies\"]\n@each_part = true\n" +
                                 kBobs + kInsertBobs + "plot = \"a\"\n"),
       {"'each_part' is of bars, or of a chart over time"});
   expect_mistakes(

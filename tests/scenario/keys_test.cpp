@@ -415,6 +415,7 @@ void add_link_cases(std::vector<KeyCase>& cases) {
   cases.push_back({"chart", "least", {"-3", "0.5"}, bad_number("-1.1e12", "1.1e12")});
   cases.push_back({"chart", "most", {"-3", "0.5"}, bad_number("-1.1e12", "1.1e12")});
   cases.push_back({"chart", "each_part", {"false"}, bad_truth()});
+  cases.push_back({"chart", "pieces", {}, {{"@1", "must be a list"}, {"[@1]", "a list of texts"}}});
   cases.push_back({"chart",
                    "labels",
                    {},
