@@ -72,9 +72,8 @@ std::vector<Counter> default_counters(const Frame& frame) {
     const std::int64_t all = std::max<std::int64_t>(1, count("atlas_area"));
     auto percent = static_cast<std::int64_t>(std::llround(100.0 * double(used) / double(all)));
     if (used > 0 && used < all) percent = std::clamp<std::int64_t>(percent, 1, 99);
-    const auto known = std::ranges::count_if(
-        frame.get<FrameTextures>().textures,
-        [](const auto& texture) { return texture.packed || texture.refused || !texture.later; });
+    const auto known =
+        std::ranges::count_if(frame.get<FrameTextures>().textures, &frame::FrameTexture::has_come);
     return {counted(percent, "% used", "", {}),
             counted(count("textures"), fmt::format("of {} textures", known), "", {"textures"})};
   }

@@ -36,7 +36,7 @@ bool shows_single(const Frame& frame) {
                               [](const FrameTexture& t) { return t.packed || t.refused; });
 }
 
-bool waits(const FrameTexture& t) { return !t.packed && !t.refused && !t.later; }
+bool waits(const FrameTexture& t) { return t.has_come() && !t.packed && !t.refused; }
 
 // Beside a screen there is a strip only while something is in it.
 bool has_strip(const Frame& frame) {

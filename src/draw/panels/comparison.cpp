@@ -52,16 +52,9 @@ std::uint64_t microseconds(const Cell& cell) {
 bool is_brute_force(const Cell& cell) { return cell.kind == StructureKind::brute_force; }
 bool is_of_lecture(const Cell& cell) { return traits_of(cell.kind).is_of_lecture; }
 
-// The amount of the kind that needs least; of the lecture's own alone, which may be none.
-std::uint64_t least_of(const Row& row, Amount amount, bool of_lecture) {
-  std::uint64_t least = kNoAmount;
-  for (const Cell& cell : row.cells)
-    if (!of_lecture || is_of_lecture(cell)) least = std::min(least, amount(cell));
-  return least;
-}
 bool is_ringed(const Row& row, const Cell& cell, Amount amount) {
-  return amount(cell) == least_of(row, amount, false) ||
-         (is_of_lecture(cell) && amount(cell) == least_of(row, amount, true));
+  return amount(cell) == row.least(false, amount) ||
+         (is_of_lecture(cell) && amount(cell) == row.least(true, amount));
 }
 // What a bar of full length stands for: the longest ones, each more than twice as long as the next,
 // are cut, but three are left.
@@ -127,7 +120,7 @@ class ComparisonView : PanelPicture {
           }
       };
       for (const bool of_lecture : {false, true})
-        add_if([&, least = least_of(row, amount, of_lecture)](const Cell& cell) {
+        add_if([&, least = row.least(of_lecture, amount)](const Cell& cell) {
           return amount(cell) == least && (!of_lecture || is_of_lecture(cell));
         });
       add_if(is_brute_force);
@@ -218,7 +211,7 @@ class ComparisonView : PanelPicture {
 
   void write_number(const Row& row, const Cell& cell, const Vec<2>& at, double align,
                     Amount amount) {
-    const bool best = amount(cell) == least_of(row, amount, false);
+    const bool best = amount(cell) == row.least(false, amount);
     const TextStyle style = best ? TextStyle{kLabel, Weight::semibold, Role::lit_ink} : kPlain;
     const std::string text = text_of(amount(cell));
     const Anchor anchor = centred(at, style, align);

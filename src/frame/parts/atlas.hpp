@@ -19,6 +19,8 @@ struct FrameTexture {
   int x = 0;            // of a packed one, upper left corner
   int y = 0;
 
+  bool has_come() const { return packed || refused || !later; }
+
   static auto fields(auto& r, auto&& v) {
     return v("id", r.id)("name", r.name)("size", r.width, r.height)
         .or_null(r.packed, "position", r.x, r.y)("refused", r.refused)

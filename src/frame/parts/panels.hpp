@@ -128,13 +128,16 @@ struct FrameComparison {
       const auto found = std::ranges::find(cells, kind, &Cell::kind);
       return found == cells.end() ? nullptr : &*found;
     }
-    // Comparisons of the kind that needs fewest in a step; of the lecture's own alone, which may
-    // be none.
-    std::uint64_t least(bool of_lecture = false) const {
+    // Comparisons of the kind that needs fewest in a step, or another amount of the kind that has
+    // the least; of the lecture's own alone, which may be none.
+    std::uint64_t least(
+        bool of_lecture = false, std::uint64_t (*amount)(const Cell&) = [](const Cell& cell) {
+          return cell.work.step();
+        }) const {
       std::uint64_t least = kNoWork;
       for (const Cell& cell : cells)
         if (!of_lecture || traits_of(cell.kind).is_of_lecture)
-          least = std::min(least, cell.work.step());
+          least = std::min(least, amount(cell));
       return least;
     }
 
