@@ -10,6 +10,7 @@ pkg_check_modules(deflate REQUIRED IMPORTED_TARGET libdeflate)
 find_path(LANTERN_HWY_DIR hwy/highway.h REQUIRED)
 find_path(LANTERN_STB_DIR stb_truetype.h PATH_SUFFIXES stb REQUIRED)
 find_path(LANTERN_FONT_DIR Inter-Regular.otf PATHS /usr/share/fonts/opentype/inter REQUIRED)
+find_path(LANTERN_CODE_FONT_DIR Inconsolata.otf PATHS /usr/share/fonts/truetype/inconsolata REQUIRED)
 find_path(LANTERN_GL_DIR GL/glcorearb.h REQUIRED)
 # Only measured beside, and only where they are installed; the script `run` does not install them.
 pkg_check_modules(bullet QUIET bullet-float64)

@@ -45,7 +45,8 @@ function(lantern_embed target namespace header)
 endfunction()
 
 lantern_embed(lantern_font font font.hpp
-  ${LANTERN_FONT_DIR}/Inter-Regular.otf ${LANTERN_FONT_DIR}/Inter-SemiBold.otf)
+  ${LANTERN_FONT_DIR}/Inter-Regular.otf ${LANTERN_FONT_DIR}/Inter-SemiBold.otf
+  ${LANTERN_CODE_FONT_DIR}/Inconsolata.otf)
 file(GLOB shaders CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/shaders/*)
 lantern_embed(lantern_shaders shader shaders.hpp ${shaders})
 file(GLOB lecture_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/lecture/*.?pp)

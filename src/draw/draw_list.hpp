@@ -3,6 +3,7 @@
 // order.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <numeric>
@@ -115,7 +116,9 @@ struct PolygonShape {
   bool operator==(const PolygonShape&) const = default;
 };
 
-enum class Weight { regular, semibold };
+// Of the typeface; `code` has letters of one width, for the lines of a program.
+enum class Weight { regular, semibold, code };
+inline constexpr std::array kWeights = {Weight::regular, Weight::semibold, Weight::code};
 
 struct TextShape {
   std::string text;  // UTF-8, one line

@@ -3,6 +3,8 @@
 #include <array>
 #include <atomic>
 #include <charconv>
+#include <mutex>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -66,9 +68,11 @@ struct FontFace {
 };
 
 const FontFace& face(Weight weight) {
-  static const FontFace regular(Weight::regular);
-  static const FontFace semibold(Weight::semibold);
-  return weight == Weight::regular ? regular : semibold;
+  static std::array<std::once_flag, kWeights.size()> once;
+  static std::array<std::optional<FontFace>, kWeights.size()> made;
+  const auto i = static_cast<std::size_t>(weight);
+  std::call_once(once[i], [&] { made[i].emplace(weight); });
+  return *made[i];
 }
 
 // The code point at `at`, which moves behind it. A malformed byte gives U+FFFD and is one byte
@@ -98,7 +102,9 @@ double walk(std::string_view text, Weight weight, const auto& place) {
 }  // namespace
 
 std::string_view font_file(Weight weight) {
-  return weight == Weight::regular ? font::inter_regular_otf : font::inter_semibold_otf;
+  static constexpr std::array files = {&font::inter_regular_otf, &font::inter_semibold_otf,
+                                       &font::inconsolata_otf};
+  return *files[static_cast<std::size_t>(weight)];
 }
 
 std::uint64_t faces_made() { return faces; }

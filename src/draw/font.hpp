@@ -1,4 +1,4 @@
-// The bundled type: Inter, in two weights, embedded in the binary.
+// The bundled type, embedded in the binary: Inter in two weights, and Inconsolata for code.
 #pragma once
 
 #include <cstdint>

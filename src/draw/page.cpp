@@ -25,19 +25,12 @@ void add_rule(DrawList& list, double y, double margin) {
   list.crisp_line({margin, y}, {list.page.x - margin, y}, {Role::rule, 1.6});
 }
 
-// "step 4 of 9" from the right. Gives the left end.
-double draw_step(const Frame& frame, const Box<2>& band, Labels& labels) {
+// The picture's number in its sequence, from 1, at the right. Gives the left end.
+double draw_number(const Frame& frame, const Box<2>& band, Labels& labels) {
   if (frame.steps == 0) return band.hi.x;
-  const double space = text_width(" ", kQuiet);
-  double x = band.hi.x;
-  for (const auto& [word, count] : {std::pair{"of", std::int64_t{frame.steps}},
-                                    std::pair{"step", frame.step + std::int64_t{1}}}) {
-    labels.add_number(count, {x, kTitleLine}, kQuiet, band);
-    x -= Labels::width_of(count, kQuiet) + space;
-    labels.add(word, {{x, kTitleLine}, 1}, kQuiet, band);
-    x -= text_width(word, kQuiet) + space;
-  }
-  return x + space;
+  const std::int64_t number = frame.index + std::int64_t{1};
+  labels.add_number(number, {band.hi.x, kTitleLine}, kQuiet, band);
+  return band.hi.x - Labels::width_of(number, kQuiet);
 }
 
 // A title in bold, and behind it what more there is to say, quietly; both shortened to end at
@@ -259,7 +252,7 @@ std::optional<DrawList> laid_out(const Frame& frame, const Staging& staging, con
     const DrawList::Scope words(list, "page/words");
     if (frame.display.title) {
       const Box<2> band{{margin, 16}, {page.x - margin, kTitleRule - 2}};
-      const double right = draw_step(frame, band, labels) - 36;
+      const double right = draw_number(frame, band, labels) - 36;
       write_title(frame.title, frame.part, 26, {margin, kTitleLine}, right, band, labels);
       add_rule(list, kTitleRule, margin);
     }

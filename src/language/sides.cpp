@@ -61,9 +61,12 @@ class SideWriter {
       if (const TomlEntry* e = entry(side, key.key); e && key.type == KeyType::part)
         override_by(*e);
     for_each_table(file_, "step", [&](TomlTable& step, Place) {
-      for (const char* key : {"expect", "always"})
+      for (const char* key : {"expect", "always", "code"})
         if (TomlEntry* e = entry(step, key))
-          if (auto* table = std::get_if<TomlTable>(&e->value.data)) take_own(*table);
+          if (auto* table = std::get_if<TomlTable>(&e->value.data); table && !take_own(*table))
+            take_out(step, key);
+      keep_own(step, "lit", [&](TomlValue& name) { return take_own(name); });
+      keep_own(step, "note", [&](TomlValue& note) { return take_own_note(note); });
     });
     narrow_chart();
     return std::move(file_);
@@ -86,7 +89,8 @@ class SideWriter {
   }
 
   // `eager = { nodes = 9 }` holds on that side only, beside what is expected of all.
-  void take_own(TomlTable& expect) const {
+  // Does anything hold here?
+  bool take_own(TomlTable& expect) const {
     std::vector<TomlEntry> of_sides;
     for (const TomlEntry& e : expect)
       if (is_side(e.key) && std::holds_alternative<TomlTable>(e.value.data)) of_sides.push_back(e);
@@ -95,6 +99,7 @@ class SideWriter {
       if (e.key != own_) continue;
       for (const TomlEntry& own : std::get<TomlTable>(e.value.data)) put(expect, own);
     }
+    return of_sides.empty() || !expect.empty();
   }
 
   // Does the name stand for this side, too? One that begins with its name loses that.
@@ -106,6 +111,24 @@ class SideWriter {
     const bool is_own = side == own_;
     *text = std::string(within_side(*text, sides_));
     return is_own;
+  }
+
+  // Does the note stand on this side, too? One that names a side that is there loses that.
+  bool take_own_note(TomlValue& note) const {
+    auto* table = std::get_if<TomlTable>(&note.data);
+    const TomlEntry* side = table ? entry(*table, "side") : nullptr;
+    const auto* name = side ? std::get_if<std::string>(&side->value.data) : nullptr;
+    if (!name || !is_side(*name)) return true;
+    const bool is_own = *name == own_;
+    take_out(*table, "side");
+    return is_own;
+  }
+
+  // Of a step's list, what is of this side.
+  static void keep_own(TomlTable& step, std::string_view key, const auto& is_own) {
+    TomlEntry* e = entry(step, key);
+    if (auto* list = e ? std::get_if<TomlArray>(&e->value.data) : nullptr)
+      std::erase_if(*list, [&](TomlValue& value) { return !is_own(value); });
   }
 
   // Only what this side counts is checked on it. A chart that shows nothing of it is not its own.
@@ -231,13 +254,15 @@ class SidesReader {
 
 TableDoc side_table() {
   using S = ScenarioSpec;
-  TableDoc table = {"side", "[[side]]",
-                    "The script runs under each side's settings, on one clock, and the page sets "
-                    "the sides beside each other: two to four of them. A side overrides single "
-                    "keys, as in `structure = { children = \"eager\" }`; what it does not override "
-                    "is as in the file. Captions and the chart quote a side by its name, as "
-                    "`{eager.pairs}`; without one, what all sides have in common. `expect` and "
-                    "`always` hold on every side, and `expect.eager = { nodes = 9 }` on that one."};
+  TableDoc table = {
+      "side", "[[side]]",
+      "The script runs under each side's settings, on one clock, and the page sets "
+      "the sides beside each other: two to four of them. A side overrides single "
+      "keys, as in `structure = { children = \"eager\" }`; what it does not override "
+      "is as in the file. Captions and the chart quote a side by its name, as "
+      "`{eager.pairs}`; without one, what all sides have in common. `expect` and "
+      "`always` hold on every side, and `expect.eager = { nodes = 9 }` on that one; so do "
+      "`code`, `lit = [\"eager.red\"]` and a note with its `side`."};
   table.keys = {
       key(&S::side, "name", "For captions, charts and expectations.", must(), like(kNamePattern)),
       key(&S::side_title, "title", "Stands over it.", range(1, 40), or_else("the name")),

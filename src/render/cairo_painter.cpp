@@ -41,9 +41,9 @@ Cairo loaded_cairo() {
   return functions;
 }
 
-// Both weights. They stay until the program ends: cairo may keep what it has made of a face longer
+// One a weight. They stay until the program ends: cairo may keep what it has made of a face longer
 // than anybody here can tell.
-std::array<void*, 2> loaded_faces() {
+std::array<void*, kWeights.size()> loaded_faces() {
   const Functions library("FreeType", "libfreetype.so.6");
   int (*start)(void** library) = nullptr;
   int (*open)(void* library, const void* bytes, long size, long index, void** face) = nullptr;
@@ -52,8 +52,8 @@ std::array<void*, 2> loaded_faces() {
   void* free_type = nullptr;
   if (const int error = start(&free_type); error != 0)
     throw BackendError("FreeType cannot start: error {}", error);
-  std::array<void*, 2> faces{};
-  for (const Weight weight : {Weight::regular, Weight::semibold}) {
+  std::array<void*, kWeights.size()> faces{};
+  for (const Weight weight : kWeights) {
     constexpr int kNoHinting = 2;  // FT_LOAD_NO_HINTING
     const std::string_view bytes = font_file(weight);
     void* face = nullptr;
@@ -111,7 +111,7 @@ const Cairo& cairo() {
 }
 
 void* cairo_face(Weight weight) {
-  static const std::array<void*, 2> faces = (cairo(), loaded_faces());
+  static const std::array<void*, kWeights.size()> faces = (cairo(), loaded_faces());
   return faces[static_cast<std::size_t>(weight)];
 }
 

@@ -120,7 +120,10 @@ class SvgWriter {
         " x=\"{}\" y=\"{}\" font-size=\"{}\"{} textLength=\"{}\" "
         "lengthAdjust=\"spacingAndGlyphs\"",
         number(s.at.x - s.align * width), number(s.at.y), number(s.size),
-        s.weight == Weight::semibold ? " font-weight=\"600\"" : "", number(width));
+        s.weight == Weight::semibold ? " font-weight=\"600\""
+        : s.weight == Weight::code   ? " font-family=\"Inconsolata, monospace\""
+                                     : "",
+        number(width));
     put_letters(s, "text", place, 6, " aria-hidden=\"true\"", escaped(s.text));
   }
 

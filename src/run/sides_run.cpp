@@ -78,6 +78,17 @@ class Side {
   std::uint64_t* bytes_ = nullptr;
 };
 
+// Does a step show one side other code than another?
+bool has_code_by_side(const Scenario& scenario) {
+  const auto shown = [](const Step& step) {
+    return step.code ? step.code->function + '\n' + step.code->line : std::string();
+  };
+  const auto& first = scenario.sides[0]->steps;
+  return std::ranges::any_of(scenario.sides, [&](const auto& side) {
+    return !std::ranges::equal(side->steps, first, {}, shown, shown);
+  });
+}
+
 class SidesRun {
  public:
   SidesRun(const Scenario& scenario, Pace pace, Work& work,
@@ -124,14 +135,19 @@ class SidesRun {
     Frame frame;
     static_cast<FramePage&>(frame) = sides_[0].at(k).frame;
     frame.index = report_.frames;
-    if (const auto* code = sides_[0].at(k).frame.find<FrameCode>())
+    const Panel code_panel = language::panel_named("code");
+    if (own_code_)
+      std::erase(frame.panels, code_panel);
+    else if (const auto* code = sides_[0].at(k).frame.find<FrameCode>())
       frame.add<FrameCode>() = *code;  // drawn once, for all
     for (const Side& side : sides_) {
       Frame& shown = frame.sides.emplace_back(side.at(k).frame);
       const bool held = shown.add<FrameSide>().held = side.holds(k);
       shown.index = frame.index;
       shown.drop<FrameChart>();  // drawn once, for all
-      std::erase_if(shown.panels, [](Panel panel) { return kind_of(panel).of_all_sides; });
+      std::erase_if(shown.panels, [&](Panel panel) {
+        return kind_of(panel).of_all_sides && !(own_code_ && panel == code_panel);
+      });
       if (held) shown.since_last_frame.reset();
       if (frame.event.empty() && !held) frame.event = shown.event;
       frame.time = std::max(frame.time, shown.time);
@@ -210,6 +226,7 @@ class SidesRun {
   }
 
   const Scenario& scenario_;
+  const bool own_code_ = has_code_by_side(scenario_);  // each side has its panel of code
   const std::function<bool(const Frame&)>& sink_;
   std::deque<Side> sides_;
   std::optional<Plotter> plotter_;

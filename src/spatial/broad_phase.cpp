@@ -260,6 +260,7 @@ void BroadPhase<D>::build(Store& store, std::span<const Box<D>> boxes, Use use,
   }
   store.stands = true;
   ++(counters_.*store.builds);
+  counters_.entries_built += store.structure->work().entries;
 }
 
 // What was chosen is chosen again when the bodies have become twice as many or half as many, or

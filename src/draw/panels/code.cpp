@@ -26,9 +26,9 @@ namespace {
 
 using run::FrameCode;
 
-constexpr std::array<double, 4> kCodeSizes = {30, 28, 26, 24};  // em
-constexpr double kCodePitch = 1.28;                             // of the em, from row to row
-constexpr double kCodeIndent = 0.95;                            // of the em, a level
+constexpr std::array<double, 3> kCodeSizes = {30, 28, 26};  // em, of a face of small letters
+constexpr double kCodePitch = 1.28;                         // of the em, from row to row
+constexpr double kCodeIndent = 0.95;                        // of the em, a level
 constexpr double kCodeHeading = 42;
 constexpr double kCodeGap = 16;  // between the numbers and the code
 constexpr double kCodeCut = 12;  // height of the mark of lines left out
@@ -102,13 +102,13 @@ class CodeView : PanelPicture {
 
  private:
   void lay_out(double size) {
-    style_.size = lit_.size = size;
+    style_.size = size;
     pitch_ = kCodePitch * size;
     number_ = text_width("000", style_);
     lines_.clear();
     const double width = panel_.size().x - number_ - kCodeGap - 10;
     for (const FrameCode::Line& line : code_.lines)
-      lines_.push_back(rows_of(line, lines_.empty(), width, lit_));
+      lines_.push_back(rows_of(line, lines_.empty(), width, style_));
     rooms_ = static_cast<std::size_t>((panel_.size().y - kCodeHeading) / pitch_);
   }
 
@@ -145,22 +145,19 @@ class CodeView : PanelPicture {
     const FrameCode::Line& line = code_.lines[i];
     const DrawList::Scope scope(list_, fmt::format("code/{}/{}", code_.function, line.number));
     const double bottom = y + pitch_ * static_cast<double>(lines_[i].size());
-    TextStyle number{style_.size, Weight::regular, Role::quiet_ink};
-    TextStyle text = style_;
+    TextStyle number = style_;
+    number.role = line.lit ? Role::lit_ink : Role::quiet_ink;
     if (line.lit) {
       const Box<2> band{{panel_.lo.x, y}, {panel_.hi.x, bottom}};
       list_.rect(band, Role::lit_fill, {}, 4);
       list_.rect({band.lo, {band.lo.x + 6, bottom}}, Role::lit);
-      text = lit_;
-      number.weight = Weight::semibold;
-      number.role = Role::lit_ink;
     }
     const double x = panel_.lo.x + 10 + number_;
     write(fmt::format("{}", line.number), centred({x, y + pitch_ / 2}, number, 1), number);
     for (const CodeRow& row : lines_[i]) {
       const double room = panel_.hi.x - x - kCodeGap - row.indent;
-      write(shortened(row.text, room, text),
-            centred({x + kCodeGap + row.indent, y + pitch_ / 2}, text, 0), text);
+      write(shortened(row.text, room, style_),
+            centred({x + kCodeGap + row.indent, y + pitch_ / 2}, style_, 0), style_);
       y += pitch_;
     }
     return bottom;
@@ -185,7 +182,7 @@ class CodeView : PanelPicture {
   }
 
   const FrameCode& code_;
-  TextStyle style_ = kPlain, lit_ = kStrong;  // the latter is the wider one
+  TextStyle style_{.weight = Weight::code};
   double pitch_ = 0;
   double number_ = 0;                        // width of the column of numbers
   std::vector<std::vector<CodeRow>> lines_;  // of the code

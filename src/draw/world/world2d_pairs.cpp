@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kMostLinks = 900;
 constexpr double kShort = 18;   // between two outlines: a shorter link would not be seen, and
-constexpr double kBridge = 26;  // is drawn this long over the two bodies
+constexpr double kBridge = 26;  // is drawn over the two bodies, from one's middle to the other's
 
 // Where a link to `stand` ends. A long wall or floor is met at its place nearest to the other body:
 // links to its middle would all run into one point, far from where the two could touch.
@@ -53,8 +53,9 @@ PageLink link_between(const Vec<2>& from, const Vec<2>& to, double first, double
   const double length = geometry::hypot(way.x, way.y);
   if ((last - first) * length >= kShort)
     return {from + way * first, from + way * last, {}, {}, {}, false, {}};
-  const Vec<2> middle = from + way * ((first + last) / 2);
-  const Vec<2> half = length > 0 ? way / length * (kBridge / 2) : Vec<2>(kBridge / 2, 0);
+  const Vec<2> middle = (from + to) / 2.0;
+  const Vec<2> half =
+      length > 0 ? way / length * (std::max(kBridge, length) / 2) : Vec<2>(kBridge / 2, 0);
   return {middle - half, middle + half, {}, {}, {}, true, {}};
 }
 

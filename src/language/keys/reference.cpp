@@ -351,7 +351,7 @@ Json table_schema(const TableDoc& table) {
                               {"additionalProperties", false}});
   if (table.by_side) schema["additionalProperties"] = reference(table.name);
   Json all = Json::object();
-  if (!required.empty()) all["required"] = required;
+  if (!required.empty() && !table.by_side) all["required"] = required;
   if (!groups.empty()) all[table.groups.exactly_one ? "oneOf" : "anyOf"] = groups;
   // Who is like a prototype may have the rest from it.
   if (table.find("like") && !all.empty())

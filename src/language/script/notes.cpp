@@ -23,6 +23,10 @@ class NoteReader {
   // Adds a problem if what it is about is not there.
   bool is_good(NoteSpec& note) {
     check_quotes(table_, "text", draft_, state_.past);
+    // Where there are sides, each has been given its own notes already.
+    if (const auto side = table_.named("side"))
+      table_.bad_value("side", fmt::format("there is no side {}", in_quotes(side->name)),
+                       "the name of a [[side]] of this file");
     return read_body(note) || read_pair(note) || read_node(note) || read_count(note) ||
            read_point(note);
   }
@@ -137,6 +141,8 @@ TableDoc note_table() {
       key(KeyType::point, "point", "A point of the world.", range(-kFar, kFar)),
       key(KeyType::texts, "pair", "The names of two bodies, as `[\"red\", \"pink\"]`."),
       key(KeyType::text, "count", "A count, which then stands beside the caption.", range(1, 64)),
+      key(KeyType::text, "side", "The one [[side]] on which it stands.", range(1, 64),
+          or_else("all sides")),
   };
   table.groups = {{{"body"}, {"node"}, {"point"}, {"pair"}, {"count"}}};
   return table;
@@ -190,18 +196,22 @@ std::vector<RulerSpec> read_rulers(const TableReader& step, ScriptReading& scrip
 }
 
 TableDoc code_table() {
-  return {"code",
-          "code",
-          "Which function of the lecture's own source the panel `code` shows from this step on, "
-          "and which of its lines the step is about. Without it the panel goes on with the "
-          "function of the step before. In event pace a `lecture_quadtree` lights the line that it "
-          "is in by itself, as do the phases of a step with `contacts = \"lecture\"`.",
-          {key(&CodeSpec::function, "function",
-               "Its name, with its class or without: \"QuadTreeNode::Insert\", \"Insert\".", must(),
-               range(1, 80)),
-           key(&CodeSpec::line, "line",
-               "A text; each line of the function that has it is lit. It must be in one.",
-               range(0, 80), or_else("none is lit"))}};
+  TableDoc table{
+      "code",
+      "code",
+      "Which function of the lecture's own source the panel `code` shows from this step on, "
+      "and which of its lines the step is about. Without it the panel goes on with the "
+      "function of the step before. Sides may each have their own, by their names, and then each "
+      "has a panel of its own. In event pace a `lecture_quadtree` lights the line that it "
+      "is in by itself, as do the phases of a step with `contacts = \"lecture\"`.",
+      {key(&CodeSpec::function, "function",
+           "Its name, with its class or without: \"QuadTreeNode::Insert\", \"Insert\".", must(),
+           range(1, 80)),
+       key(&CodeSpec::line, "line",
+           "A text; each line of the function that has it is lit. It must be in one.", range(0, 80),
+           or_else("none is lit"))}};
+  table.by_side = true;
+  return table;
 }
 
 void read_code(const TableReader& step, Step& to, Draft& draft) {
