@@ -1,11 +1,5 @@
 #include "draw/tree/tree_layout.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <iterator>
-
-#include <fmt/format.h>
-
 #include "draw/font.hpp"
 #include "draw/panel.hpp"
 
@@ -103,19 +97,13 @@ Spread spread(const std::vector<Branch>& branches, const Wanted& wanted, const T
   return s;
 }
 
-// Do they fit at scale `s` as small ones?
-bool fits_small(const std::vector<Branch>& branches, const Wanted& wanted, const Vec<2>& room,
-                double s) {
-  const std::uint32_t rows = row_count(branches);
-  return branches.size() <= kMostBranches && rows * kLeastSmallRow + kUnderLeaf <= room.y &&
-         spread(branches, wanted, {s, rows, room.y, true}, {}).width <= room.x;
-}
-
 // Do they fit at scale `s`, whose measures are those of `rows` rows?
 bool fits(const std::vector<Branch>& branches, const Wanted& wanted, const Vec<2>& room, double s,
-          std::uint32_t rows, const TreeWords& words = {}) {
-  if (branches.size() > kMostBranches || row_count(branches) > most_rows(room.y)) return false;
-  const TreeScale scale(s, rows, room.y);
+          std::uint32_t rows, const TreeWords& words = {}, bool small = false) {
+  const bool low = small ? rows * kLeastSmallRow + kUnderLeaf <= room.y
+                         : row_count(branches) <= most_rows(room.y);
+  if (branches.size() > kMostBranches || !low) return false;
+  const TreeScale scale(s, rows, room.y, small);
   if (s > kLargest) {
     const double airy = (2 * rows - 1) * full_height(s) + scale.under;
     if (rows > kFewLevels || airy > room.y) return false;
@@ -132,16 +120,10 @@ TreeWords best_words(const std::vector<Branch>& branches, const Wanted& wanted,
 }
 
 // The largest scale at which they fit; 0 if none.
-double best_scale(const std::vector<Branch>& branches, const Wanted& wanted, const Vec<2>& room) {
-  for (const double s : kScales)
-    if (fits(branches, wanted, room, s, row_count(branches))) return s;
-  return 0;
-}
-
-double best_small_scale(const std::vector<Branch>& branches, const Wanted& wanted,
-                        const Vec<2>& room) {
-  for (const double s : kSmallScales)
-    if (fits_small(branches, wanted, room, s)) return s;
+double best_scale(const std::vector<Branch>& branches, const Wanted& wanted, const Vec<2>& room,
+                  bool small = false) {
+  for (const double s : small ? std::span<const double>(kSmallScales) : kScales)
+    if (fits(branches, wanted, room, s, row_count(branches), {}, small)) return s;
   return 0;
 }
 
@@ -339,7 +321,7 @@ TreeStage stage_tree(const UnionTree& tree, const std::vector<TreeOfFrame>& tree
     std::vector<Branch> branches = TreeFold(nodes, atlas, {}).whole();
     double s = best_scale(branches, wanted, room);
     stage.small = s == 0;
-    if (stage.small) s = best_small_scale(branches, wanted, room);
+    if (stage.small) s = best_scale(branches, wanted, room, true);
     if (s > 0) {
       stage.scale = s;
       stage.rows = tree.rows();
