@@ -1,12 +1,7 @@
-
-#include <cmath>
 #include <iterator>
-#include <numbers>
 
 #include "draw/body_shapes.hpp"
 #include "draw/pen.hpp"
-#include "geometry/elementary.hpp"
-#include "geometry/plane.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -137,9 +132,9 @@ void draw_slab(const FrameBody& body, const Figure& f, double radius, DrawList& 
 }
 
 // A shape that turns. Characters of such a shape are known by their eyes.
-void draw_turned(const FrameBody& body, const Figure& f, std::vector<Vec<2>> outline,
+void draw_turned(const FrameBody& body, const Figure& f, const std::vector<Vec<2>>& outline,
                  DrawList& list) {
-  list.polygon(std::move(outline), fill_of(body), rim_of(body, f));
+  list.polygon(outline, fill_of(body), rim_of(body, f));
   if (!is_character(body)) return;
   draw_eye(f, -0.3, body.asleep, list);
   draw_eye(f, 0.3, body.asleep, list);
@@ -157,13 +152,12 @@ void draw_ground(const FrameBody& body, const Box<2>& place, DrawList& list) {
 }
 
 // What never moves is hatched, whatever its tone.
-void hatch_static(const FrameBody& body, const Figure& f, const Box<2>& place, DrawList& list) {
+void hatch_static(const FrameBody& body, const Figure& f, const Box<2>& place,
+                  std::vector<Vec<2>> outline, DrawList& list) {
   constexpr std::size_t kMostShapes = 2600;
   constexpr double kInset = 1.6;  // the hatch ends at the outline
   if (list.shapes.size() > kMostShapes) return;
-  std::vector<Vec<2>> outline = turned_outline(body, place);
-  const bool round = is_round(body.look);
-  if (outline.empty() && round) outline = ring_of(f.center, f.unit, 24);
+  if (outline.empty() && is_round(body.look)) outline = ring_of(f.center, f.unit, 24);
   if (outline.empty()) outline = polygon_of(place);
   for (Vec<2>& p : outline)
     for (int axis = 0; axis < 2; ++axis)
@@ -202,9 +196,9 @@ void draw_plain(const FrameBody& body, const Figure& f, DrawList& list) {
             round ? f.unit : 0);
 }
 
-void draw_look(const FrameBody& body, const Figure& f, const Box<2>& place, DrawList& list) {
-  if (std::vector<Vec<2>> outline = turned_outline(body, place); !outline.empty())
-    return draw_turned(body, f, std::move(outline), list);
+void draw_look(const FrameBody& body, const Figure& f, const std::vector<Vec<2>>& turned,
+               DrawList& list) {
+  if (!turned.empty()) return draw_turned(body, f, turned, list);
   if (body.look == Look::ghost) return draw_ghost(body, f, list);
   if (body.look == Look::player) return draw_player(body, f, list);
   if (body.look == Look::person) return draw_person(body, f, list);
@@ -275,19 +269,20 @@ void draw_character(const FrameBody& body, const Box<2>& place, bool plain, Draw
   const bool upright = body.look == Look::ghost || body.look == Look::demon;
   f.gaze = direction(body, upright ? Vec<2>(0.8, 0.6) : Vec<2>(1.0, 0.0));
   const bool small = 2 * std::max(f.half.x, f.half.y) < kPlainBelow;
-  if (small || (plain && turned_outline(body, place).empty())) return draw_plain(body, f, list);
+  const std::vector<Vec<2>> turned = turned_outline(body, place);
+  if (small || (plain && turned.empty())) return draw_plain(body, f, list);
   const std::size_t first = list.shapes.size();
-  draw_look(body, f, place, list);
+  draw_look(body, f, turned, list);
   if (plain) return;
   if (is_character(body) && !body.dimmed) add_halo(f, first, list);
-  if (body.is_static) hatch_static(body, f, place, list);
+  if (body.is_static) hatch_static(body, f, place, turned, list);
   if (body.asleep) {  // "z z" in the middle, or of a character beside its head
     const Vec<2> corner = is_character(body) ? Vec<2>(0.5, -0.98) : Vec<2>(-0.34, -0.12);
     draw_zz(f.center + corner * f.unit, f.unit, std::max(1.2, 0.9 * f.line), list);
   }
   if (!is_character(body) && !body.asleep && fill_of(body) != Role::static_body)
     draw_emblem(body.color, body.look == Look::item ? f.at(0, 0.17) : f.center,
-                0.3 * room_inside(turned_outline(body, place), f), list);
+                0.3 * room_inside(turned, f), list);
   if (body.refused)
     for (const Stroke& stroke : {Stroke{Role::panel, 6}, Stroke{Role::ink, 2.6}})
       list.line(f.at(-0.9, 0.9), f.at(0.9, -0.9), stroke);
