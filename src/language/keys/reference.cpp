@@ -267,6 +267,7 @@ Json value_schema(const KeyDoc& doc) {
   const Json point = list_of(number_schema(doc, "number"), 2, 3);
   switch (doc.type) {
     case KeyType::text:
+    case KeyType::lines:
       return text_schema(doc);
     case KeyType::whole:
       return number_schema(doc, "integer");
@@ -288,17 +289,14 @@ Json value_schema(const KeyDoc& doc) {
       return Json::object(
           {{"anyOf", Json::array({number_schema(doc, "integer"), list_of(typed("string"), 1)})}});
     case KeyType::names:
-      return list_of(typed("string"), 0);
     case KeyType::texts:
-      return list_of(typed("string"), doc.may_be_empty ? 0 : 1,
+      return list_of(typed("string"), doc.may_be_empty || doc.type == KeyType::names ? 0 : 1,
                      std::isfinite(doc.most) ? static_cast<std::size_t>(doc.most) : 0);
     case KeyType::choices_list: {
       Json schema = list_of(choices, 1);
       schema["uniqueItems"] = true;
       return schema;
     }
-    case KeyType::lines:
-      return typed("string");
     case KeyType::turn: {
       Json turn = typed("object");
       turn["properties"] = {{doc.of, number_schema(doc, "number")},
