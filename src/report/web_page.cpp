@@ -76,7 +76,17 @@ Part part_of(const std::string& key) {
   return part;
 }
 
-class PlotWriter {
+class HtmlText {
+ protected:
+  template <class... Args>
+  void put(fmt::format_string<Args...> format, Args&&... args) {
+    fmt::format_to(std::back_inserter(out_), format, std::forward<Args>(args)...);
+  }
+
+  std::string out_;
+};
+
+class PlotWriter : HtmlText {
  public:
   PlotWriter(const Plot& plot, const std::vector<std::string>& classes)
       : plot_(plot), classes_(classes) {}
@@ -102,11 +112,6 @@ class PlotWriter {
   }
 
  private:
-  template <class... Args>
-  void put(fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(out_), format, std::forward<Args>(args)...);
-  }
-
   DrawList drawn() const {
     Plot plot = plot_;
     plot.title.clear();
@@ -138,7 +143,6 @@ class PlotWriter {
 
   const Plot& plot_;
   const std::vector<std::string>& classes_;
-  std::string out_;
 };
 
 constexpr std::string_view kPageStyle = R"css(
@@ -209,7 +213,7 @@ std::string named_colors() {
   return text;
 }
 
-class WebPage {
+class WebPage : HtmlText {
  public:
   explicit WebPage(const Document& document) : document_(document) {}
 
@@ -232,11 +236,6 @@ class WebPage {
   }
 
  private:
-  template <class... Args>
-  void put(fmt::format_string<Args...> format, Args&&... args) {
-    fmt::format_to(std::back_inserter(out_), format, std::forward<Args>(args)...);
-  }
-
   bool is_shared() const { return document_.machines.size() > 1; }
   static std::string machine_name(std::size_t machine) {
     return fmt::format("Machine {}", machine_letter(machine));
@@ -383,7 +382,6 @@ class WebPage {
   }
 
   const Document& document_;
-  std::string out_;
 };
 
 }  // namespace
