@@ -200,8 +200,6 @@ class Billiards : public ErrorMetric {
 
 // --- bodies that hit each other on a line ---
 
-using Real = long double;
-
 constexpr int kMostHits = 1'000'000;
 
 struct LineBall {
