@@ -52,8 +52,8 @@ TEST(LeaveOut, WithoutATreePanelNoTreeIsLaidOut) {
   const std::string words = " --size 320x180 --format svg -o " + out.string();
   const json without = work_of("render " + (out / "world_only.toml").string() + words);
   EXPECT_EQ(without["tree_layouts"], 0);
-  EXPECT_EQ(without["world_layouts"], 11);
-  EXPECT_EQ(work_of("render " + scenario("ghost_quadtree") + words)["tree_layouts"], 11);
+  EXPECT_EQ(without["world_layouts"], 9);
+  EXPECT_EQ(work_of("render " + scenario("ghost_quadtree") + words)["tree_layouts"], 9);
 }
 
 TEST(LeaveOut, SvgNeedsNoGraphicsContext) {
@@ -66,7 +66,7 @@ TEST(LeaveOut, SvgNeedsNoGraphicsContext) {
 TEST(LeaveOut, ScenariosOfOneCommandShareTheirGraphics) {
   const json work = work_of("render " + scenario("ghost_quadtree") + " " + scenario("buckets") +
                             " --size 320x180 -o " + fresh_folder("leave-out-shared").string());
-  EXPECT_EQ(work["frames_drawn"], 11 + 4);
+  EXPECT_EQ(work["frames_drawn"], 9 + 4);
   EXPECT_EQ(work["graphics_contexts"], 1);
 }
 
