@@ -81,8 +81,8 @@ TEST(Facts, AtlasFitsAndRefuses) {
   const FrameNode& b = node(second, "B");
   EXPECT_EQ(second.nodes[b.parent].parent, 0u) << "B goes to the right child, which is cut";
   EXPECT_EQ(second.nodes[b.parent].slot, 1u);
-  EXPECT_EQ(node(second, "C").parent, b.parent);
-  EXPECT_TRUE(node(second, "C").bodies.empty()) << "C is free";
+  EXPECT_EQ(node(second, "free C").parent, b.parent);
+  EXPECT_TRUE(node(second, "free C").bodies.empty()) << "C is free";
   const Frame& last = frames.back();
   EXPECT_GE(*last.count("textures"), 32);
   EXPECT_EQ(last.count("refused"), 1);
