@@ -82,9 +82,9 @@ TEST(MotionFacts, TheBoxTurnsOverAndOnlyExplicitEulerWinsEnergy) {
     EXPECT_NEAR(measure(frame, "angular_momentum.exact"), 1230.3547537, 1e-6);
     EXPECT_NEAR(measure(frame, "energy.exact"), 3076.71, 6);
   }
-  EXPECT_EQ(turns, 3) << "by Euler's equations at 1.17 s, 4.19 s and 7.22 s";
+  EXPECT_EQ(turns, 2) << "by Euler's equations at 1.17 s and 4.19 s";
   EXPECT_NEAR(measure(at(frames, "upside_down"), "own_spin_y.exact"), -4.985, 0.02);
-  EXPECT_GT(measure(frames.back(), "energy.explicit Euler"), 1.5 * 3076.71);
+  EXPECT_GT(measure(frames.back(), "energy.explicit Euler"), 1.3 * 3076.71);
 }
 
 // Of the side with that name.
