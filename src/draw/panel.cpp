@@ -87,19 +87,27 @@ Box<2> cut_strip(const Staging& staging, Panel panel, Box<2>& area) {
   return box;
 }
 
-// A wide world and what happens in it over time: one above the other, both get larger.
-bool is_world_over_time(const Frame& frame) {
-  constexpr double kWideWorld = 1.9;  // aspect of a world
-  if (!frame.get<FrameChart>().over_time || frame.panels.size() != 2) return false;
+double world_width(const Frame& frame) {  // heights
   const Vec<3> size = frame.bounds.size();
-  return shows(frame.panels, "world") && shows(frame.panels, "chart") &&
-         size.x > kWideWorld * std::max(size.y, size.z);
+  return size.x / std::max(size.y, size.z);
 }
 
-std::vector<Box<2>> over_its_chart(const Frame& frame, const Box<2>& area) {
+// A wide world and what happens in it over time, or the code of one side: one above the other, both
+// get larger.
+bool is_world_over_another(const Frame& frame) {
+  constexpr double kWideWorld = 1.9;
+  const bool over_time = frame.get<FrameChart>().over_time && shows(frame.panels, "chart");
+  const bool of_side = !frame.get<FrameSide>().name.empty() && shows(frame.panels, "code");
+  return frame.panels.size() == 2 && shows(frame.panels, "world") && (over_time || of_side) &&
+         world_width(frame) > kWideWorld;
+}
+
+std::vector<Box<2>> over_another(const Frame& frame, const Box<2>& area) {
   constexpr double kShare = 0.56;  // of the height, for the world
   const double height = area.size().y, least = std::min(kLeastChart, 0.6 * height);
-  const double middle = area.hi.y - std::max((1 - kShare) * height, least + kPanelGap / 4);
+  double middle = area.hi.y - std::max((1 - kShare) * height, least + kPanelGap / 4);
+  if (!shows(frame.panels, "chart"))  // code takes the height that the world does not need
+    middle = std::min(middle, area.lo.y + area.size().x / world_width(frame) + kPanelGap);
   const Box<2> world{area.lo, {area.hi.x, middle - kPanelGap / 4}};
   const Box<2> chart{{area.lo.x, middle + kPanelGap / 4}, area.hi};
   return is(frame.panels[0], "world") ? std::vector{world, chart} : std::vector{chart, world};
@@ -202,7 +210,7 @@ std::vector<Box<2>> arranged(const Frame& frame, const Staging& staging, const B
                              bool tall) {
   if (frame.panels.size() == 1) return {area};
   if (tall || std::ranges::all_of(frame.panels, is_strip)) return stacked(frame.panels, area);
-  if (is_world_over_time(frame)) return over_its_chart(frame, area);
+  if (is_world_over_another(frame)) return over_another(frame, area);
   return staging.once<std::vector<Box<2>>>("panels", area,
                                            [&] { return over_strips(frame, staging, area); });
 }

@@ -38,8 +38,9 @@ void GameObject::UpdateBroadphaseAABB() {
 }
 
 bool CollisionDetection::CollisionInfo::operator<(const CollisionInfo& other) const {
-  if (a->GetWorldID() != other.a->GetWorldID()) return a->GetWorldID() < other.a->GetWorldID();
-  return b->GetWorldID() < other.b->GetWorldID();
+  const std::pair otherIds(other.a->GetWorldID(), other.b->GetWorldID());
+  const std::pair theseIds(a->GetWorldID(), b->GetWorldID());
+  return theseIds < otherIds;
 }
 
 }  // namespace lantern::lecture

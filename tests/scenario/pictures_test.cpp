@@ -70,12 +70,24 @@ TEST(Pictures, NobodyRemembersCollisionsWithoutBodies) {
 }
 
 TEST(Pictures, WhatNeverMovesIsBuiltOnce) {
+  const auto entries = [](bool of_static) {
+    return [of_static](const Frame& frame) {
+      std::int64_t n = 0;
+      for (const FrameNode& node : frame.nodes)
+        if (node.leaf && node.of_static == of_static) n += std::ssize(node.bodies);
+      return n;
+    };
+  };
+  const auto of_moving = entries(false), of_static = entries(true);
   for (const std::string kind : {"brute_force", "quadtree", "sort_and_sweep", "grid"}) {
     const auto frames = crowd("split_static = true\nkind = \"" + kind + "\"\n",
                               {kInsertCrowd, "do = \"run\"\nseconds = 1"});
+    std::int64_t made = 0;
     for (std::size_t i = 0; i < frames.size(); ++i) {
       EXPECT_EQ(frames[i].count("static_builds"), 1) << kind << ", frame " << i;
       EXPECT_EQ(frames[i].count("dynamic_builds"), std::int64_t(i) + 1) << kind;
+      made += of_moving(frames[i]) + (i == 0 ? of_static(frames[i]) : 0);
+      EXPECT_EQ(frames[i].count("entries_in_all"), made) << kind << ", frame " << i;
       for (const FrameNode& n : frames[i].nodes)
         for (const std::string& name : names(frames[i], n.bodies))
           EXPECT_EQ(name.starts_with("pillar"), n.of_static) << name;

@@ -73,6 +73,51 @@ TEST(Sides, ShareTheClockAndThePage) {
   EXPECT_NE(frames[1].hash, frames[2].hash);
 }
 
+TEST(Sides, HaveTheirOwnLightsAndNotes) {
+  const auto frames =
+      frames_of(good(sided("", kSides,
+                           "[[step]]\ndo = \"insert\"\n"
+                           "bodies = [\"red\", \"pink\"]\n"
+                           "lit = [\"red\", \"lazy.pink\"]\n"
+                           "note = [{ text = \"here\", body = \"red\" },\n"
+                           "{ text = \"late\", body = \"red\", side = \"lazy\" }]\n")));
+  const std::vector<Frame>& sides = frames.back().sides;
+  for (const Frame& side : sides) EXPECT_TRUE(side.bodies[0].lit);
+  EXPECT_FALSE(sides[0].bodies[1].lit);
+  EXPECT_TRUE(sides[1].bodies[1].lit);
+  EXPECT_EQ(sides[0].notes.size(), 1u);
+  ASSERT_EQ(sides[1].notes.size(), 2u);
+  EXPECT_EQ(sides[1].notes[1].text, "late");
+}
+
+TEST(Sides, ANoteOfASideThatIsNotThereIsAMistake) {
+  const std::string note =
+      "[[step]]\ndo = \"insert\"\nbodies = [\"red\"]\n"
+      "note = [{ text = \"late\", body = \"red\", side = @\"lasy\" }]\n";
+  for (const std::string& sides : {kSides, std::string()})
+    expect_mistakes(sided("", sides, note), {"there is no side 'lasy'"});
+}
+
+TEST(Sides, OfOwnCodeHaveItsPanelEach) {
+  const auto showing = [](const std::string& code) {
+    return frames_of(good("panels = [\"world\", \"code\"]\n" +
+                          sided("", kSides, "[[step]]\ndo = \"show\"\n" + code)))
+        .back();
+  };
+  const auto has_panel = [](const Frame& frame) {
+    return std::ranges::count(frame.panels, panel_named("code")) == 1;
+  };
+  const Frame one = showing("code = { function = \"Insert\" }\n");
+  EXPECT_TRUE(has_panel(one) && one.find<FrameCode>());
+  for (const Frame& side : one.sides) EXPECT_FALSE(has_panel(side));
+  const Frame two =
+      showing("code = { eager = { function = \"Insert\" }, lazy = { function = \"Split\" } }\n");
+  EXPECT_FALSE(has_panel(two) || two.find<FrameCode>());
+  for (const Frame& side : two.sides) EXPECT_TRUE(has_panel(side));
+  EXPECT_EQ(two.sides[0].get<FrameCode>().function, "QuadTreeNode::Insert");
+  EXPECT_EQ(two.sides[1].get<FrameCode>().function, "QuadTreeNode::Split");
+}
+
 // What FRAME.md says of a frame with sides: no facts but those of all sides.
 void expect_no_facts_of_its_own(const Frame& frame) {
   static const std::set<std::string> kOfAll = {

@@ -137,7 +137,8 @@ class CodeView : PanelPicture {
     std::size_t tail = all;
     while (tail > 1 && row_count(tail - 1, all) <= room) --tail;
     if (lit > tail) return {tail, all};
-    const std::size_t first = lit > 2 ? lit - 2 : 1;
+    std::size_t first = lit > 2 ? lit - 2 : 1;
+    while (first < lit && end_from(first) <= lit) ++first;  // after lines of several rows
     return {first, end_from(first)};
   }
 

@@ -245,7 +245,7 @@ void number_sectors(const World2D& w) {
 }
 
 void name_taken_line(const World2D& w) {
-  constexpr double kReach = 46, kFar = 4000;
+  constexpr double kReach = 46, kBeside = 52, kFar = 4000;
   const FrameLevel& level = w.frame.get<FrameLevel>();
   const auto wall = std::ranges::find(level.walls, Mark::lit, &FrameWall::mark);
   if (level.front == 0 || wall == level.walls.end()) return;
@@ -261,17 +261,23 @@ void name_taken_line(const World2D& w) {
         pen.line(from + (to - from) * in->first, from + (to - from) * in->second,
                  {Role::lit, 4, 14});
   pen.arrow(at, at + front * kReach, {Role::lit, 4}, 14, 2);
-  const auto write = [&](std::uint32_t number, const Vec<2>& middle, const Stroke& rim) {
-    const std::string text = fmt::format("{}", number);
+  // Without its word where there is no room for that.
+  const auto write = [&](const std::string& text, const Vec<2>& middle, const Stroke& rim) {
     const Box<2> plate = plate_of(text, middle, kStrong, {9, 7});
-    if (!w.labels.is_free(plate, w.map.picture())) return;
+    if (!w.labels.is_free(plate, w.map.picture())) return false;
     w.list.rect(plate, Role::panel, rim, 6);
     w.labels.add(text, centred(middle, kStrong), kStrong, w.map.picture());
     w.labels.block(plate);
+    return true;
   };
-  write(wall->wall + 1, at, {Role::lit, 1.8});
-  write(level.front, at + front * (kReach + 18), {});
-  write(level.back, at - front * (kReach + 18), {});
+  const auto count = [&](std::uint32_t n, const char* word, const Vec<2>& middle) {
+    if (!write(fmt::format("{} {}", n, word), middle, {})) write(fmt::format("{}", n), middle, {});
+  };
+  write(fmt::format("wall {}", wall->wall + 1), at, {Role::lit, 1.8});
+  // Plates are wider than high, so beside an upright wall they stand farther off.
+  const double off = kReach + 18 + kBeside * std::abs(front.x);
+  count(level.front, "in front", at + front * off);
+  count(level.back, "behind", at - front * off);
 }
 
 void draw_portals(const World2D& w) {
