@@ -250,9 +250,10 @@ TEST(Marks, LeavesOfABspAreNamedByTheirLastPlane) {
 TEST(Marks, WhatAStaleStructureMissesIsSaid) {
   for (const Frame& frame : run::frames_of("kdtree_static")) {
     const DrawList list = page_of(frame);
-    const bool misses = frame.event == "missed";
+    // By the kD-tree alone, then by the quadtree, too.
+    const int misses = frame.event == "missed" ? 1 : frame.event == "crossed" ? 2 : 0;
     EXPECT_EQ(labels(list, "missed"), misses) << frame.event;
-    EXPECT_EQ(list.marks.has(MarkKind::missed), misses) << frame.event;
+    EXPECT_EQ(list.marks.has(MarkKind::missed), misses > 0) << frame.event;
   }
 }
 
