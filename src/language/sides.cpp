@@ -63,8 +63,9 @@ class SideWriter {
     for_each_table(file_, "step", [&](TomlTable& step, Place) {
       for (const char* key : {"expect", "always", "code"})
         if (TomlEntry* e = entry(step, key))
-          if (auto* table = std::get_if<TomlTable>(&e->value.data); table && !take_own(*table))
-            take_out(step, key);
+          if (auto* table = std::get_if<TomlTable>(&e->value.data)) take_own(*table);
+      if (const TomlEntry* code = entry(step, "code"); code && is_empty(*code))
+        take_out(step, "code");  // other sides have all that the step shows
       keep_own(step, "lit", [&](TomlValue& name) { return take_own(name); });
       keep_own(step, "note", [&](TomlValue& note) { return take_own_note(note); });
     });
@@ -89,8 +90,12 @@ class SideWriter {
   }
 
   // `eager = { nodes = 9 }` holds on that side only, beside what is expected of all.
-  // Does anything hold here?
-  bool take_own(TomlTable& expect) const {
+  static bool is_empty(const TomlEntry& e) {
+    const auto* table = std::get_if<TomlTable>(&e.value.data);
+    return table && table->empty();
+  }
+
+  void take_own(TomlTable& expect) const {
     std::vector<TomlEntry> of_sides;
     for (const TomlEntry& e : expect)
       if (is_side(e.key) && std::holds_alternative<TomlTable>(e.value.data)) of_sides.push_back(e);
@@ -99,7 +104,6 @@ class SideWriter {
       if (e.key != own_) continue;
       for (const TomlEntry& own : std::get<TomlTable>(e.value.data)) put(expect, own);
     }
-    return of_sides.empty() || !expect.empty();
   }
 
   // Does the name stand for this side, too? One that begins with its name loses that.

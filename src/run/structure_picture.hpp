@@ -29,7 +29,8 @@ inline constexpr CountDoc kStructureCounts[] = {
     {"entries", when::structure, "entry/entries", "Bodies stored in leaves, each once a leaf.",
      Most::parts},
     {"entries_in_all", when::structure, "entry made so far/entries made so far",
-     "Entries made by all builds since the scenario began."},
+     "Entries made by all builds since the scenario began; what is inserted into a tree that "
+     "stands is not built."},
     {"most_in_leaf", when::structure, "in the fullest leaf", "Bodies in the fullest leaf.",
      Most::bodies},
     {"pairs", when::structure, "candidate pair/candidate pairs",

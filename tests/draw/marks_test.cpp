@@ -288,9 +288,9 @@ TEST(Marks, ALineOfALevelHasTheNumberOfItsWall) {
   for (const Frame& frame : run::frames_of("doom_level_bsp")) {
     const DrawList list = page_of(frame);
     if (frame.event == "choose" && chosen++ == 0) {
-      EXPECT_EQ(labels(list, "18"), 1) << "at the wall";
-      EXPECT_EQ(labels(list, "11"), 1) << "in front of it";
-      EXPECT_EQ(labels(list, "13"), 1) << "behind it";
+      EXPECT_EQ(labels(list, "wall 18"), 1) << "at the wall";
+      EXPECT_EQ(labels(list, "11 in front"), 1) << "in front of it";
+      EXPECT_EQ(labels(list, "13 behind"), 1) << "behind it";
     }
     if (frame.event == "compiled") {
       EXPECT_EQ(labels(list, "18"), 1) << "in the tree";
