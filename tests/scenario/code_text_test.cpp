@@ -94,7 +94,7 @@ TEST(CodeText, FollowsEventsAndSteps) {
     return text;
   };
   const std::vector<Frame> frames = frames_of("lecture_code");
-  EXPECT_TRUE(lit(at(frames, "store")).starts_with("contents.push_back("));
+  EXPECT_TRUE(lit(at(frames, "two")).starts_with("contents.push_back("));
   EXPECT_EQ(lit(at(frames, "split")), "Split(watch);");
   EXPECT_EQ(lit(at(frames, "three")), "contents.clear();");
   EXPECT_EQ(at(frames, "narrow_phase").find<FrameCode>()->function, "PhysicsSystem::NarrowPhase");
