@@ -33,7 +33,7 @@ constexpr double kCodeHeading = 42;
 constexpr double kCodeGap = 16;  // between the numbers and the code
 constexpr double kCodeCut = 12;  // height of the mark of lines left out
 constexpr std::size_t kFewRows =
-    12;  // letters are as large as so many rows allow, whatever the function
+    12;  // letters are as large as so many rows, and the whole function, allow
 
 // One row of the panel: a line, or the rest of one that is broken.
 struct CodeRow {
@@ -86,7 +86,7 @@ class CodeView : PanelPicture {
   explicit CodeView(const PanelPicture& on) : PanelPicture(on), code_(frame_.get<FrameCode>()) {
     for (const double size : kCodeSizes) {
       lay_out(size);
-      if (rooms_ >= kFewRows) break;
+      if (rooms_ >= kFewRows && row_count(0, lines_.size()) <= rooms_) break;
     }
   }
 
