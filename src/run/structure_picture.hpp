@@ -30,7 +30,7 @@ inline constexpr CountDoc kStructureCounts[] = {
      Most::parts},
     {"entries_in_all", when::structure, "entry made so far/entries made so far",
      "Entries made by all builds since the scenario began; what is inserted into a tree that "
-     "stands is not built."},
+     "stands is not built. A `grid` makes one for each body."},
     {"most_in_leaf", when::structure, "in the fullest leaf", "Bodies in the fullest leaf.",
      Most::bodies},
     {"pairs", when::structure, "candidate pair/candidate pairs",
