@@ -96,13 +96,11 @@ const Frame& side(const Frame& frame, const std::string& name) {
 
 TEST(MotionFacts, OnlyWithSweepsDepthGrowsWithTheMassRatio) {
   const auto frames = frames_of("heavy_on_light");
-  const char* kUnder[] = {"penetration.under x1", "penetration.under x100",
-                          "penetration.under x10000"};
+  const char* kUnder[] = {"penetration.under x100", "penetration.under x10000"};
   const Frame& pressed = *of_step(frames, "impulses").back();
   const Frame& ten = side(pressed, "ten sweeps");
-  for (int i = 1; i < 3; ++i)
-    EXPECT_GT(measure(ten, kUnder[i]), 5 * measure(ten, kUnder[i - 1])) << kUnder[i];
-  EXPECT_GT(measure(side(pressed, "thousand sweeps"), kUnder[2]), 0.03);
+  EXPECT_GT(measure(ten, kUnder[1]), 5 * measure(ten, kUnder[0]));
+  EXPECT_GT(measure(side(pressed, "thousand sweeps"), kUnder[1]), 0.03);
   for (const Frame* frame : of_step(frames, "impulses"))
     for (const char* name : kUnder)
       EXPECT_LT(measure(side(*frame, "all at once"), name), 1e-6) << name;
