@@ -81,11 +81,11 @@ void expect_no_pair_missed(const Frame& frame, const Rules& rules) {
 // misses one at a time.
 void expect_missed_where_told(const Frame& frame) {
   const bool is_kd = frame.structure == StructureKind::kd_tree;
-  const bool told = (frame.scenario == "kdtree_static" && is_kd && frame.event == "missed") ||
-                    (frame.scenario == "kdtree_static" && frame.sides.empty() &&
-                     frame.event == "crossed") ||
-                    (frame.scenario == "ghost_quadtree" && frame.event == "moves") ||
-                    (frame.as_printed && frame.time > 0);
+  const bool told =
+      (frame.scenario == "kdtree_static" && is_kd && frame.event == "missed") ||
+      (frame.scenario == "kdtree_static" && frame.sides.empty() && frame.event == "crossed") ||
+      (frame.scenario == "ghost_quadtree" && frame.event == "moves") ||
+      (frame.as_printed && frame.time > 0);
   EXPECT_EQ(missed_pairs(frame).size(), told ? 1u : 0u) << frame.event;
   for (const Frame& side : frame.sides) expect_missed_where_told(side);
 }
