@@ -92,8 +92,11 @@ Staging::Staging(std::vector<const Frame*> frames, const AxisRanges& axes)
   for (const Frame* each : frames_) {
     const Frame& frame = *each;
     for (const Frame& side : frame.sides) {
-      const auto known =
-          structure_of_.try_emplace(side.get<FrameSide>().name, to_string(side.structure)).first;
+      const bool two = std::ranges::any_of(side.nodes, &FrameNode::of_static);
+      const auto known = structure_of_
+                             .try_emplace(side.get<FrameSide>().name,
+                                          std::string(to_string(side.structure)) + (two ? "+" : ""))
+                             .first;
       sides[known->second].push_back(&side);
     }
     if (settings_told_.empty() || frame.get<FrameStructure>().settings != last_settings) {

@@ -87,7 +87,7 @@ class Staging {
   // At most so many of them, here and there.
   std::vector<const Frame*> some_frames(std::size_t most) const;
 
-  // What the frames of one side share, by its name: with all sides of the same structure, so that
+  // What the frames of one side share, by its name: with all sides of the same trees, so that
   // their trees can be compared node by node. Of a side that no frame has, this.
   const Staging& of_side(std::string_view side) const;
   // The one of the sides that has the most leaves: the page is arranged for it.

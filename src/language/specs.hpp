@@ -49,6 +49,7 @@ struct NoteSpec {
   std::vector<std::size_t> bodies;  // one, or the two of a pair
   std::string name;                 // of the node or count
   Vec<3> point{0.0};
+  std::string event;  // that it stands on; empty: all frames of the step
   SourcePosition where;
 };
 
@@ -251,6 +252,7 @@ enum class BodyMeasure {
   leaves,  // from here on it is counted
   pairs,
   depth,
+  id,
   address,
   key,
 };

@@ -65,6 +65,8 @@ std::string trace_name(const Scenario& scenario) {
 }
 
 std::string why_not_noted(const NoteSpec& note, const Frame& frame) {
+  if (!note.event.empty() && note.event != frame.event)
+    return fmt::format("no event '{}' has it", note.event);
   if (note.of == NoteOf::node && !has_node(frame, note.name))
     return fmt::format("there is no node '{}'", note.name);
   if (frame.view) return "it lies outside the view";
@@ -427,6 +429,7 @@ void FrameMaker::light_named(Frame& frame) {
 // Those whose bodies and nodes are there by now.
 void FrameMaker::add_notes(Frame& frame) {
   for (const NoteSpec& spec : step_->notes) {
+    if (!spec.event.empty() && spec.event != frame.event) continue;
     FrameNote note{fill(spec.text, frame), spec.of, {}, kNone, {}, spec.point};
     for (const std::size_t body : spec.bodies)
       if (const auto id = stage_.engine->id_of(body)) note.bodies.push_back(*id);
@@ -444,7 +447,7 @@ void FrameMaker::add_notes(Frame& frame) {
 // A note that stood on no frame of the step is a promise that was not kept.
 void FrameMaker::require_notes(const Frame& frame) {
   for (const NoteSpec& note : step_->notes)
-    if (!noted_.contains(&note))
+    if (!noted_.contains(&note) && (note.event.empty() || by_event()))
       report_.unmet.add([&] {
         return diagnose(
             scenario_, note.where,

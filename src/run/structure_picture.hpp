@@ -29,8 +29,8 @@ inline constexpr CountDoc kStructureCounts[] = {
     {"entries", when::structure, "entry/entries", "Bodies stored in leaves, each once a leaf.",
      Most::parts},
     {"entries_in_all", when::structure, "entry made so far/entries made so far",
-     "Entries made by all builds since the scenario began; what is inserted into a tree that "
-     "stands is not built. A `grid` makes one for each body."},
+     "Entries made since the scenario began, by all builds and insertions. A `grid` makes one "
+     "for each body."},
     {"most_in_leaf", when::structure, "in the fullest leaf", "Bodies in the fullest leaf.",
      Most::bodies},
     {"pairs", when::structure, "candidate pair/candidate pairs",
@@ -404,7 +404,7 @@ void picture_structure(const StructureSpec& spec, const World<D>& world, bool te
   frame.add_count("leaves", c.leaves);
   frame.add_count("depth", c.depth);
   frame.add_count("entries", c.entries);
-  frame.add_count("entries_in_all", structure.counters().entries_built);
+  frame.add_count("entries_in_all", structure.counters().entries_made);
   frame.add_count("most_in_leaf", picture.most_in_leaf);
   frame.add_count("pairs", chain.pairs.size());
   frame.add_count("pair_tests", chain.met);

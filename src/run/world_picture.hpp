@@ -199,6 +199,7 @@ inline std::uint64_t count_of(BodyMeasure what, BodyId id, const Frame& frame) {
   if (what == BodyMeasure::pairs)
     return static_cast<std::uint64_t>(std::ranges::count_if(
         frame.pairs, [&](const FramePair& p) { return p.pair.a == id || p.pair.b == id; }));
+  if (what == BodyMeasure::id) return id;
   if (what == BodyMeasure::address) return frame.body_of(id)->address;
   if (what == BodyMeasure::key) return key_of_first_pair(id, frame);
   const auto stored = stored_bodies(frame)[id];

@@ -260,7 +260,7 @@ void BroadPhase<D>::build(Store& store, std::span<const Box<D>> boxes, Use use,
   }
   store.stands = true;
   ++(counters_.*store.builds);
-  counters_.entries_built += store.structure->work().entries;
+  counters_.entries_made += store.structure->work().entries;
 }
 
 // What was chosen is chosen again when the bodies have become twice as many or half as many, or
@@ -331,11 +331,14 @@ template <int D>
 void BroadPhase<D>::put(Store& store, const Proxy<D>& proxy, const Watch& watch) {
   const Item<D> item{static_cast<BodyId>(store.size()), proxy.box};
   store.push_back({proxy.id, proxy.box}, {proxy.is_static, proxy.awake});
+  const std::uint64_t before = store.structure->work().entries;
   with_names(store, [&] {
-    if (store.structure->insert(item, naming(store, watch)))
+    if (store.structure->insert(item, naming(store, watch))) {
       counters_.*store.builds += item.id == 0;
-    else
+      counters_.entries_made += store.structure->work().entries - before;
+    } else {
       store.stands = store.only_moved = false;
+    }
   });
 }
 

@@ -574,6 +574,7 @@ void add_look_cases(std::vector<KeyCase>& cases) {
        {"camera", "target", {"[9, 1, -9]"}, solid},
        {"step.note", "text", {"\"{pairs:pair}\""}, bad_text("1 to 40", 40)},
        {"step.note", "body", {"\"pink\""}, body},
+       {"step.note", "event", {"\"split\""}, bad_text("1 to 64", 64), {}},
        {"step.note",
         "node",
         {"\"1.3\""},

@@ -158,5 +158,21 @@ TEST(Note, WithoutItsNodeIsNotKept) {
   EXPECT_EQ(told_of(kFlatWorld + steps({kBoth + of_body})), "");
 }
 
+TEST(Note, OfAnEventStandsOnItsFramesAlone) {
+  const auto with = [](const std::string& event) {
+    return kFlatWorld + steps({kBoth +
+                               "pace = \"event\"\nnote = [{ text = \"x\", body = \"red\", "
+                               "event = \"" +
+                               event + "\" }]\n"});
+  };
+  std::size_t on = 0;
+  for (const Frame& frame : frames_of(good(with("store")))) {
+    EXPECT_EQ(frame.notes.size(), frame.event == "store" ? 1u : 0u) << frame.event;
+    on += frame.notes.size();
+  }
+  EXPECT_GT(on, 0u);
+  EXPECT_NE(told_of(with("stroe")).find("no event 'stroe'"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace lantern::run

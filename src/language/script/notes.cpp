@@ -141,6 +141,8 @@ TableDoc note_table() {
       key(KeyType::point, "point", "A point of the world.", range(-kFar, kFar)),
       key(KeyType::texts, "pair", "The names of two bodies, as `[\"red\", \"pink\"]`."),
       key(KeyType::text, "count", "A count, which then stands beside the caption.", range(1, 64)),
+      key(&NoteSpec::event, "event", "The event on whose frames it stands, in event pace.",
+          range(1, 64), or_else("all frames")),
       key(KeyType::text, "side", "The one [[side]] on which it stands.", range(1, 64),
           or_else("all sides")),
   };
