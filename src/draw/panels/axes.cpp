@@ -95,7 +95,10 @@ class AxesView : PanelPicture {
     else
       draw_shared_shadow({x(s.b_lo), y}, {x(s.a_hi), y}, pen_);
     const TextStyle& style = front ? kStrong : kPlain;
-    write(fmt::format("{} {}", apart ? "gap" : "overlap", short_number(std::abs(axis.separation))),
+    // Where one shadow lies within the other, what is told is how far it must go to leave it.
+    const bool within = s.b_hi < s.a_hi || s.b_lo < s.a_lo;
+    const char* what = apart ? "gap" : within ? "depth" : "overlap";
+    write(fmt::format("{} {}", what, short_number(std::abs(axis.separation))),
           centred({panel_.hi.x - 8, y}, style, 1), style);
   }
 
