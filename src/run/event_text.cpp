@@ -19,11 +19,12 @@ constexpr const char* kTexts[] = {
     "{2} does not reach {1}.",
     "{3} is made, because something enters it.",
     "{3} stores {0} and now holds {4}, more than its limit of {5}.",
-    "{3} holds {4}, its limit is {5}: it must split.",
+    "{3} holds {4}, but its limit is {5}, so it must split.",
     "{3} hands {0} down to its children.",
-    "{3} holds {4}, its limit is {5}. But it lies at depth {6}, and no node may lie deeper: it "
+    "{3} holds {4}, and its limit is {5}. But it lies at depth {6}, and no node may lie deeper: it "
     "stays a leaf.",
-    "{3} holds {4}, its limit is {5}. But all share one point, so a split would separate no pair.",
+    "{3} holds {4}, and its limit is {5}. But all share one point, so a split would separate no "
+    "pair.",
     "A rotation: a child of {1} and the sibling of {1} change places, and {1} shrinks.",
     "{2} has left its box: its leaf goes, the sibling takes the parent's place, and {0} is "
     "inserted again."};

@@ -16,8 +16,8 @@ std::string capitalised(std::string text);
 std::string_view event_name(Event::Kind kind);
 std::string_view event_name(AtlasEvent::Kind kind);
 
-// One sentence with the real numbers: "Node 1 holds 3, its limit is 2: it must split." The node of a
-// structure that is no tree is not named.
+// One sentence with the real numbers: "Node 1 holds 3, but its limit is 2, so it must split." The
+// node of a structure that is no tree is not named.
 std::string event_text(const Event& event, const StructureSpec& structure, const std::string& node,
                        const std::string& body);
 std::string event_text(const AtlasEvent& event, const std::string& node, const std::string& texture,

@@ -52,7 +52,7 @@ TEST(Facts, EventsAreToldInWords) {
   Scenario ghosts = shipped("ghost_quadtree");
   for (Step& step : ghosts.steps) step.pace.reset(), step.events.clear();
   const auto events = frames_of(ghosts, Pace::event);
-  EXPECT_EQ(at(events, "split").caption, "The root holds 3, its limit is 2: it must split.");
+  EXPECT_EQ(at(events, "split").caption, "The root holds 3, but its limit is 2, so it must split.");
   for (const char* event : {"test", "store", "split", "hand_down"}) at(events, event);
 }
 
