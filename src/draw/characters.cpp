@@ -1,7 +1,11 @@
+#include <cmath>
 #include <iterator>
+#include <numbers>
 
 #include "draw/body_shapes.hpp"
 #include "draw/pen.hpp"
+#include "geometry/elementary.hpp"
+#include "geometry/plane.hpp"
 
 namespace lantern::draw {
 namespace {

@@ -109,8 +109,8 @@ std::vector<Box<2>> over_another(const Frame& frame, const Box<2>& area) {
   if (!shows(frame.panels, "chart"))  // code takes the height that the world does not need
     middle = std::min(middle, area.lo.y + area.size().x / world_width(frame) + kPanelGap);
   const Box<2> world{area.lo, {area.hi.x, middle - kPanelGap / 4}};
-  const Box<2> chart{{area.lo.x, middle + kPanelGap / 4}, area.hi};
-  return is(frame.panels[0], "world") ? std::vector{world, chart} : std::vector{chart, world};
+  const Box<2> other{{area.lo.x, middle + kPanelGap / 4}, area.hi};
+  return is(frame.panels[0], "world") ? std::vector{world, other} : std::vector{other, world};
 }
 
 // On a wide page, above the strips. What takes the rest of the width stands in one column beside

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "frame/parts/atlas.hpp"
 
 namespace lantern::draw {
@@ -59,6 +61,12 @@ void put_in_order(UnionTree& tree) {
   tree.nodes = std::move(sorted);
 }
 
+// What kind of trees a side has: of two structures it has two.
+std::string trees_of(const Frame& side) {
+  const bool two = std::ranges::any_of(side.nodes, &FrameNode::of_static);
+  return fmt::format("{}{}", to_string(side.structure), two ? ", and a static one" : "");
+}
+
 }  // namespace
 
 std::vector<std::string> ways_of(const std::vector<FrameNode>& nodes) {
@@ -92,11 +100,8 @@ Staging::Staging(std::vector<const Frame*> frames, const AxisRanges& axes)
   for (const Frame* each : frames_) {
     const Frame& frame = *each;
     for (const Frame& side : frame.sides) {
-      const bool two = std::ranges::any_of(side.nodes, &FrameNode::of_static);
-      const auto known = structure_of_
-                             .try_emplace(side.get<FrameSide>().name,
-                                          std::string(to_string(side.structure)) + (two ? "+" : ""))
-                             .first;
+      const auto [known, fresh] = structure_of_.try_emplace(side.get<FrameSide>().name);
+      if (fresh) known->second = trees_of(side);
       sides[known->second].push_back(&side);
     }
     if (settings_told_.empty() || frame.get<FrameStructure>().settings != last_settings) {

@@ -63,9 +63,8 @@ class SideWriter {
     for_each_table(file_, "step", [&](TomlTable& step, Place) {
       for (const char* key : {"expect", "always", "code"})
         if (TomlEntry* e = entry(step, key))
-          if (auto* table = std::get_if<TomlTable>(&e->value.data)) take_own(*table);
-      if (const TomlEntry* code = entry(step, "code"); code && is_empty(*code))
-        take_out(step, "code");  // other sides have all that the step shows
+          if (auto* table = std::get_if<TomlTable>(&e->value.data))
+            if (take_own(*table) && e->key == "code") take_out(step, "code");
       keep_own(step, "lit", [&](TomlValue& name) { return take_own(name); });
       keep_own(step, "note", [&](TomlValue& note) { return take_own_note(note); });
     });
@@ -90,12 +89,8 @@ class SideWriter {
   }
 
   // `eager = { nodes = 9 }` holds on that side only, beside what is expected of all.
-  static bool is_empty(const TomlEntry& e) {
-    const auto* table = std::get_if<TomlTable>(&e.value.data);
-    return table && table->empty();
-  }
-
-  void take_own(TomlTable& expect) const {
+  // Is nothing left, as other sides have all of it?
+  bool take_own(TomlTable& expect) const {
     std::vector<TomlEntry> of_sides;
     for (const TomlEntry& e : expect)
       if (is_side(e.key) && std::holds_alternative<TomlTable>(e.value.data)) of_sides.push_back(e);
@@ -104,6 +99,7 @@ class SideWriter {
       if (e.key != own_) continue;
       for (const TomlEntry& own : std::get<TomlTable>(e.value.data)) put(expect, own);
     }
+    return !of_sides.empty() && expect.empty();
   }
 
   // Does the name stand for this side, too? One that begins with its name loses that.

@@ -135,10 +135,8 @@ class SidesRun {
     Frame frame;
     static_cast<FramePage&>(frame) = sides_[0].at(k).frame;
     frame.index = report_.frames;
-    const Panel code_panel = language::panel_named("code");
-    if (own_code_)
-      std::erase(frame.panels, code_panel);
-    else if (const auto* code = sides_[0].at(k).frame.find<FrameCode>())
+    std::erase_if(frame.panels, [&](Panel panel) { return panel == own_panel_; });
+    if (const auto* code = sides_[0].at(k).frame.find<FrameCode>(); code && !own_panel_)
       frame.add<FrameCode>() = *code;  // drawn once, for all
     for (const Side& side : sides_) {
       Frame& shown = frame.sides.emplace_back(side.at(k).frame);
@@ -146,7 +144,7 @@ class SidesRun {
       shown.index = frame.index;
       shown.drop<FrameChart>();  // drawn once, for all
       std::erase_if(shown.panels, [&](Panel panel) {
-        return kind_of(panel).of_all_sides && !(own_code_ && panel == code_panel);
+        return kind_of(panel).of_all_sides && panel != own_panel_;
       });
       if (held) shown.since_last_frame.reset();
       if (frame.event.empty() && !held) frame.event = shown.event;
@@ -226,7 +224,9 @@ class SidesRun {
   }
 
   const Scenario& scenario_;
-  const bool own_code_ = has_code_by_side(scenario_);  // each side has its panel of code
+  // Of code, where each side has its own; else all have one.
+  const std::optional<Panel> own_panel_ =
+      has_code_by_side(scenario_) ? std::optional(language::panel_named("code")) : std::nullopt;
   const std::function<bool(const Frame&)>& sink_;
   std::deque<Side> sides_;
   std::optional<Plotter> plotter_;

@@ -27,7 +27,7 @@ struct BroadPhaseCounters {
   std::uint64_t static_builds = 0;
   std::uint64_t dynamic_builds = 0;
   std::uint64_t entries_made = 0;  // by builds and insertions, of both
-  std::uint64_t allocations = 0;    // calls for memory
+  std::uint64_t allocations = 0;   // calls for memory
   // Of the last update.
   std::uint64_t pair_tests = 0;            // pairs met in leaves: boxes compared with boxes
   std::uint64_t nodes_visited = 0;         // of the dynamic structure, while pairing

@@ -98,6 +98,12 @@ TEST(Sides, ANoteOfASideThatIsNotThereIsAMistake) {
     expect_mistakes(sided("", sides, note), {"there is no side 'lasy'"});
 }
 
+TEST(Sides, CodeOfNoFunctionIsAMistake) {
+  expect_mistakes("panels = [\"world\", \"code\"]\n" +
+                      sided("", kSides, "[[step]]\ndo = \"show\"\ncode = @{}\n"),
+                  {"'code' has no 'function'"});
+}
+
 TEST(Sides, OfOwnCodeHaveItsPanelEach) {
   const auto showing = [](const std::string& code) {
     return frames_of(good("panels = [\"world\", \"code\"]\n" +

@@ -1,5 +1,12 @@
 #include "draw/tree/tree_layout.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <span>
+
+#include <fmt/format.h>
+
 #include "draw/font.hpp"
 #include "draw/panel.hpp"
 

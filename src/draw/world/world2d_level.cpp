@@ -261,7 +261,6 @@ void name_taken_line(const World2D& w) {
         pen.line(from + (to - from) * in->first, from + (to - from) * in->second,
                  {Role::lit, 4, 14});
   pen.arrow(at, at + front * kReach, {Role::lit, 4}, 14, 2);
-  // Without its word where there is no room for that.
   const auto write = [&](const std::string& text, const Vec<2>& middle, const Stroke& rim) {
     const Box<2> plate = plate_of(text, middle, kStrong, {9, 7});
     if (!w.labels.is_free(plate, w.map.picture())) return false;
@@ -270,6 +269,7 @@ void name_taken_line(const World2D& w) {
     w.labels.block(plate);
     return true;
   };
+  // Without its word where there is no room for that.
   const auto count = [&](std::uint32_t n, const char* word, const Vec<2>& middle) {
     if (!write(fmt::format("{} {}", n, word), middle, {})) write(fmt::format("{}", n), middle, {});
   };
