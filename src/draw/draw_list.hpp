@@ -179,6 +179,12 @@ struct WorldMap {
   double scale = 1;
 };
 
+// Where a solid world is on the page: with the frame's bounds and camera, its View3D.
+struct SolidPanel {
+  std::string prefix;  // of its keys
+  Box<2> panel;
+};
+
 struct DrawList {
   Vec<2> page{1600.0, 900.0};
   std::vector<DrawShape> shapes;
@@ -188,6 +194,7 @@ struct DrawList {
   std::size_t open_scopes = 0;
   std::string prefix;          // of the keys to come: "eager/" while that side is drawn
   std::vector<WorldMap> maps;  // of the flat worlds on the page
+  std::vector<SolidPanel> solids;
   MarkSet marks;               // that are among the shapes, for a legend
   // Counts and measures that the page depicts, so that whoever reads one in the caption finds it.
   std::set<std::string, std::less<>> referents;

@@ -303,6 +303,7 @@ DrawList draw_frame(const Frame& frame, const Staging& staging, const Vec<2>& pa
     map.origin *= k;
     map.scale *= k;
   }
+  for (SolidPanel& solid : list.solids) solid.panel = {solid.panel.lo * k, solid.panel.hi * k};
   for (LabelBox& label : list.labels)
     for (Box<2>* box : {&label.box, &label.panel}) *box = {box->lo * k, box->hi * k};
   return list;

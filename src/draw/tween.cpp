@@ -422,6 +422,15 @@ std::pair<DrawShape, Tint> on_the_way(const Passage& p, const DrawList& a, const
 }  // namespace
 
 // Smootherstep (Perlin, 2002): at both ends neither speed nor acceleration.
+bool is_one_movement(const Frame& a, const Frame& b) {
+  const double passed = b.time - a.time;
+  return passed > 0 && passed < kChangeSeconds;
+}
+
+Motion motion_between(const Frame& a, const Frame& b) {
+  return is_one_movement(a, b) ? Motion::steady : Motion::eased;
+}
+
 double eased(double t) {
   t = std::clamp(t, 0.0, 1.0);
   return t * t * t * (t * (6 * t - 15) + 10);

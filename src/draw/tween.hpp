@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "draw/draw_list.hpp"
+#include "frame/frame.hpp"
 
 namespace lantern::draw {
 
@@ -15,6 +16,14 @@ enum class Motion {
   eased,   // a change of its own: one thing after the other, each from rest to rest
   steady,  // a part of a movement that goes on: all at once, at one speed
 };
+
+// A change lasts so long when it is shown as it is.
+inline constexpr double kChangeSeconds = 0.5;
+
+// Does the world's time go on from the one frame to the other in a small step?
+bool is_one_movement(const Frame& a, const Frame& b);
+// A change is eased; moments of one movement are passed steadily.
+Motion motion_between(const Frame& a, const Frame& b);
 
 // Smoothly from 0 to 1: from rest, to rest. What lies beyond is the nearer end.
 double eased(double t);

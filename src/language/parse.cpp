@@ -1,16 +1,13 @@
 // A scenario file from its bytes to plain values.
 #include <algorithm>
 #include <cctype>
-#include <filesystem>
 #include <memory>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "base/check.hpp"
-#include "base/file.hpp"
 #include "base/hash.hpp"
 #include "language/keys/key.hpp"
 #include "language/tables/draft.hpp"
@@ -20,17 +17,16 @@ namespace {
 
 constexpr Place kTop{1, 1};
 
-[[noreturn]] void refuse_size(const std::string& path, std::uintmax_t bytes) {
-  Diagnostic too_large;
-  too_large.where.file = path;
-  too_large.message = fmt::format("the file has {} bytes, the limit is {}", bytes, kMostFileBytes);
-  too_large.suggestion = "use [[pattern]] for many bodies";
-  throw ScenarioError(too_large);
+// "dir/ghosts.toml" is called "ghosts".
+std::string stem_of(std::string_view path) {
+  const std::string_view name = path.substr(path.rfind('/') + 1);
+  const std::size_t dot = name.rfind('.');
+  return std::string(name.substr(0, dot == 0 ? name.npos : dot));
 }
 
 void read_name(const TableReader& file, const std::string& path, Draft& draft) {
   if (file.has("name")) return;
-  const std::string stem = path == kStandardInput ? "stdin" : fs::path(path).stem().string();
+  const std::string stem = path == kStandardInput ? "stdin" : stem_of(path);
   draft.scenario.name = stem;
   const NamePattern& pattern = *language_table("").find("name")->pattern;
   if (matches(stem, pattern)) return;
@@ -179,6 +175,14 @@ class Indices {
 
 }  // namespace
 
+void refuse_size(const std::string& path, std::uint64_t bytes) {
+  Diagnostic too_large;
+  too_large.where.file = path;
+  too_large.message = fmt::format("the file has {} bytes, the limit is {}", bytes, kMostFileBytes);
+  too_large.suggestion = "use [[pattern]] for many bodies";
+  throw ScenarioError(too_large);
+}
+
 Scenario parse_scenario(std::string_view text, const std::string& path) {
   if (text.size() > kMostFileBytes) refuse_size(path, text.size());
   Draft draft;
@@ -197,34 +201,6 @@ Scenario parse_scenario(std::string_view text, const std::string& path) {
   draft.problems.raise(path, draft.text);
   notice_empty_expectations(table, draft);
   return finished(draft);
-}
-
-Scenario load_scenario(const std::string& path) {
-  if (path == "-") return parse_scenario(read_stdin(kMostFileBytes), std::string(kStandardInput));
-  std::error_code error;
-  if (fs::is_regular_file(path, error)) {
-    const std::uintmax_t bytes = fs::file_size(path, error);
-    if (!error && bytes > kMostFileBytes) refuse_size(path, bytes);
-  }
-  return parse_scenario(read_input(path, kMostFileBytes), path);
-}
-
-Glance glance_at(const std::string& path) try {
-  Problems problems;
-  const std::string bytes = read_file(path, kMostFileBytes);
-  const TomlTable table = read_toml(without_mark(bytes), problems);
-  Glance glance;
-  glance.name = fs::path(path).stem().string();
-  if (problems.any() || table.empty()) return glance;
-  if (const auto* name = value_of<std::string>(table, "name")) glance.name = *name;
-  glance.is_scenario = std::ranges::any_of(
-      table, [](const TomlEntry& entry) { return language_table("").find(entry.key) != nullptr; });
-  if (const auto* place = value_of<std::int64_t>(table, "lecture");
-      place && std::in_range<std::uint32_t>(*place))
-    glance.lecture = static_cast<std::uint32_t>(*place);
-  return glance;
-} catch (const IoError&) {
-  return {};
 }
 
 bool ScenarioSpec::is_quiet(Warning kind) const {

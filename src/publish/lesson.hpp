@@ -52,7 +52,6 @@ class Lesson {
 
  private:
   std::string part(std::string_view name) const;  // of the page's text
-  std::string frames_json() const;
   std::string picture_of(const DrawList& list) const;  // an SVG
 
   LessonCard card_;
@@ -63,18 +62,6 @@ class Lesson {
   std::string captions_;      // <li> ...
   std::string last_caption_;  // of those
 };
-
-// A list of objects, one for the frame or one for each of its sides:
-//   name, title    of the side; empty without sides
-//   counts         [["pairs", 3], ...], and measures likewise
-//   textures       [id, "name"]
-//   bodies         [id, "name", [x, y], speed, "static" | "asleep" | ""]
-//   nodes          ["root.0", "label", depth, leaf, [body ids], outline, pool slot]: the outline on
-//                  the page, [x, y, ...] in page units, of a flat world; the slot or -1
-//   pairs          [a, b, their boxes overlap]
-//   contacts       [a, b]
-// Measures, places and speeds have five digits: they are to be read, not to be reckoned with.
-std::string facts_for_page(const Frame& frame, const DrawList& list);
 
 // index.html of a folder: each lesson page that stands in it, in the order of the lecture, those
 // without a place there behind the others by name, with its first picture, its idea, how many steps

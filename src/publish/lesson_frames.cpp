@@ -10,6 +10,8 @@
 #include "base/json_writer.hpp"
 #include "base/stop.hpp"
 #include "draw/font.hpp"
+#include "draw/page.hpp"
+#include "language/scenario.hpp"
 
 namespace lantern::publish {
 namespace {
@@ -145,6 +147,21 @@ struct StandingRun {
   std::size_t first = 0, count = 0;
 };
 
+// When each beat of a change begins and ends, eased and steady: [[[from, to, eased], ...], ...].
+std::string beats() {
+  std::string text;
+  for (const Motion motion : {Motion::eased, Motion::steady}) {
+    text += text.empty() ? "[" : ",[";
+    for (int i = 0; i < static_cast<int>(Beat::count_beats); ++i) {
+      const BeatSpan span = span_of(static_cast<Beat>(i), motion);
+      text +=
+          fmt::format("{}[{},{},{}]", i > 0 ? "," : "", span.from, span.to, span.is_eased ? 1 : 0);
+    }
+    text += "]";
+  }
+  return "[" + text + "]";
+}
+
 }  // namespace
 
 std::vector<std::string> entities_of(const std::string& key, const Frame& frame) {
@@ -251,6 +268,12 @@ std::string LessonShapes::json() const {
   return fmt::format(
       "\"rows\": {},\n\"keys\": {},\n\"styles\": {},\n\"texts\": {},\n\"glyphs\": {}", rows_.json(),
       keys_.json(), styles_.json(), texts_.json(), glyphs_.json());
+}
+
+FrameWords words_of(const Frame& before, const Frame& frame, const Scenario& scenario) {
+  const Motion motion = motion_between(before, frame);
+  return {scenario.steps.at(frame.step).speaker_notes, counter_texts(frame), motion,
+          motion == Motion::steady ? frame.time - before.time : kChangeSeconds};
 }
 
 std::string whole_caption(const Frame& frame) {
@@ -368,8 +391,11 @@ std::uint32_t LessonFrames::place_of(const Passage& p) {
 }
 
 std::string LessonFrames::json() const {
-  return fmt::format("{},\n\"kinds\": {},\n\"places\": {},\n\"frames\": [{}]", shapes_.json(),
-                     kinds_.json(), places_.json(), frames_);
+  return fmt::format(
+      "{{\"format\": \"lantern.lesson/1\",\n\"page\": [{},{}],\n\"beats\": {},\n{},\n\"kinds\": "
+      "{},\n\"places\": {},\n\"frames\": [{}]}}\n",
+      hundredths(last_.page.x), hundredths(last_.page.y), beats(), shapes_.json(), kinds_.json(),
+      places_.json(), frames_);
 }
 
 }  // namespace lantern::publish

@@ -87,6 +87,9 @@ struct FrameWords {
   double seconds = 0;                 // that the way from there takes
 };
 
+// Of a frame of this scenario, behind another one, of which the time counts.
+FrameWords words_of(const Frame& before, const Frame& frame, const Scenario& scenario);
+
 // The frame's caption, and behind it those of its sides that have one of their own.
 std::string whole_caption(const Frame& frame);
 
@@ -109,6 +112,8 @@ class LessonFrames {
 
   std::size_t count() const { return count_; }
   std::size_t bytes() const { return frames_.size() + shapes_.bytes() + places_.bytes(); }
+  // {"format": "lantern.lesson/1", "page": its size in hundredths, "beats": when each begins and
+  // ends, the tables, "frames": [...]}
   std::string json() const;
 
  private:
@@ -125,5 +130,17 @@ class LessonFrames {
   DrawList last_;               // of the frame before
   std::vector<std::uint32_t> last_rows_;
 };
+
+// A list of objects, one for the frame or one for each of its sides:
+//   name, title    of the side; empty without sides
+//   counts         [["pairs", 3], ...], and measures likewise
+//   textures       [id, "name"]
+//   bodies         [id, "name", [x, y], speed, "static" | "asleep" | ""]
+//   nodes          ["root.0", "label", depth, leaf, [body ids], outline, pool slot]: the outline on
+//                  the page, [x, y, ...] in page units, of a flat world; the slot or -1
+//   pairs          [a, b, their boxes overlap]
+//   contacts       [a, b]
+// Measures, places and speeds have five digits: they are to be read, not to be reckoned with.
+std::string facts_for_page(const Frame& frame, const DrawList& list);
 
 }  // namespace lantern::publish

@@ -264,11 +264,23 @@ void BroadPhase<D>::refuse_more(BodyId number) const {
                 id_at(found_names_, number), config_.most_pairs);
 }
 
-#define LANTERN_INSTANTIATE(D)                          \
-  template void BroadPhase<D>::find_pairs();            \
-  template bool BroadPhase<D>::each_asks_alone() const; \
-  template void BroadPhase<D>::find_pairs_of_few();     \
-  template bool BroadPhase<D>::mends_pairs() const;     \
+#define LANTERN_INSTANTIATE(D)                                                                     \
+  template void BroadPhase<D>::find_pairs();                                                       \
+  template bool BroadPhase<D>::each_asks_alone() const;                                            \
+  template void BroadPhase<D>::find_pairs_of_few();                                                \
+  template bool BroadPhase<D>::mends_pairs() const;                                                \
+  template void BroadPhase<D>::begin_search(std::span<const Box<D>>, std::span<const ProxyState>,  \
+                                            std::span<const std::uint32_t>);                       \
+  template void BroadPhase<D>::pair_static();                                                      \
+  template void BroadPhase<D>::require_room(BodyId, std::size_t) const;                            \
+  template void BroadPhase<D>::refuse_more(BodyId) const;                                          \
+  template void BroadPhase<D>::search();                                                           \
+  template Structure<D>& BroadPhase<D>::few();                                                     \
+  template void BroadPhase<D>::ask(const Structure<D>&, const Store&, const Box<D>&, std::size_t); \
+  template void BroadPhase<D>::order_pairs(std::vector<Pair>&);                                    \
+  template bool BroadPhase<D>::find_near();                                                        \
+  template void BroadPhase<D>::mend_near();                                                        \
+  template void BroadPhase<D>::pair_near();                                                        \
   template void BroadPhase<D>::mend_pairs();
 LANTERN_INSTANTIATE(2)
 LANTERN_INSTANTIATE(3)

@@ -141,15 +141,15 @@ TEST(InBetweens, AreAsManyAsAChangeOfHalfASecondHas) {
   const InBetweens film(std::nullopt, 30.0);
   Frame a, b;
   EXPECT_EQ(film.between(a, b), 14u);  // 15 steps of a 30th
-  EXPECT_EQ(InBetweens::motion(a, b), Motion::eased);
+  EXPECT_EQ(motion_between(a, b), Motion::eased);
   b.time = 0.1;  // the world's own time: three steps of a 30th
   EXPECT_EQ(film.between(a, b), 2u);
-  EXPECT_EQ(InBetweens::motion(a, b), Motion::steady);
+  EXPECT_EQ(motion_between(a, b), Motion::steady);
   b.time = 1 / 60.0;
   EXPECT_EQ(film.between(a, b), 0u) << "denser than the film";
   b.time = 3;
   EXPECT_EQ(film.between(a, b), 14u);
-  EXPECT_EQ(InBetweens::motion(a, b), Motion::eased) << "a leap";
+  EXPECT_EQ(motion_between(a, b), Motion::eased) << "a leap";
 
   const InBetweens five(5, std::nullopt);
   EXPECT_EQ(five.between(a, b), 5u);

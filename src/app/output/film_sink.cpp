@@ -124,7 +124,7 @@ class FilmSink : public FileSink {
 }  // namespace
 
 bool FilmClock::is_still(const Frame& a, const Frame& b, bool goes_on) {
-  return !goes_on || a.step != b.step || !InBetweens::is_one_movement(a, b);
+  return !goes_on || a.step != b.step || !is_one_movement(a, b);
 }
 
 void FilmClock::see(const Frame& frame) {
@@ -157,10 +157,10 @@ std::vector<FilmClock::Shot> FilmClock::way(const Frame& a, const Frame& b, bool
   std::vector<Shot> shots;
   if (!goes_on) return shots;
   see(b);
-  if (InBetweens::is_one_movement(a, b)) {
+  if (is_one_movement(a, b)) {
     move(a, b, shots);
   } else if (settings_.in_betweens != 0u) {
-    const std::uint64_t all = pictures(InBetweens::kChange, settings_.rate);
+    const std::uint64_t all = pictures(kChangeSeconds, settings_.rate);
     for (std::uint64_t k = 1; k < all; ++k, ++now_) {
       const double t = quantized(static_cast<double>(k) / static_cast<double>(all));
       if (t > 0 && (shots.empty() || t != shots.back().t)) shots.push_back({t, now_});

@@ -81,10 +81,9 @@ class PageSink : public FileSink {
 
  private:
   publish::FrameWords words_of(const Frame& frame) const {
-    const Motion motion = InBetweens::motion(last_, frame);
-    return {of_.scenario.steps.at(frame.step).speaker_notes,
-            !of_.job.options.no_counters ? counter_texts(frame) : std::vector<std::string>(),
-            motion, motion == Motion::steady ? frame.time - last_.time : InBetweens::kChange};
+    publish::FrameWords words = publish::words_of(last_, frame, of_.scenario);
+    if (of_.job.options.no_counters) words.counters.clear();
+    return words;
   }
 
   void require_few(std::uint64_t frames) const {

@@ -102,7 +102,7 @@ void for_each_part(std::string_view words, const auto& part) {
 }  // namespace
 
 InBetweens::InBetweens(std::optional<std::uint64_t> tween, std::optional<double> fps)
-    : number_(fps ? within(kChange, *fps) : tween.value_or(0)), fps_(fps.value_or(0)) {}
+    : number_(fps ? within(kChangeSeconds, *fps) : tween.value_or(0)), fps_(fps.value_or(0)) {}
 
 std::string InBetweens::setting() const {
   if (!wanted()) return "";
@@ -111,15 +111,6 @@ std::string InBetweens::setting() const {
 
 std::uint64_t InBetweens::between(const Frame& a, const Frame& b) const {
   return fps_ > 0 && is_one_movement(a, b) ? within(b.time - a.time, fps_) : number_;
-}
-
-bool InBetweens::is_one_movement(const Frame& a, const Frame& b) {
-  const double passed = b.time - a.time;
-  return passed > 0 && passed < kChange;
-}
-
-Motion InBetweens::motion(const Frame& a, const Frame& b) {
-  return is_one_movement(a, b) ? Motion::steady : Motion::eased;
 }
 
 void InBetweens::require_few(std::optional<std::uint64_t> frames) const {
@@ -247,7 +238,7 @@ DrawList FrameWalk::in_between(double t) {
   ++work_.in_betweens;
   const DrawList &a = page_before(), &b = page();
   if (!way_) way_ = passages(a, b);
-  return between(a, b, *way_, t, InBetweens::motion(before_->frame, here_->frame));
+  return between(a, b, *way_, t, motion_between(before_->frame, here_->frame));
 }
 
 Destination::Destination(const std::string& words, bool sheet)

@@ -28,8 +28,6 @@ class InBetweens {
  public:
   // More pictures than this, frames and in-betweens, are not made of one scenario.
   static constexpr std::uint64_t kMostPictures = 100'000;
-  // A change lasts so long, seconds, when it is shown at the wanted number of pictures a second.
-  static constexpr double kChange = 0.5;
 
   InBetweens() = default;
   // Both are asked for only of a film, which has a clock of its own (app/output/sinks.hpp).
@@ -44,10 +42,6 @@ class InBetweens {
   // Between two frames that follow each other. World time that goes on in small steps is shown at
   // its own speed: the more pictures a second, the more fit between two moments.
   std::uint64_t between(const Frame& a, const Frame& b) const;
-  // Does the world's time go on from the one to the other in a small step?
-  static bool is_one_movement(const Frame& a, const Frame& b);
-  // A change is eased; moments of one movement are passed steadily.
-  static Motion motion(const Frame& a, const Frame& b);
 
   // Throws UsageError if so many frames, or two of a number that is not known, would be too many.
   void require_few(std::optional<std::uint64_t> frames) const;

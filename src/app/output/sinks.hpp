@@ -113,7 +113,7 @@ class FileSink : public StagedSink {
 // When the pictures of a film are seen: the speed of what moves, how long stands what is read.
 // Moments are counted in pictures of the film's rate, from 0. World time that goes on in small
 // steps is shown at its own speed, whatever lies between two frames; any other change takes
-// InBetweens::kChange seconds. A still is a frame that nothing goes on from at once: the last of
+// kChangeSeconds. A still is a frame that nothing goes on from at once: the last of
 // each step, and each that the next one differs from by more than a small step of time.
 class FilmClock {
  public:

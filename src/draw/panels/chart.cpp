@@ -134,7 +134,7 @@ class Bars : PanelPicture {
     if (fits(kGoodRow)) return;
     gap_ = kLeastGroupGap;
     if (fits(kLeastRow)) return;
-    std::erase_if(bars_, &Row::is_to_come);
+    std::erase_if(bars_, [](const Row& row) { return row.is_to_come; });
     if (fits(kLeastRow)) return;
     ticks_ = false;
     const std::size_t all = bars_.size();

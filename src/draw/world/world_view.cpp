@@ -200,6 +200,7 @@ void tell_body(const Box<2>& box, std::span<const FrameBody* const> bodies, Labe
 void draw_world3d(const Frame& frame, const Staging& staging, const Box<2>& panel, DrawList& list,
                   Labels& labels) {
   const View3D view(frame.bounds, frame.camera, panel);
+  list.solids.push_back({list.prefix, panel});
   LeftOut left_out;
   const bool crowd = frame.bodies.size() > kCrowd;
   const std::vector<Body3D> bodies = crowd ? std::vector<Body3D>() : bodies_in_view(frame, view);

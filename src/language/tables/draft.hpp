@@ -217,4 +217,7 @@ std::string_view within_side(std::string_view name, const std::vector<std::strin
 // May a side override this key of a table?
 bool may_differ(std::string_view table, std::string_view key);
 
+// Throws ScenarioError: the file of this name has too many bytes.
+[[noreturn]] void refuse_size(const std::string& path, std::uint64_t bytes);
+
 }  // namespace lantern::language

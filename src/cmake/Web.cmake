@@ -1,0 +1,53 @@
+# build/web/lantern.wasm: the rooms that a page needs, without OpenGL, files, threads, films, lab and
+# command line. CMakeLists.txt reads this in place of all else when the toolchain is wasm.cmake.
+find_path(LANTERN_FMT_DIR fmt/format.h REQUIRED)
+# The packages' headers alone: beside them stand the machine's own, which are not for WebAssembly.
+set(headers ${PROJECT_BINARY_DIR}/headers)
+file(MAKE_DIRECTORY ${headers})
+foreach(package fmt glm toml++ nlohmann hwy)
+  file(CREATE_LINK ${LANTERN_FMT_DIR}/${package} ${headers}/${package} SYMBOLIC)
+endforeach()
+find_path(LANTERN_STB_DIR stb_truetype.h PATH_SUFFIXES stb REQUIRED)
+file(CREATE_LINK ${LANTERN_STB_DIR} ${headers}/stb SYMBOLIC)
+find_path(LANTERN_FONT_DIR Inter-Regular.otf PATHS /usr/share/fonts/opentype/inter REQUIRED)
+find_path(LANTERN_CODE_FONT_DIR Inconsolata.otf PATHS /usr/share/fonts/truetype/inconsolata REQUIRED)
+include(Rooms)
+
+set(src ${PROJECT_SOURCE_DIR}/src)
+# world.cpp instantiates its class again, which clang refuses within one source.
+set_source_files_properties(${src}/physics/world.cpp ${src}/spatial/broad_phase_pairs.cpp
+  ${src}/spatial/near_pairs.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+set_source_files_properties(${src}/language/text/problems.cpp PROPERTIES
+  COMPILE_OPTIONS -I${src}/web/config SKIP_UNITY_BUILD_INCLUSION ON)
+# They include themselves; Highway's vectors for WebAssembly have no doubles, of which one is made.
+set_source_files_properties(${src}/spatial/box_vectors.cpp ${src}/physics/contact/quick_vectors.cpp
+  PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+set_source_files_properties(${src}/spatial/box_vectors.cpp PROPERTIES COMPILE_OPTIONS -msimd128)
+add_library(lantern_web_options INTERFACE)
+target_include_directories(lantern_web_options INTERFACE ${src})
+target_include_directories(lantern_web_options SYSTEM INTERFACE ${headers} ${headers}/stb)
+foreach(library font lecture_source examples)
+  target_link_libraries(lantern_web_options INTERFACE lantern_${library})
+endforeach()
+target_link_libraries(lantern_web_options INTERFACE lantern_version)
+target_compile_definitions(lantern_web_options INTERFACE FMT_HEADER_ONLY TOML_HEADER_ONLY=1)
+target_compile_options(lantern_web_options INTERFACE -include ${src}/web/one_thread.hpp -O2)
+
+add_executable(lantern_wasm)
+set_target_properties(lantern_wasm PROPERTIES OUTPUT_NAME lantern SUFFIX .wasm)
+foreach(room base geometry lecture spatial atlas physics language frame run draw render publish live web)
+  file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${src}/${room}/*.cpp)
+  if(room STREQUAL base)
+    list(FILTER sources EXCLUDE REGEX "/(child|file|machine_memory|streams)\\.cpp$")
+  elseif(room STREQUAL language)
+    list(FILTER sources EXCLUDE REGEX "/load\\.cpp$")
+  elseif(room STREQUAL render)
+    list(FILTER sources INCLUDE REGEX "/svg\\.cpp$")
+  elseif(room STREQUAL publish)
+    list(FILTER sources INCLUDE REGEX "/lesson_(facts|frames)\\.cpp$")
+  endif()
+  add_library(lantern_web_${room} OBJECT ${sources})
+  target_link_libraries(lantern_web_${room} PRIVATE lantern_web_options)
+  target_link_libraries(lantern_wasm PRIVATE lantern_web_${room})
+endforeach()
+target_link_libraries(lantern_wasm PRIVATE lantern_web_options)
