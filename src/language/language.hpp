@@ -81,6 +81,13 @@ bool matches(std::string_view text, const NamePattern& pattern);
 // for what else is not.
 std::string legal_name(std::string_view text, const NamePattern& pattern);
 
+// Whether a hand may change a key's value on a live page, and between which ends.
+struct ByHand {
+  bool may = false;
+  double least = 0, most = 0;  // of a number, in the file's unit
+  bool of_world = false;       // these are parts of the world's shortest side
+};
+
 struct KeyDoc {
   std::string_view key;
   KeyType type = KeyType::text;
@@ -99,6 +106,8 @@ struct KeyDoc {
   std::string_view of = {};
   std::string_view form = {};    // of two numbers: "[x, y]"
   std::string_view advice = {};  // to who writes a choice that is not known, nor like one
+  ByHand by_hand = {};
+  std::string at_first = {};  // of a key by hand, if nothing is written, as TOML
 
   // Writes a good value, times the scale, into the member that the key is bound to, `offset` bytes
   // into an `owner`. A key without an owner is read by the reader of its table.

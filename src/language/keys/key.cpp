@@ -32,6 +32,7 @@ void add(const Note& note, KeyDoc& doc) {
   if (!note.of.empty()) doc.of = note.of;
   if (!note.form.empty()) doc.form = note.form;
   if (!note.advice.empty()) doc.advice = note.advice;
+  if (note.by_hand.may) doc.by_hand = note.by_hand;
   if (note.pattern) doc.pattern = *note.pattern;
   if (note.choices.empty()) return;
   doc.choices.assign(note.choices.begin(), note.choices.end());
@@ -192,6 +193,7 @@ KeyDoc made(const MemberKind& kind, const std::type_info& owner, std::size_t off
   doc.owner = &owner;
   doc.offset = offset;
   doc.fill = kind.fill;
+  if (doc.by_hand.may) doc.at_first = kind.literal(initial, doc.scale);
   if (doc.required || !doc.otherwise.empty()) return doc;
   doc.fallback = kind.type == KeyType::truth && doc.type == KeyType::choice
                      ? fmt::format("\"{}\"", doc.choices[*static_cast<const bool*>(initial)])

@@ -132,6 +132,7 @@ struct Note {  // of KeyDoc's members, those that it sets
   const NamePattern* pattern = nullptr;
   std::span<const std::string_view> choices = {};
   std::string_view advice = {};
+  ByHand by_hand = {};
 };
 
 inline Note must() { return {.required = true}; }
@@ -156,6 +157,12 @@ inline Note one_of(std::initializer_list<std::string_view> choices) {
 }
 // To who chooses something that is not there.
 inline Note advising(std::string_view advice) { return {.advice = advice}; }
+
+// A hand may turn it, a number between these ends; what is idle or refused in a scene is not there.
+inline Note by_hand(double least = 0, double most = 0) { return {.by_hand = {true, least, most}}; }
+inline Note by_hand_in_world(double least, double most) {
+  return {.by_hand = {true, least, most, true}};
+}
 
 // Read by the reader of its table.
 KeyDoc made(KeyType type, std::string_view name, std::string_view meaning,

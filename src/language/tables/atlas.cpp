@@ -139,14 +139,16 @@ TableDoc atlas_table() {
       key(&A::rule, "rule",
           "`first_fit`: each texture takes the first leaf that it fits, in order of descent, so "
           "that n textures may look at n²/2 leaves. `best_texture`: the free leaves choose, of all "
-          "textures that a `pack` brings, the one that leaves least of them."),
+          "textures that a `pack` brings, the one that leaves least of them.",
+          by_hand()),
       key(&A::turn, "turn",
           "May textures be turned by 90°? By `first_fit` they are if they fit nowhere as they "
-          "are."),
+          "are.",
+          by_hand()),
       key(&A::trials, "trials",
           "Of `best_texture`: packings that are tried at most; there are 6, with `turn` 18. The "
           "first that packs all is taken, or the one that packs most.",
-          range(1, kMostTrials)),
+          range(1, kMostTrials), by_hand(1, 18)),
       key(KeyType::size, "screen",
           "The width and height of a screen that is drawn from the textures, element by element.",
           range(1, kMostPixels), in("px"), or_else("none")),
@@ -178,14 +180,14 @@ TableDoc texture_pattern_table() {
   table.keys = {
       key(&P::name, "name", "Unique over textures and their patterns.", must(), like(kNamePattern)),
       key(&P::count, "count", "How many; 20000 textures in all are allowed.", must(),
-          range(1, kMostTextures), in("textures")),
+          range(1, kMostTextures), in("textures"), by_hand(1, 100)),
       key(KeyType::size, "min", "The least width and height.", must(), range(1, kMostPixels),
           in("px")),
       key(KeyType::size, "max", "The largest width and height.", must(), range(1, kMostPixels),
           in("px")),
       key(&P::multiple, "multiple", "Widths and heights are multiples of it.",
           range(1, kMostPixels), in("px")),
-      key(&P::order, "order", "In which they are named and packed."),
+      key(&P::order, "order", "In which they are named and packed.", by_hand()),
       key(&P::color, "color", "As a body's; 0 cycles through 1 to 8.", range(0, 8)),
       key(KeyType::whole, "seed", "Of this pattern alone.", range(0, kMostWhole),
           or_else("from the scenario's seed and the name")),

@@ -262,9 +262,9 @@ std::vector<KeyDoc> body_keys(std::vector<KeyDoc> first) {
           "their part of the blow. Pairs that touch at once are struck one after another, "
           "but those that joints hold, together; a blow that takes more than 64 rounds ends "
           "without restitution.",
-          range(0, 1)),
+          range(0, 1), by_hand(0, 1)),
       key(&Material::friction, "friction",
-          "Of two bodies, the square root of their product counts.", range(0, 1000)),
+          "Of two bodies, the square root of their product counts.", range(0, 1000), by_hand(0, 2)),
       key(&B::linear_drag, "drag",
           "Force against its motion, for each unit a second. `velocity_verlet`, "
           "`implicit_midpoint` and `implicit_euler` bear any and never turn a velocity round. The "

@@ -254,13 +254,15 @@ TableDoc pattern_table() {
                     "Many bodies at once. Those of pattern `dot` are called `dot1`, `dot2`, …"};
   table.keys = body_keys({
       key(&P::count, "count", "How many; 20000 bodies in all are allowed.", must(),
-          range(1, kMostBodies), in("bodies")),
+          range(1, kMostBodies), in("bodies"), by_hand(1, 200)),
       key(&P::arrange, "arrange",
           "At random places; in rows from the lowest corner; on a line from `min` to `max`; as a "
           "stack, each on the one before, the lowest at `min`; in rows of which every other one is "
           "shifted by half a place; or at random places `apart` from each other and from what "
-          "never moves."),
-      key(&P::gap, "gap", "Least room between bodies that stand `apart`.", range(0, kFar)),
+          "never moves.",
+          by_hand()),
+      key(&P::gap, "gap", "Least room between bodies that stand `apart`.", range(0, kFar),
+          by_hand_in_world(0, 0.1)),
       key(KeyType::point, "min", "Lowest corner of where centres may be.", range(-kFar, kFar),
           or_else("so that all lie in the world")),
       key(KeyType::point, "max", "Highest corner of where centres may be.", range(-kFar, kFar),

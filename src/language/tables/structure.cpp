@@ -137,48 +137,54 @@ TableDoc structure_table() {
           "`auto` takes what suits the bodies as the file places them, and `explain` says why. A "
           "program may be given structures of a user's own, by their names "
           "(`src/spatial/own_structure.hpp`). At most 2000000 pairs may be met on one frame.",
-          must(), advising("for a structure of your own see src/spatial/own_structure.hpp")),
+          must(), advising("for a structure of your own see src/spatial/own_structure.hpp"),
+          by_hand()),
       key(&S::capacity, "capacity", "A leaf that holds more splits, if depth is left.",
-          range(1, 1000), in("bodies")),
+          range(1, 1000), in("bodies"), by_hand(1, 8)),
       key(&S::max_depth, "max_depth",
           "A leaf at this depth never splits; the root has depth 0. A tree may have 2000000 nodes "
           "and as many entries.",
-          range(0, 32)),
+          range(0, 32), by_hand(0, 8)),
       key(&S::eager_children, "children",
           "Made when something enters them (`lazy`), or all at a split (`eager`).",
-          one_of({"lazy", "eager"})),
+          one_of({"lazy", "eager"}), by_hand()),
       key(&S::no_progress_stop, "no_progress_stop",
-          "A leaf whose bodies all share one point does not split: that would separate none."),
+          "A leaf whose bodies all share one point does not split: that would separate none.",
+          by_hand()),
       key(&S::split_static, "split_static",
-          "One structure for what never moves, built once, and one for what does."),
+          "One structure for what never moves, built once, and one for what does.", by_hand()),
       key(&S::cell, "cell",
           "Side of a grid's cells, of several levels the smallest. A closed grid may have 2000000 "
           "of them. `0`: half again as large as nearly all bodies are (19 of 20), but at most "
           "three times the median; anew whenever it is built.",
-          range(0, kFar), in("units")),
+          range(0, kFar), in("units"), by_hand_in_world(0, 0.5)),
       key(&S::levels, "levels",
           "Of a grid: how many sizes of cells, each twice as large as the one before. A body is on "
           "the finest level whose cells are as large as it is.",
-          range(1, 16)),
+          range(1, 16), by_hand(1, 4)),
       key(&S::open, "open",
           "A grid without a rim, for a world without end: its cells are hashed into buckets. Else "
-          "bodies outside of the world are in the cells at its rim."),
+          "bodies outside of the world are in the cells at its rim.",
+          by_hand()),
       key(&S::margin, "margin",
           "Of an `aabb_tree`: its leaves' boxes are larger than their bodies' by this on every "
           "side. A body that moves within its enlarged box changes nothing in the tree.",
-          range(0, kFar)),
+          range(0, kFar), by_hand_in_world(0, 0.1)),
       key(&S::following, "following",
           "Of an `aabb_tree`: what is done with a body that has left its leaf's box. It is taken "
           "out and inserted again (`reinsert`), its box and those above it are made anew where "
-          "they stand (`refit`), or whichever is quicker."),
+          "they stand (`refit`), or whichever is quicker.",
+          by_hand()),
       key(&S::axis, "axis",
           "Of `sort_and_sweep`: along which it sorts, `widest` for the one along which centres "
-          "vary most."),
+          "vary most.",
+          by_hand()),
       key(&S::as_printed, "as_printed",
           "Of a `lecture_quadtree`: with two mistakes of the lecture's text. A pair's key is a + "
           "(b "
           "<< 8), of the bodies' addresses, and of pairs with the same key one is kept; what lies "
-          "outside of the root is in no leaf."),
+          "outside of the root is in no leaf.",
+          by_hand()),
       key(&S::root, "root",
           "Of a `lecture_quadtree`: how large its root is, from the world's lowest corner on.",
           range(1e-6, kFar), or_else("as large as the world")),

@@ -163,11 +163,11 @@ TableDoc world_table() {
       key(KeyType::point, "min", "Its lowest corner, instead of `size`.", range(-kFar, kFar)),
       key(KeyType::point, "max", "Its highest corner, instead of `size`.", range(-kFar, kFar)),
       key(&W::time_step, "time_step", "How much time passes in one world step.", above(0, 1e3),
-          in("s"), or_else("1/60")),
+          in("s"), or_else("1/60"), by_hand(0.005, 0.1)),
       key(&W::frame_every, "frame_every", "World steps from one frame to the next.",
           range(1, kMostEvery), in("steps")),
       key(&W::gravity, "gravity", "Acts on every body that forces move.", range(-kFar, kFar),
-          in("units/s²"), or_else("none")),
+          in("units/s²"), or_else("none"), by_hand(-20, 20)),
       key(&W::gravitation, "gravitation",
           "Bodies attract each other with this times both masses over the square of their "
           "distance. A static body attracts if it has a `mass`.",
@@ -186,7 +186,8 @@ TableDoc world_table() {
           "and `impulse`, and in fast chains beside contacts by up to two links for a step, which "
           "by "
           "`explicit_euler` may gain energy. What bounces in a stack until it is too slow to may "
-          "lose 5e-7 of its energy in a step, or gain 6e-7."),
+          "lose 5e-7 of its energy in a step, or gain 6e-7.",
+          by_hand()),
       key(&W::integrator, "integrator",
           "How forces become motion. By `semi_implicit_euler` places follow the new velocities, "
           "half a step ahead of what a steady force speeds up, but for balls on what stands still; "
@@ -199,13 +200,14 @@ TableDoc world_table() {
           "`implicit_euler` loses instead. `kahan_li_8` (order 8, 17 evaluations of the forces a "
           "step, symplectic and reversible) and `dormand_prince` (order 5, 6 evaluations) are for "
           "forces that follow from places alone: gravity, `gravitation`, springs and pushes. They "
-          "refuse `contacts`, drag, the damping of springs, and joints."),
+          "refuse `contacts`, drag, the damping of springs, and joints.",
+          by_hand()),
       key(&W::rotation, "rotation",
           "How free bodies rotate: exactly, to rounding, at any spin and step; or by a splitting "
           "of order 2 or 4, and exactly only where it would change the energy by more than a "
           "thousandth. `explicit_gyroscopic` is there to be seen failing."),
       key(&W::sub_steps, "sub_steps", "How many parts soft contacts divide a world step into.",
-          range(1, 64)),
+          range(1, 64), by_hand(1, 16)),
       key(&W::wanted_error, "wanted_error",
           "How deep two bodies may lie in each other at the end of a step, in units, or as deep "
           "as before it, if that is more; 0 asks for 0.000001. What lies deeper is pushed out, "
@@ -220,7 +222,7 @@ TableDoc world_table() {
           "stack of 10 equal boxes of size 1 at 60 steps a second, and of 20 at 120; what is r "
           "times as heavy as what carries it needs about r of them. What nearly tips needs more: "
           "a box on a slope at 99 % of its limit 50, an overhang at 99.5 % 200.",
-          range(1, 1000)),
+          range(1, 1000), by_hand(1, 50)),
       key(&W::impact_budget, "impact_budget",
           "How many impacts are located in one world step; later ones are treated as soft. "
           "Bouncing bodies, and those that fly or spin fast, are stopped at the moment of impact, "
@@ -229,7 +231,8 @@ TableDoc world_table() {
           "as forces alone move it by less than a wall's thickness in a step; what even these "
           "cannot move on waits until the next step. The lecture's own contacts do none of this.",
           range(0, 10'000'000)),
-      key(&W::may_sleep, "may_sleep", "Bodies that have been at rest for a while fall asleep."),
+      key(&W::may_sleep, "may_sleep", "Bodies that have been at rest for a while fall asleep.",
+          by_hand()),
       key(&Display::boxes, "show_boxes", "The boxes of the broad phase are drawn."),
       key(&Display::arrows, "show_velocities", "Velocities are drawn as arrows."),
       key(&Display::depths, "show_depths",
@@ -401,11 +404,11 @@ TableDoc level_table() {
           must(), range(-kFar, kFar)),
       key(&L::balance, "balance",
           "What a line's score counts for each wall that one side has more than the other.",
-          range(0, 1e6)),
+          range(0, 1e6), by_hand(0, 10)),
       key(&L::cuts, "cuts", "What it counts for each wall that the line cuts in two.",
-          range(0, 1e6)),
+          range(0, 1e6), by_hand(0, 10)),
       key(&L::first_wall, "choose", "The line with the lowest score, or the first wall's.",
-          one_of({"score", "first_wall"})),
+          one_of({"score", "first_wall"}), by_hand()),
   };
   return table;
 }
