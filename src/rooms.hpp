@@ -36,6 +36,10 @@ using namespace draw;
 namespace publish {
 using namespace render;
 }
+namespace live {
+using namespace publish;
+using namespace run;
+}  // namespace live
 namespace measure {
 using namespace run;
 }

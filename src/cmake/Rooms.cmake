@@ -1,8 +1,9 @@
-# lantern_room(NAME [GUEST] LINKS ...): the library lantern_NAME of all sources in src/NAME and its
+# lantern_room(NAME [GUEST | NOT_INSTALLED] LINKS ...): the library lantern_NAME of all sources in src/NAME and its
 # folders. Packages that only sources include are linked as $<BUILD_INTERFACE:...>: who uses the
-# installed library need not have them. A guest is a part of the lab's module, and not installed.
+# installed library need not have them. A guest is a part of the lab's module, and not installed. What is NOT_INSTALLED is in no program of its own,
+# and built for whoever links it.
 function(lantern_room name)
-  cmake_parse_arguments(ROOM "GUEST" "" "LINKS" ${ARGN})
+  cmake_parse_arguments(ROOM "GUEST;NOT_INSTALLED" "" "LINKS" ${ARGN})
   file(GLOB_RECURSE sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
   list(TRANSFORM ROOM_LINKS REPLACE "^([a-z]+)$" "lantern_\\1")
   set(includes $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
@@ -22,7 +23,9 @@ function(lantern_room name)
     target_include_directories(lantern_${name} INTERFACE ${includes})
     target_link_libraries(lantern_${name} INTERFACE ${ROOM_LINKS})
   endif()
-  if(NOT ROOM_GUEST)
+  if(ROOM_NOT_INSTALLED)
+    set_target_properties(lantern_${name} PROPERTIES EXCLUDE_FROM_ALL ON)
+  elseif(NOT ROOM_GUEST)
     lantern_installed_library(${name})
     set_property(GLOBAL APPEND PROPERTY lantern_rooms ${name})
   endif()

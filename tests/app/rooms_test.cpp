@@ -31,6 +31,7 @@ const std::map<std::string, std::set<std::string>> kRooms = {
     {"draw", {"frame"}},
     {"render", {"draw"}},
     {"publish", {"render"}},
+    {"live", {"publish", "run"}},
     {"measure", {"run"}},
     {"peers", {"measure"}},
     {"report", {"measure", "draw", "render"}},
