@@ -101,6 +101,7 @@ class View3D : public Projection {
 
   const Vec<3>& eye() const { return eye_; }
   const Vec<3>& right() const { return right_; }  // unit, level, of the page
+  const Vec<3>& up() const { return up_; }        // unit, of the page
   const Vec<3>& light() const { return light_; }  // unit, towards it: over the viewer's shoulder
   const Box<3>& bounds() const { return bounds_; }
 

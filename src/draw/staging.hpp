@@ -78,6 +78,7 @@ class Staging {
   explicit Staging(std::span<const Frame> frames, const AxisRanges& axes = {})
       : Staging(each_of(frames), axes) {}
   explicit Staging(const Frame& frame) : Staging(std::vector{&frame}, {}) {}
+  Staging(std::vector<const Frame*> frames, const AxisRanges& axes);
 
   // Belongs `next` to the group of `before`? It does while panels, structure and world stay; a new
   // part begins a group if its settings are others, or packs an atlas on.
@@ -125,7 +126,6 @@ class Staging {
   }
 
  private:
-  Staging(std::vector<const Frame*> frames, const AxisRanges& axes);
   static std::vector<const Frame*> each_of(std::span<const Frame> frames);
   void add_nodes(const Frame& frame);
 

@@ -1,9 +1,187 @@
 #include "live/session.hpp"
+
+#include <optional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "base/check.hpp"
+#include "base/error.hpp"
+#include "base/json_writer.hpp"
+#include "live/controls.hpp"
+#include "live/edit.hpp"
+#include "live/grip.hpp"
+#include "live/play.hpp"
+#include "publish/lesson_frames.hpp"
+#include "render/svg.hpp"
+
 namespace lantern::live {
-using namespace run; using namespace publish;
-std::string Session::ask(std::string_view request) {
-  Scenario s = parse_scenario(request, "a.toml"); Work work; std::string out;
-  direct(s, s.pace, work, [&](const Frame& f) { LessonFrames l; DrawList d = draw_frame(f, {1600, 711}, work); l.add(f, d, words_of(f, f, s)); out += to_json(f) + l.json() + facts_for_page(f, d) + to_svg(d, *draw::theme_named("light"), false, 100, 100); return true; });
-  return out;
+namespace {
+
+using nlohmann::json;
+
+void write(JsonWriter& out, const Diagnostic& d) {
+  out.begin_object()
+      .members("severity", d.severity == Severity::error ? "error" : "warning", "line",
+               d.where.line, "column", d.where.column, "message", d.message, "suggestion",
+               d.suggestion)
+      .end_object();
 }
+
+std::string list_of_diagnostics(const std::vector<Diagnostic>& all) {
+  JsonWriter out;
+  out.begin_array();
+  for (const Diagnostic& d : all) write(out, d);
+  return out.end_array().text();
 }
+
+std::string refusal(const std::vector<Diagnostic>& why, const std::string& said) {
+  return fmt::format("{{\"refused\": {}, \"said\": {}}}", list_of_diagnostics(why),
+                     json_string(said));
+}
+
+std::string refusal(const std::string& message) {
+  Diagnostic d;
+  d.message = message;
+  return refusal({d}, message);
+}
+
+std::string with_text(std::string_view key, const std::string& text) {
+  return fmt::format("{{\"{}\": {}}}", key, json_string(text));
+}
+
+// Frames as a lesson page holds them.
+class Pictures {
+ public:
+  void add(const Frame& frame, const Frame* before, const draw::DrawList& list,
+           const language::Scenario& scenario) {
+    frames_.add(frame, list, publish::words_of(before ? *before : Frame(), frame, scenario));
+    facts_ += (facts_.empty() ? "" : ",") + publish::facts_for_page(frame, list);
+    hashes_ += fmt::format("{}\"{:016x}\"", hashes_.empty() ? "" : ",", frame.hash);
+  }
+  // Members of an object.
+  std::string json() const {
+    return fmt::format("\"lesson\": {}, \"facts\": [{}], \"hashes\": [{}]", frames_.json(), facts_,
+                       hashes_);
+  }
+
+ private:
+  publish::LessonFrames frames_;
+  std::string facts_, hashes_;
+};
+
+}  // namespace
+
+class Session::Engine {
+ public:
+  std::string answer(const json& q) {
+    const std::string what = q.at("do");
+    if (what == "open") return open(q.at("text"), q.at("name"));
+    if (what == "complete")
+      return complete_json(q.at("text").get<std::string>(), q.at("line"), q.at("column"));
+    if (!play_) throw Refused("nothing is opened yet");
+    if (what == "lesson") return lesson();
+    if (what == "frame") return "{" + picture(index_in(q, "index")) + "}";
+    if (what == "grab") return grab(q);
+    if (what == "drag") return drag(q);
+    if (what == "set")
+      return with_text("text", with_value(text_, q.at("path").get<std::string>(),
+                                          q.at("value").get<std::string>()));
+    if (what == "controls") return controls_json(text_, play_->scenario());
+    if (what == "facts") return with_text("facts", to_json(play_->frames()[index_in(q, "index")]));
+    if (what == "svg") return svg(index_in(q, "index"), q.at("width"), q.at("height"));
+    throw Refused("unknown request '{}'", what);
+  }
+
+ private:
+  std::size_t index_in(const json& q, const char* name) const {
+    const std::size_t index = q.at(name);
+    if (index >= play_->frames().size())
+      throw Refused("there is no frame {}: {} are there", index, play_->frames().size());
+    return index;
+  }
+
+  std::string open(const std::string& text, const std::string& name) {
+    auto play = std::make_unique<Play>(language::parse_scenario(text, name), std::nullopt);
+    play_ = std::move(play);
+    text_ = text;
+    name_ = name;
+    grip_.reset();
+    return fmt::format("{{\"frames\": {}, \"warnings\": {}, \"unmet\": {}}}",
+                       play_->frames().size(), list_of_diagnostics(play_->warnings()),
+                       list_of_diagnostics(play_->unmet()));
+  }
+
+  std::string lesson() {
+    Pictures all;
+    JsonWriter questions;
+    questions.begin_array();
+    const auto& frames = play_->frames();
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      all.add(frames[i], i > 0 ? &frames[i - 1] : nullptr, play_->picture(i), play_->scenario());
+      if (const auto* q = frames[i].find<FrameQuestion>())
+        questions.begin_array().value(q->asked).value(q->answer).value(i).end_array();
+    }
+    return fmt::format("{{{}, \"questions\": {}}}", all.json(), questions.end_array().text());
+  }
+
+  std::string picture(std::size_t index) {
+    Pictures one;
+    one.add(play_->frames()[index], nullptr, play_->picture(index), play_->scenario());
+    return one.json();
+  }
+
+  std::string svg(std::size_t index, int width, int height) {
+    const Frame& frame = play_->frames()[index];
+    return with_text(
+        "svg", render::to_svg(play_->page(index, width, height), *draw::theme_named("light"), false,
+                              width, height, {frame.title, frame.caption, "l-"}));
+  }
+
+  static Vec<2> point_in(const json& q, const char* x, const char* y) {
+    return {q.value(x, 0.0), q.value(y, 0.0)};
+  }
+
+  std::string grab(const json& q) {
+    grabbed_ = index_in(q, "frame");
+    grip_ =
+        grip_on(text_, *play_, grabbed_, q.at("entity").get<std::string>(), point_in(q, "x", "y"));
+    return with_text("grabbed", std::string(grip_->what()));
+  }
+
+  std::string drag(const json& q) {
+    if (!grip_) throw Refused("nothing is grabbed");
+    const std::string text =
+        grip_->text({point_in(q, "x", "y"), q.value("turn", 0.0), point_in(q, "vx", "vy")});
+    const Play now(language::parse_scenario(text, name_), grip_->moment);
+    const std::size_t index = now.index_of(grip_->moment);
+    const Frame& frame = now.frames()[index];
+    Pictures one;
+    one.add(frame, nullptr, play_->picture(frame, grabbed_), now.scenario());
+    return fmt::format("{{\"text\": {}, \"index\": {}, {}}}", json_string(text), index, one.json());
+  }
+
+  std::unique_ptr<Play> play_;  // of what was opened last
+  std::string text_, name_;
+  std::unique_ptr<Grip> grip_;
+  std::size_t grabbed_ = 0;  // the frame that was looked at then
+};
+
+Session::Session() : engine_(std::make_unique<Engine>()) {}
+Session::~Session() = default;
+
+std::string Session::ask(std::string_view question) {
+  try {
+    return engine_->answer(json::parse(question));
+  } catch (const ScenarioError& e) {
+    return refusal(e.diagnostics(), e.what());
+  } catch (const json::exception& e) {
+    return refusal(fmt::format("the request is not understood: {}", e.what()));
+  } catch (const std::bad_alloc&) {
+    return refusal("the engine of a page has not so much memory");
+  } catch (const std::exception& e) {
+    return refusal(e.what());
+  }
+}
+
+}  // namespace lantern::live

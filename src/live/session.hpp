@@ -1,10 +1,44 @@
+// The engine behind one function, as a page asks it: questions and answers are JSON.
 #pragma once
+
+#include <memory>
 #include <string>
 #include <string_view>
-#include "run/director.hpp"
-#include "publish/lesson_frames.hpp"
-#include "draw/page.hpp"
-#include "render/svg.hpp"
+
+#include "rooms.hpp"
+
 namespace lantern::live {
-class Session { public: std::string ask(std::string_view request); };
-}
+
+// What is asked, by "do", and answered; D is {"severity", "line", "column", "message",
+// "suggestion"}, with line 0 for the file as a whole. Lines and columns count from 1. A picture is
+// {"lesson": frames as a lesson page has them, "facts": [...], "hashes": ["..."]}.
+//   open      text, name            {"frames": n, "warnings": [D], "unmet": [D]}: parsed, and run
+//   whole lesson                          the picture of all frames, and "questions": [[asked,
+//   answer, frame]] frame     index                 that of one grab      frame, entity, x, y
+//   {"grabbed": "position" | "move" | "size" | "corner"}: a hand goes
+//                                   down on a "body/red", in page units; on a level's corner where
+//                                   `entity` is empty
+//   drag      x, y, turn, vx, vy    {"text", "index"} and the picture of that frame, with what was
+//                                   grabbed at another place, turned so many degrees more, and
+//                                   thrown as fast, in page units a second. Always from the text at
+//                                   the grab; what stands still on the page stays there
+//   set       path, value           {"text"}, see with_value()
+//   controls                        see controls_json()
+//   complete  text, line, column    see complete_json()
+//   facts     index                 {"facts": the frame's JSON as a text}
+//   svg       index, width, height  {"svg"}
+// What cannot be done is {"refused": [D], "said": as the command line says it}, and changes
+// nothing.
+class Session {
+ public:
+  Session();
+  ~Session();
+  // Never throws, but for a broken invariant.
+  std::string ask(std::string_view question);
+
+ private:
+  class Engine;
+  std::unique_ptr<Engine> engine_;
+};
+
+}  // namespace lantern::live

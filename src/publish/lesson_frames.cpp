@@ -270,6 +270,10 @@ std::string LessonShapes::json() const {
       keys_.json(), styles_.json(), texts_.json(), glyphs_.json());
 }
 
+Vec<2> lesson_page() {
+  return page_for(1600, static_cast<int>(std::lround((1 - kLessonWords) * 900)));
+}
+
 FrameWords words_of(const Frame& before, const Frame& frame, const Scenario& scenario) {
   const Motion motion = motion_between(before, frame);
   return {scenario.steps.at(frame.step).speaker_notes, counter_texts(frame), motion,

@@ -79,6 +79,11 @@ class LessonShapes {
 // for what is nothing of these.
 std::vector<std::string> entities_of(const std::string& key, const Frame& frame);
 
+// The page of a lesson's pictures where none is asked for, without what stands beside the picture:
+// title, caption and buttons take this part of the height.
+inline constexpr double kLessonWords = 0.21;
+Vec<2> lesson_page();
+
 // What is told of a frame beside its picture and facts.
 struct FrameWords {
   std::string notes;                  // of the step, for the speaker alone

@@ -26,14 +26,11 @@ constexpr std::uint64_t kSample = 24;
 constexpr const char* kFewer =
     "choose fewer with --frames or --at, or give the steps that run fewer frames with 'every'";
 
-// What of the page's height its title, caption and buttons take.
-constexpr double kWords = 0.21;
-
 // The page shows title, caption and the numbers beside it as text of its own, and the picture
 // between them.
 RenderOptions of_picture(const RenderJob& job) {
   RenderOptions options = job.options;
-  const double height = (1 - kWords) * job.picture.height;
+  const double height = (1 - publish::kLessonWords) * job.picture.height;
   options.size =
       fmt::format("{}x{}", job.picture.width, std::max(16, static_cast<int>(std::lround(height))));
   options.no_title = options.no_caption = options.no_counters = true;

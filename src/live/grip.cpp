@@ -1,0 +1,247 @@
+#include "live/grip.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "base/error.hpp"
+#include "base/printable.hpp"
+#include "draw/projection.hpp"
+#include "frame/parts/atlas.hpp"
+#include "frame/parts/panels.hpp"
+#include "live/edit.hpp"
+#include "publish/lesson_frames.hpp"
+
+namespace lantern::live {
+namespace {
+
+using draw::DrawList;
+using draw::WorldMap;
+
+constexpr double kNear = 24;    // page units from a corner that still take it
+constexpr double kThrown = 60;  // page units a second: a hand that is slower puts down
+constexpr double kGoesOn = 2;   // seconds that a script without any is run after a throw
+
+// In as many digits as a hand can tell apart, where a page unit is 1/scale.
+std::string number_text(double x, double scale) {
+  const int digits = std::clamp(static_cast<int>(std::ceil(std::log10(scale))), 0, 6);
+  const double tens = std::pow(10.0, digits), whole = std::round(x * tens);
+  std::string text = fmt::format("{:.{}f}", whole == 0 ? 0.0 : whole / tens, digits);
+  if (digits > 0) text.erase(text.find_last_not_of('0') + 1);
+  if (text.ends_with('.')) text.pop_back();
+  return text;
+}
+
+std::string point_text(const Vec<3>& p, int dimension, double scale) {
+  std::string text;
+  for (int i = 0; i < dimension; ++i) text += (i > 0 ? ", " : "[") + number_text(p[i], scale);
+  return text + "]";
+}
+
+// From ways on the page to ways in a world, about a point of it.
+struct Ways {
+  Vec<3> right{1, 0, 0}, down{0, -1, 0};  // a page unit
+  double scale = 1;                       // page units of a world unit
+
+  Vec<3> of(const Vec<2>& page) const { return right * page.x + down * page.y; }
+};
+
+// Nothing where that world is not on the page.
+std::optional<Ways> ways_at(const Vec<3>& p, const Frame& frame, const Frame& whole,
+                            const DrawList& list, const std::string& prefix) {
+  for (const WorldMap& map : list.maps)
+    if (map.prefix == prefix)
+      return Ways{Vec<3>(1, 0, 0) / map.scale, Vec<3>(0, -1, 0) / map.scale, map.scale};
+  for (const draw::SolidPanel& solid : list.solids) {
+    if (solid.prefix != prefix) continue;
+    const draw::View3D view(whole.bounds, frame.camera, solid.panel);
+    const double scale = view.scale_at(p);
+    return Ways{view.right() / scale, -view.up() / scale, scale};
+  }
+  return std::nullopt;
+}
+
+class BodyGrip : public Grip {
+ public:
+  BodyGrip(std::string_view text, const Play& play, std::size_t index, const FrameBody& body,
+           const Ways& ways, const Vec<2>& at)
+      : text_(text),
+        body_(body),
+        ways_(ways),
+        at_(at),
+        bounds_(play.frames()[index].bounds),
+        dimension_(play.frames()[index].dimension) {
+    moment = play.moment_of(index);
+    const language::BodySpec& spec = play.scenario().bodies.at(body.place);
+    const auto& steps = play.scenario().steps;
+    goes_on_ =
+        std::any_of(steps.begin() + moment.step + 1, steps.end(),
+                    [](const language::Step& step) { return traits_of(step.verb).passes_time; });
+    table_ = live::index_of(text, "body", body.name);
+    if (table_ && body.position == spec.position) return;  // it still stands where it was put
+    table_.reset();
+    // Of the step that put it there, the place is changed, not a step added.
+    const auto* put = std::get_if<language::Move>(&steps.at(moment.step).verb);
+    if (put && put->body == body.place && put->to) {
+      moved_by_ = moment.step;
+    } else {
+      moment = {moment.step + 1, 0, true};
+    }
+  }
+
+  std::string_view what() const override { return table_ ? "position" : "move"; }
+
+  std::string text(const Hand& hand) const override {
+    Vec<3> to = body_.position + ways_.of(hand.at - at_);
+    for (int i = 0; i < dimension_; ++i)
+      if (bounds_.lo[i] < bounds_.hi[i]) to[i] = std::clamp(to[i], bounds_.lo[i], bounds_.hi[i]);
+    const std::string place = point_text(to, dimension_, ways_.scale);
+    const std::string way = glm::length(hand.velocity) > kThrown
+                                ? point_text(ways_.of(hand.velocity), dimension_, ways_.scale)
+                                : "";
+    const std::string turned = hand.turn != 0 && dimension_ == 2
+                                   ? number_text(glm::degrees(body_.angle) + hand.turn, 10)
+                                   : "";
+    if (table_)
+      return with_keys(text_, fmt::format("body[{}]", *table_), "position", place, way, turned);
+    if (moved_by_)
+      return with_keys(text_, fmt::format("step[{}]", *moved_by_), "to", place, way, turned);
+    std::string lines =
+        fmt::format("do = \"move\"\nbody = {}\nto = {}\n", json_string(body_.name), place);
+    if (!way.empty()) lines += "velocity = " + way + "\n";
+    if (!turned.empty()) lines += "turned = " + turned + "\n";
+    std::string text = with_step(text_, moment.step - 1, lines);
+    if (!way.empty() && !goes_on_)
+      text = with_step(text, moment.step, fmt::format("do = \"run\"\nseconds = {}\n", kGoesOn));
+    return text;
+  }
+
+ private:
+  static std::string with_keys(const std::string& text, const std::string& table,
+                               std::string_view place_key, const std::string& place,
+                               const std::string& way, const std::string& turned) {
+    std::string changed = with_value(text, fmt::format("{}.{}", table, place_key), place);
+    if (!way.empty()) changed = with_value(changed, table + ".velocity", way);
+    if (!turned.empty()) changed = with_value(changed, table + ".turned", turned);
+    return changed;
+  }
+
+  std::string text_;
+  FrameBody body_;
+  Ways ways_;
+  Vec<2> at_;
+  Box<3> bounds_;
+  int dimension_;
+  bool goes_on_ = false;  // time passes later in the script
+  std::optional<std::size_t> table_, moved_by_;
+};
+
+// Its lower right corner follows the hand.
+class TextureGrip : public Grip {
+ public:
+  TextureGrip(std::string_view text, std::size_t table, const FrameTexture& texture,
+              const Vec<2>& per_pixel, const Vec<2>& at)
+      : text_(text), table_(table), texture_(texture), per_pixel_(per_pixel), at_(at) {}
+
+  std::string_view what() const override { return "size"; }
+  std::string text(const Hand& hand) const override {
+    const Vec<2> more = (hand.at - at_) / per_pixel_;
+    const auto length = [](double pixels) { return std::max(1L, std::lround(pixels)); };
+    return with_value(
+        text_, fmt::format("texture[{}].size", table_),
+        fmt::format("[{}, {}]", length(texture_.width + more.x), length(texture_.height + more.y)));
+  }
+
+ private:
+  std::string text_;
+  std::size_t table_;
+  FrameTexture texture_;
+  Vec<2> per_pixel_, at_;
+};
+
+class CornerGrip : public Grip {
+ public:
+  CornerGrip(std::string_view text, std::string path, const Vec<2>& corner, const Ways& ways,
+             const Vec<2>& at)
+      : text_(text), path_(std::move(path)), corner_(corner), ways_(ways), at_(at) {}
+
+  std::string_view what() const override { return "corner"; }
+  std::string text(const Hand& hand) const override {
+    return with_value(text_, path_,
+                      point_text(Vec<3>(corner_, 0) + ways_.of(hand.at - at_), 2, ways_.scale));
+  }
+
+ private:
+  std::string text_, path_;
+  Vec<2> corner_;
+  Ways ways_;
+  Vec<2> at_;
+};
+
+std::unique_ptr<Grip> on_corner(std::string_view text, const Play& play, const DrawList& list,
+                                const Vec<2>& at) {
+  const auto& loops = play.scenario().level->loops;
+  for (const WorldMap& map : list.maps)
+    for (std::size_t i = 0; i < loops.size(); ++i)
+      for (std::size_t k = 0; k < loops[i].size(); ++k) {
+        const Vec<2>& corner = loops[i][k];
+        if (glm::length(map.origin + Vec<2>(corner.x, -corner.y) * map.scale - at) > kNear)
+          continue;
+        return std::make_unique<CornerGrip>(
+            text, fmt::format("level.loops[{}][{}]", i, k), corner,
+            Ways{Vec<3>(1, 0, 0) / map.scale, Vec<3>(0, -1, 0) / map.scale, map.scale}, at);
+      }
+  throw Refused("there is no corner of a wall here");
+}
+
+// Page units of a pixel, as the texture's largest rectangle on the page has them.
+std::optional<Vec<2>> units_of_pixel(const DrawList& list, const Frame& frame,
+                                     const FrameTexture& texture, const std::string& entity) {
+  std::optional<Vec<2>> largest;
+  for (std::size_t r = 0; r < list.runs.size(); ++r) {
+    const auto entities = publish::entities_of(list.runs[r].key, frame);
+    if (std::ranges::find(entities, entity) == entities.end()) continue;
+    const std::size_t end = r + 1 < list.runs.size() ? list.runs[r + 1].first : list.shapes.size();
+    for (std::size_t i = list.runs[r].first; i < end; ++i)
+      if (const auto* rect = std::get_if<draw::RectShape>(&list.shapes[i]))
+        if (const Vec<2> size = rect->box.size(); !largest || size.x > largest->x) largest = size;
+  }
+  if (!largest) return std::nullopt;
+  return *largest / Vec<2>(texture.width, texture.height);
+}
+
+}  // namespace
+
+std::unique_ptr<Grip> grip_on(std::string_view text, Play& play, std::size_t index,
+                              std::string_view entity, const Vec<2>& at) {
+  const Frame& whole = play.frames().at(index);
+  const DrawList list = play.picture(index);
+  const auto placed = [&](std::unique_ptr<Grip> grip) {
+    grip->moment = play.moment_of(index);
+    return grip;
+  };
+  if (entity.empty() && play.scenario().level) return placed(on_corner(text, play, list, at));
+  const std::size_t slash = entity.find("body/");
+  if (slash == entity.npos)
+    throw Refused("only bodies, textures and corners of walls can be moved");
+  const std::string prefix(entity.substr(0, slash)), name(entity.substr(slash + 5));
+  const Frame* frame = prefix.empty() ? &whole : whole.side_named(prefix.substr(0, slash - 1));
+  if (!frame) throw Refused("there is no side '{}'", prefix);
+  for (const FrameBody& body : frame->bodies) {
+    if (body.name != name) continue;
+    const auto ways = ways_at(body.position, *frame, whole, list, prefix);
+    if (!ways) throw Refused("'{}' is in no world of this picture", name);
+    return std::make_unique<BodyGrip>(text, play, index, body, *ways, at);
+  }
+  for (const FrameTexture& texture : frame->get<FrameTextures>().textures) {
+    if (texture.name != name) continue;
+    const auto table = index_of(text, "texture", name);
+    const auto units = units_of_pixel(list, whole, texture, std::string(entity));
+    if (!table || !units) throw Refused("the size of '{}' is not written on its own", name);
+    return placed(std::make_unique<TextureGrip>(text, *table, texture, *units, at));
+  }
+  throw Refused("there is no '{}' on this picture that could be moved", name);
+}
+
+}  // namespace lantern::live

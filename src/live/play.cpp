@@ -1,0 +1,103 @@
+#include "live/play.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "base/check.hpp"
+#include "publish/lesson_frames.hpp"
+#include "run/director.hpp"
+#include "run/warnings.hpp"
+
+namespace lantern::live {
+
+using namespace run;
+
+namespace {
+
+constexpr std::size_t kMostFrames = 5000;
+constexpr std::size_t kMostBytes = std::size_t{96} << 20;  // of what frames list
+
+}  // namespace
+
+Play::Play(Scenario scenario, const std::optional<Moment>& until) : scenario_(std::move(scenario)) {
+  RunWatch watch(scenario_, draw::shows_a_body);
+  std::size_t bytes = 0;
+  std::uint32_t place = 0;  // of the frame among those of its step
+  const auto keep = [&](const Frame& frame) {
+    if (until && frame.step > until->step) return false;
+    place = frames_.empty() || frames_.back().step != frame.step ? 0 : place + 1;
+    frames_.push_back(frame);
+    bytes += estimated_bytes(frame);
+    if (frames_.size() > kMostFrames || bytes > kMostBytes)
+      throw Refused(
+          "a page has room for {} frames and {} MB of what they list: 'every' makes fewer",
+          kMostFrames, kMostBytes >> 20);
+    return !(until && !until->is_last && frame.step == until->step && place == until->place);
+  };
+  const DirectorReport report =
+      direct(scenario_, scenario_.pace, work_, keep, until ? nullptr : &watch);
+  unmet_ = report.unmet.list("that do not hold");
+  warnings_ = warnings_of_file(scenario_);
+  std::ranges::move(watch.warnings(), std::back_inserter(warnings_));
+  for (const Frame& frame : frames_) axes_.see(frame);
+  for (std::size_t i = 0; i < frames_.size(); ++i)
+    if (i > 0 && draw::Staging::is_one_group(frames_[i - 1], frames_[i]))
+      ++groups_.back().count;
+    else
+      groups_.push_back({i, 1, nullptr});
+}
+
+Moment Play::moment_of(std::size_t index) const {
+  const std::uint32_t step = frames_.at(index).step;
+  std::size_t first = index;
+  while (first > 0 && frames_[first - 1].step == step) --first;
+  const bool is_last = index + 1 == frames_.size() || frames_[index + 1].step != step;
+  return {step, static_cast<std::uint32_t>(index - first), is_last};
+}
+
+std::size_t Play::index_of(const Moment& moment) const {
+  LANTERN_CHECK(frames_.size(), >, 0u);
+  const auto first = std::ranges::lower_bound(frames_, moment.step, {}, &Frame::step);
+  const auto last = std::ranges::upper_bound(frames_, moment.step, {}, &Frame::step);
+  if (first == last) return static_cast<std::size_t>(std::max(last - frames_.begin(), 1L) - 1);
+  const auto count = last - first;
+  const auto place = std::min<std::ptrdiff_t>(moment.is_last ? count - 1 : moment.place, count - 1);
+  return static_cast<std::size_t>(first - frames_.begin() + place);
+}
+
+Play::Group& Play::group_of(std::size_t index) {
+  return *std::prev(std::ranges::upper_bound(groups_, index, {}, &Group::first));
+}
+
+const draw::Staging& Play::staging_of(std::size_t index) {
+  Group& group = group_of(index);
+  if (!group.staging)
+    group.staging = std::make_unique<draw::Staging>(
+        std::span<const Frame>(frames_).subspan(group.first, group.count), axes_);
+  return *group.staging;
+}
+
+draw::DrawList Play::picture(std::size_t index) {
+  return drawn(frames_.at(index), staging_of(index));
+}
+
+draw::DrawList Play::page(std::size_t index, int width, int height) {
+  return draw_frame(frames_.at(index), staging_of(index), draw::page_for(width, height), work_);
+}
+
+draw::DrawList Play::picture(const Frame& frame, std::size_t beside) {
+  const Group& group = group_of(beside);
+  std::vector<const Frame*> all;
+  if (draw::Staging::is_one_group(frames_.at(beside), frame))
+    for (std::size_t i = 0; i < group.count; ++i) all.push_back(&frames_[group.first + i]);
+  all.push_back(&frame);
+  return drawn(frame, draw::Staging(std::move(all), axes_));
+}
+
+draw::DrawList Play::drawn(const Frame& frame, const draw::Staging& staging) {
+  Frame bare = frame;
+  bare.display.title = bare.display.caption = bare.display.counters = false;
+  return draw_frame(bare, staging, publish::lesson_page(), work_);
+}
+
+}  // namespace lantern::live
