@@ -2,6 +2,7 @@
 // happens.
 #include <algorithm>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -111,6 +112,23 @@ TEST(JsonStyle, EveryCommandAnswersAsItsSchemaSays) {
   EXPECT_FALSE(different["files"][0]["equal"]);
   EXPECT_NE(answer_to("reference --json", 0)["markdown"].get<std::string>().find("# "),
             std::string::npos);
+}
+
+TEST(JsonStyle, CheckTellsTheHashesOfFramesWhereItIsAskedFor) {
+  const fs::path out = fresh_folder("json-hashes");
+  for (const char* pace : {"step", "event"}) {
+    const std::string words = std::string("--json --pace ") + pace + " " + kGhosts;
+    EXPECT_FALSE(answer_to("check " + words, 0)["scenarios"][0].contains("hashes"));
+    const json told = answer_to("check --hashes " + words, 0)["scenarios"][0];
+    ASSERT_EQ(told["hashes"].size(), told["frames"]) << pace;
+    answer_to("render --format svg -o " + (out / pace).string() + " " + words, 0);
+    for (std::size_t i = 0; i < told["hashes"].size(); ++i) {
+      const fs::path file = fmt::format("ghost_quadtree/ghost_quadtree_{:04}.json", i);
+      const json facts = json::parse(read_text(out / pace / file));
+      EXPECT_EQ(told["hashes"][i], facts["hash"]) << pace << " " << i;
+    }
+  }
+  EXPECT_EQ(shell("lantern check --hashes " + kGhosts).code, 2) << "there is no table of them";
 }
 
 TEST(JsonStyle, SoDoGoldenFramesShardsAndStructures) {

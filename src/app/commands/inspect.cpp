@@ -28,7 +28,7 @@ namespace {
 struct CheckOptions {
   std::vector<std::string> files;
   std::string pace;
-  bool strict = false, json = false;
+  bool strict = false, json = false, hashes = false;
 };
 
 Options check_options(CheckOptions& o) {
@@ -36,12 +36,22 @@ Options check_options(CheckOptions& o) {
           pace_option(o.pace),
           memory_option(),
           {"--strict", &o.strict, "turn warnings into errors (exit code 3)"},
-          json_option(o.json)};
+          json_option(o.json),
+          {"--hashes", &o.hashes, "with --json: the hash of each frame, as its facts have it"}};
 }
 
-// What is expected is verified on the outcomes of steps.
-struct Nobody : FrameSink {
-  Wanted wants() const override { return Wanted::outcomes; }
+// What is expected is verified on the outcomes of steps: all frames are made for their hashes only.
+class Hashes : public FrameSink {
+ public:
+  explicit Hashes(bool wanted) : wanted_(wanted) {}
+  Wanted wants() const override { return wanted_ ? Wanted::all : Wanted::outcomes; }
+  void frame(const Frame& frame) override {
+    if (wanted_) all.push_back(fmt::format("{:016x}", frame.hash));
+  }
+  std::vector<std::string> all;
+
+ private:
+  bool wanted_;
 };
 
 struct Verdict {
@@ -50,6 +60,7 @@ struct Verdict {
   int code = kGood;
   RunResult result;
   std::vector<Diagnostic> problems;
+  std::optional<std::vector<std::string>> hashes;
 };
 
 // Runs one scenario; what is wrong with it goes to standard error.
@@ -59,8 +70,9 @@ Verdict check_one(const std::string& file, const CheckOptions& options, Work& wo
   try {
     const Scenario scenario = load_scenario(scenario_file(file));
     verdict.name = scenario.name;
-    Nobody nobody;
-    verdict.result = run_scenario(scenario, pace_of(options.pace, scenario), nobody, work);
+    Hashes hashes(options.hashes);
+    verdict.result = run_scenario(scenario, pace_of(options.pace, scenario), hashes, work);
+    if (options.hashes) verdict.hashes = std::move(hashes.all);
     verdict.code = tell(verdict.result, options.strict);
     verdict.problems = unmet_of(verdict.result);
     if (options.strict)
@@ -96,7 +108,9 @@ void write(JsonWriter& json, const Verdict& v) {
       .member("expectations", v.result.report.expectations);
   write(json, "problems", v.problems);
   write(json, "warnings", v.result.warnings);
-  json.member("facts", v.result.facts).end_object();
+  json.member("facts", v.result.facts);
+  if (v.hashes) json.member("hashes", *v.hashes);
+  json.end_object();
 }
 
 // "x.toml: good; 8 frames, 1 expectation holds; 2 warnings"
@@ -111,6 +125,7 @@ std::string summary_of(const Verdict& v) {
 }
 
 int check_scenarios(const CheckOptions& options) {
+  if (options.hashes && !options.json) throw UsageError("--hashes are told in JSON: add --json");
   Work work;
   JsonWriter json = answer_of("check");
   json.line().key("scenarios").begin_array();
