@@ -12,11 +12,17 @@ foreach(path ${files})
 endforeach()
 string(SHA256 all "${all}")
 string(SUBSTRING ${all} 0 16 all)
+set(mark "")
+if(CONSTANT STREQUAL kSourceHash)
+  set(mark "// Stands in the engine of these sources for live pages, and tells it from others.
+inline constexpr std::string_view kEngineMark = \"lantern-engine ${VERSION} ${all}\";
+")
+endif()
 file(CONFIGURE OUTPUT ${HEADER} CONTENT [[#pragma once
 #include <string_view>
 namespace lantern {
 inline constexpr std::string_view kVersion = "@VERSION@";
 // Two builds with the same hash draw the same frames.
 inline constexpr std::string_view @CONSTANT@ = "@all@";
-}  // namespace lantern
+@mark@}  // namespace lantern
 ]] @ONLY)

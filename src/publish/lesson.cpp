@@ -40,6 +40,24 @@ std::string colours(const Theme& theme) {
   return text;
 }
 
+constexpr std::string_view kEngineMark = "window.lanternEngine = \"";
+
+std::string data_script(const char* type, const char* id, std::string_view text) {
+  return fmt::format("<script type=\"{}\" id=\"{}\">{}</script>\n", type, id, text);
+}
+
+std::string scenario_list(const std::vector<LiveScenario>& scenarios) {
+  JsonWriter json;
+  json.begin_array();
+  for (const LiveScenario& s : scenarios)
+    json.line()
+        .begin_object()
+        .members("name", s.name, "title", s.title, "idea", s.idea, "lecture", s.lecture, "text",
+                 s.text)
+        .end_object();
+  return json.end_array().text();
+}
+
 constexpr std::string_view kIndexMark =
     "<meta name=\"generator\" content=\"Lantern lesson index\">";
 constexpr const char* kIndex = "index.html";
@@ -209,7 +227,7 @@ std::string Lesson::picture_of(const DrawList& list) const {
 }
 
 std::string Lesson::html() const {
-  LANTERN_CHECK(frames_.count(), >, 0u);
+  LANTERN_CHECK(frames_.count() + (live_ ? live_->scenarios.size() : 0), >, 0u);
   return html_page(card_.title,
                    filled(page::lesson_html, [&](std::string_view name) { return part(name); }),
                    theme_ == "light" ? "" : fmt::format(" data-theme=\"{}\"", theme_));
@@ -224,7 +242,9 @@ std::string Lesson::part(std::string_view name) const {
     return script_text(to_json(card));
   }
   if (name == "colours") return lesson_colours();
-  if (name == "style") return std::string(page::lesson_css);
+  if (name == "style")
+    return fmt::format("{}{}", page::lesson_css, live_ ? page::live_css : std::string_view());
+  if (name == "live") return live_ ? live_part() : "";
   if (name == "captions") return captions_;
   if (name == "questions") return question_list(card_, "");
   if (name == "question-button") return std::string(card_.questions.empty() ? "" : kQuestionButton);
@@ -233,6 +253,7 @@ std::string Lesson::part(std::string_view name) const {
     const std::string end = picture_of(last_);
     return base64(end.size() <= kMostCover ? end : picture_of(first_));
   }
+  if ((name == "frames" || name == "facts") && frames_.count() == 0) return "";
   if (name == "frames") return base64(deflated(frames_.json(), kSmallest));
   if (name == "facts") return base64(deflated("[" + facts_ + "]\n", kSmallest));
   LANTERN_CHECK(name, ==, std::string_view("script"));
@@ -241,7 +262,35 @@ std::string Lesson::part(std::string_view name) const {
        {page::lesson_data_js, page::lesson_picture_js, page::lesson_pointing_js,
         page::lesson_tables_js, page::lesson_js})
     script += file;
+  if (live_)
+    for (const std::string_view file : {page::live_editor_js, page::live_hand_js, page::live_js})
+      script += file;
   return script;
+}
+
+std::string Lesson::live_part() const {
+  const LiveScenario& first = live_->scenarios.front();
+  JsonWriter shown;
+  shown.begin_object().members("name", first.name, "text", first.text).end_object();
+  std::string text(page::live_html);
+  text += data_script("application/json", "scenario", script_text(shown.text()));
+  if (live_->scenarios.size() > 1)
+    text +=
+        data_script("application/json", "scenarios", script_text(scenario_list(live_->scenarios)));
+  text += live_->engine.empty() ? fmt::format("<script src=\"{}\" defer></script>\n", kEngineFile)
+                                : data_script("text/plain", "engine-packed", live_->engine);
+  return text + data_script("text/plain", "worker-script", page::live_worker_js);
+}
+
+std::string packed_engine(std::string_view wasm) { return base64(deflated(wasm, kSmallest)); }
+
+bool write_engine(const Folder& folder, std::string_view packed) {
+  const std::string script = fmt::format("{}{}\";\n", kEngineMark, packed);
+  if (folder.has(kEngineFile) && !folder.has_file(kEngineFile)) return false;
+  const auto before = folder.read(kEngineFile, kMostPage);
+  if (before && !before->starts_with(kEngineMark)) return false;
+  if (before != script) write_file({folder, kEngineFile}, script);
+  return true;
 }
 
 std::string lesson_index(const Folder& folder) {

@@ -34,6 +34,27 @@ std::string question_list(const LessonCard& card, std::string_view page);
 // system prefers dark or the root's data-theme says otherwise; grey on paper.
 std::string lesson_colours();
 
+// A scenario that a page can run.
+struct LiveScenario {
+  std::string name;  // of its file
+  std::string title, idea;
+  std::optional<std::uint32_t> lecture;
+  std::string text;
+};
+
+// What makes a page live.
+struct LivePart {
+  std::vector<LiveScenario> scenarios;  // the first is shown; of several the reader chooses
+  std::string engine;                   // packed_engine(), or empty where it stands beside the page
+};
+
+// WebAssembly, compressed, as a page has it.
+std::string packed_engine(std::string_view wasm);
+// Writes it for all pages in a folder. False, and nothing is touched, if a file of its name stands
+// there that is not of this kind. Throws IoError.
+inline constexpr const char* kEngineFile = "lantern.engine.js";
+bool write_engine(const Folder& folder, std::string_view packed);
+
 class Lesson {
  public:
   // `theme`: "light" follows what the reader's system prefers; "dark" and "print" are what the page
@@ -47,17 +68,21 @@ class Lesson {
   std::size_t bytes() const { return frames_.bytes() + facts_.size(); }
   std::size_t frames() const { return frames_.count(); }
 
-  // The page. At least one frame must have been added.
+  void make_live(LivePart live) { live_ = std::move(live); }
+
+  // The page. At least one frame must have been added, unless the reader chooses a scenario.
   std::string html() const;
 
  private:
   std::string part(std::string_view name) const;  // of the page's text
   std::string picture_of(const DrawList& list) const;  // an SVG
+  std::string live_part() const;
 
   LessonCard card_;
   std::string theme_;
   LessonFrames frames_;
   std::string facts_;
+  std::optional<LivePart> live_;
   DrawList first_, last_;
   std::string captions_;      // <li> ...
   std::string last_caption_;  // of those

@@ -124,6 +124,12 @@ Option pace_option(std::string& pace, const char* help) {
   return {"--pace", &pace, help, {.words = {"step", "event"}}};
 }
 
+Option engine_option(std::string& file) {
+  return {"--engine", &file,
+          "the engine of live pages; the default is lantern.wasm, beside the program or installed",
+          OptionTraits{.value = "FILE"}};
+}
+
 Option memory_option() {
   return {"--memory", &read_memory,
           "memory to take at most, such as 800M or 4G; the default is half of the machine's",

@@ -64,6 +64,7 @@ struct JsonOnly {
 inline Options json_only(JsonOnly& o) { return {json_option(o.json)}; }
 Option backend_option(std::string& backend, const char* help = "off-screen OpenGL");
 Option pace_option(std::string& pace, const char* help = "as for render");
+Option engine_option(std::string& file);
 // Before a command, and after one that runs a scenario.
 Option memory_option();
 // How much pictures may differ.

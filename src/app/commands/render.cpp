@@ -63,6 +63,10 @@ Options watch_options(RenderOptions& o) {
       {"--no-caption", &o.no_caption, "leave out the caption below"},
       {"--no-counters", &o.no_counters, "leave out the numbers beside the caption"},
       {"--legend", &o.legend, "say what the marks on each frame mean"},
+      {"--live", &o.live,
+       "a lesson page carries the engine: drag what it shows, change its text; --frames and --at "
+       "choose what is recorded, the engine shows the whole scenario"},
+      engine_option(o.engine),
       {"--strict", &o.strict, "turn warnings into errors (exit code 3)"},
       {"-j,--threads", &o.threads, "encoding threads; the default is one per core",
        OptionTraits{.value = "N", .least = 1, .most = 256}},
@@ -132,10 +136,8 @@ void tell_of(const FileSink::Made& made, const Scenario& scenario, const Directo
 
 // Of the lesson pages that stand in one folder, a file a scenario, a page that lists them.
 void list_lessons(const Destination& to) {
-  const auto folder = to.file({"a"}).parent_path();
-  if (to.kind() != OutputKind::page || !to.is_by("scenario") ||
-      folder != to.file({"b"}).parent_path())
-    return;
+  if (to.kind() != OutputKind::page || !to.is_a_folder_of_scenarios()) return;
+  const auto folder = to.file({}).parent_path();
   const auto index = folder / "index.html";
   const bool written = publish::write_lesson_index(Folder(folder));
   say(written ? fmt::format("all lessons there are listed in {}", index.string())
@@ -190,6 +192,9 @@ void require_fit(const RenderOptions& options, const Destination& to, std::size_
     refuse("--tween and --fps both say how many in-betweens; give one of them");
   if ((is_stdout || kind == OutputKind::picture) && (options.tween || options.fps))
     refuse("in-betweens (--tween, --fps) need a folder or a film");
+  if (options.live && kind != OutputKind::page)
+    refuse("only a lesson page is live (--live), such as lesson.html");
+  if (!options.engine.empty() && !options.live) refuse("no page is live; leave out --engine");
   if (options.hold && !is_film) refuse("only a film is held (--hold), such as talk.mp4");
   if (is_folder || is_stdout) return;
   if (options.format_given && options.format != to.ending())

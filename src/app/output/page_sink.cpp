@@ -54,6 +54,9 @@ class PageSink : public FileSink {
     if (options_.transparent)
       throw UsageError("a lesson page has a ground of its own: leave out --transparent");
     if (s.selection.takes_all()) require_few(expected_.value_or(0));
+    if (!options_.live) return;
+    engine_ = &packed_engine(options_.engine);
+    lesson_.make_live({{live_scenario(s.scenario)}, has_list_beside() ? "" : *engine_});
   }
 
  protected:
@@ -66,6 +69,8 @@ class PageSink : public FileSink {
 
   void end() override {
     const FilePlace place = place_of(file_);
+    if (engine_ && has_list_beside() && !publish::write_engine(place.folder, *engine_))
+      of_.refuse(fmt::format("{} stands there, and is not an engine's", publish::kEngineFile));
     std::string html = lesson_.html();
     if (options_.reloading) {
       require_version_place(place);
@@ -77,6 +82,9 @@ class PageSink : public FileSink {
   }
 
  private:
+  // Then the engine stands there, too, once for all pages.
+  bool has_list_beside() const { return of_.to.is_a_folder_of_scenarios(); }
+
   publish::FrameWords words_of(const Frame& frame) const {
     publish::FrameWords words = publish::words_of(last_, frame, of_.scenario);
     if (of_.job.options.no_counters) words.counters.clear();
@@ -109,7 +117,8 @@ class PageSink : public FileSink {
   fs::path file_ = of_.to.file({of_.scenario.name});
   std::optional<std::uint64_t> expected_;  // frames, at most
   publish::Lesson lesson_;
-  Frame last_;  // of the one before only the time
+  const std::string* engine_ = nullptr;  // of a live page
+  Frame last_;                           // of the one before only the time
 };
 
 }  // namespace

@@ -77,6 +77,8 @@ struct RenderOptions {
   std::string shard = "";                        // "2/4": the second of four parts; empty for all
   std::optional<double> hold = std::nullopt;     // seconds of each still of a film
   bool format_given = false, png_given = false;  // on the command line
+  bool live = false;                             // a lesson page carries the engine
+  std::string engine = "";                       // its file; empty for where it is looked for
   bool json = false;
 };
 
@@ -201,6 +203,10 @@ class Destination {
 
   // The file for these parts; numbers have as many digits as the names of frames in a folder.
   fs::path file(const NameParts& parts) const;
+  // Files of several scenarios stand in one folder.
+  bool is_a_folder_of_scenarios() const {
+    return is_by("scenario") && file({"a"}).parent_path() == file({"b"}).parent_path();
+  }
   // What of these files' folders stands before the first placeholder.
   fs::path users_folder() const;
 

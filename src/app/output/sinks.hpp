@@ -16,6 +16,7 @@
 #include "base/file.hpp"
 #include "base/work.hpp"
 #include "draw/staging.hpp"
+#include "publish/lesson.hpp"
 
 namespace lantern::app {
 
@@ -168,6 +169,13 @@ std::unique_ptr<FileSink> make_film_sink(const Sequence& sequence);
 std::unique_ptr<FileSink> make_document_sink(const Sequence& sequence);
 std::unique_ptr<FileSink> make_sheet_sink(const Sequence& sequence);
 std::unique_ptr<FileSink> make_page_sink(const Sequence& sequence);
+
+// The engine for a page, from the file named, or from lantern.wasm beside the program or where it
+// is installed. Throws IoError, and UsageError, which says how to get it, if there is none, or it
+// is not of the same sources.
+const std::string& packed_engine(const std::string& named);
+// As the engine opens it.
+publish::LiveScenario live_scenario(const Scenario& scenario);
 
 // Where a file goes that an option names, if it may be written: see require_free(). Its folder is
 // made: `users`, which the user has named, links and all; and what is below, through no link.
