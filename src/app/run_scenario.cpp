@@ -244,6 +244,16 @@ std::vector<std::string> input_files(const std::vector<std::string>& words) {
   return files;
 }
 
+std::vector<std::string> listed_files(std::vector<std::string> words) {
+  if (words.empty()) {
+    const auto folders = scenario_folders();
+    if (folders.empty()) throw UsageError("there is no folder scenarios here: name one");
+    if (folders.front() != "scenarios") say(fmt::format("from {}", folders.front().string()));
+    words.push_back(folders.front().string());
+  }
+  return input_files(words);
+}
+
 // ---- What is said of a scenario that is run
 
 Pace pace_of(std::string_view word, const Scenario& scenario) {

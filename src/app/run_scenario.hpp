@@ -48,6 +48,9 @@ std::string scenario_file(const std::string& words);
 // one that cannot be listed.
 std::vector<std::string> input_files(const std::vector<std::string>& words);
 
+// The same, of none those of the nearest folder of Lantern's; which that is is said.
+std::vector<std::string> listed_files(std::vector<std::string> words);
+
 // "step", "event", or nothing for the scenario's own.
 Pace pace_of(std::string_view word, const Scenario& scenario);
 

@@ -145,5 +145,44 @@ TEST_F(LivePage, OfHostileTextHoldsNothingButText) {
   EXPECT_EQ(json::parse(element_text(live, "scenario"))["text"], page("evil.toml"));
 }
 
+TEST_F(LivePage, IsAPlaygroundOfAllScenariosAndAnEmptyWorld) {
+  const std::string make =
+      fmt::format("cd {} && lantern playground --engine {} ", folder_.string(), engine());
+  const Outcome o = shell(make + repository("scenarios").string());
+  ASSERT_EQ(o.code, 0) << o.err;
+  const std::string play = page("play.html");
+  const json all = json::parse(element_text(play, "scenarios"));
+  const json list = json::parse(
+      shell("lantern list --json " + repository("scenarios").string()).out)["scenarios"];
+  ASSERT_EQ(all.size(), list.size() + 1);
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    for (const char* member : {"title", "idea", "lecture"})
+      EXPECT_EQ(all[i][member], list[i][member]) << i;
+    EXPECT_EQ(all[i]["name"], list[i]["name"].get<std::string>() + ".toml");
+    EXPECT_EQ(all[i]["text"], read_text(list[i]["file"].get<std::string>()));
+  }
+  const json first = json::parse(element_text(play, "scenario"));
+  EXPECT_EQ(first["text"], all[0]["text"]);
+  EXPECT_EQ(element_text(play, "frames-packed"), "") << "the engine draws the first one";
+  ASSERT_EQ(shell(make + "-o again.html " + repository("scenarios").string()).code, 0);
+  EXPECT_EQ(play, page("again.html"));
+
+  // The world to begin from is right as it stands, and with what it proposes.
+  const std::string empty = all.back()["text"];
+  const std::size_t proposed = empty.find("\n#\n");
+  ASSERT_NE(proposed, empty.npos);
+  write_text(folder_ / "empty.toml", empty);
+  write_text(folder_ / "proposed.toml",
+             empty.substr(0, proposed) +
+                 std::regex_replace(empty.substr(proposed), std::regex("\n#( |(?=\n))"), "\n"));
+  for (const char* name : {"empty.toml", "proposed.toml"}) {
+    const Outcome checked = shell("lantern check --strict " + file(name));
+    EXPECT_EQ(checked.code, 0) << checked.err;
+  }
+  EXPECT_NE(page("proposed.toml"), empty);
+  for (const char* words : {"-o play.pdf", "-o '{scenario}.html'", "-o out"})
+    EXPECT_EQ(shell(make + words).code, 2) << words;
+}
+
 }  // namespace
 }  // namespace lantern::app

@@ -177,8 +177,9 @@ const Command& whole_program() {
                   return nullptr;
                 }};
     for (std::vector<Command> (*some)() :
-         {drawing_commands, merge_commands, inspecting_commands, golden_commands, compare_commands,
-          structure_commands, lab_commands, manual_commands, help_commands})
+         {drawing_commands, playground_commands, merge_commands, inspecting_commands,
+          golden_commands, compare_commands, structure_commands, lab_commands, manual_commands,
+          help_commands})
       std::ranges::move(some(), std::back_inserter(all.commands));
     return all;
   }();

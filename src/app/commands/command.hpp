@@ -77,6 +77,7 @@ Options manners();
 // ---- The commands, a list of each source
 
 std::vector<Command> drawing_commands();  // render and watch
+std::vector<Command> playground_commands();
 std::vector<Command> merge_commands();
 std::vector<Command> inspecting_commands();  // check, list, explain and doctor
 std::vector<Command> golden_commands();

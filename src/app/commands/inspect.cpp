@@ -342,19 +342,13 @@ void add_member(JsonWriter& json, const Scenario& s) {
 }
 
 int list_scenarios(const ListOptions& options) {
-  std::vector<std::string> words = options.folders;
-  if (words.empty()) {
-    const auto folders = scenario_folders();
-    if (folders.empty()) throw UsageError("there is no folder scenarios here: name one");
-    if (folders.front() != "scenarios") say(fmt::format("from {}", folders.front().string()));
-    words.push_back(folders.front().string());
-  }
-  if (options.course) return print_course(input_files(words));
+  const std::vector<std::string> files = listed_files(options.folders);
+  if (options.course) return print_course(files);
   std::vector<std::vector<std::string>> rows;
   JsonWriter json = answer_of("list");
   json.line().key("scenarios").begin_array();
   int code = kGood;
-  for (const std::string& file : input_files(words))
+  for (const std::string& file : files)
     if (const auto scenario = load_or_complain(file, code)) {
       rows.push_back(row_of(*scenario));
       add_member(json, *scenario);
