@@ -84,6 +84,8 @@ function(lantern_install)
   install(TARGETS lantern RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios
     DESTINATION ${CMAKE_INSTALL_DATADIR}/lantern COMPONENT runtime)
+  install(FILES ${PROJECT_BINARY_DIR}/lantern.wasm  # what live pages carry, where it is built
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/lantern COMPONENT runtime OPTIONAL)
   install(FILES ${PROJECT_SOURCE_DIR}/src/cmake/copyright ${PROJECT_SOURCE_DIR}/src/THIRD_PARTY.md
     DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/lantern COMPONENT runtime)
   # Manual pages and completions are the program's own: written by it when it is installed.

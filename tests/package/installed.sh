@@ -24,6 +24,8 @@ for file in bin/lantern share/man/man1/lantern.1.gz share/man/man1/lantern-bench
 done
 [ ! -e "$build/lantern_lab.so" ] || "$prefix/bin/lantern" stress --list >"$work/cases" ||
   fail "the lab is built, but not installed"
+[ ! -e "$build/lantern.wasm" ] || [ -s "$prefix/share/lantern/lantern.wasm" ] ||
+  fail "the engine of live pages is built, but not installed"
 grep -q "SIL OPEN FONT LICENSE" "$prefix/share/doc/lantern/copyright" || fail "the font's licence"
 where=$(grep -rlF -e "$root" -e "$build" "$prefix") && fail "names where it was built: $where"
 
