@@ -15,11 +15,36 @@ class Page {
     this.picture = new Picture(lesson, $("picture"));
     this.words = new Words(lesson);
     this.index = 0;
+    this.behind = behindHash();
     this.byEvent = lesson.stepStops.length === 1;
     this.withMotion = false;
     this.playing = 0; // the animation frame that is asked for, while something plays
     this.embedded = new URLSearchParams(location.search).has("embed");
     document.body.classList.toggle("embedded", this.embedded);
+  }
+
+  // Another lesson in the place of this one: the engine of a live page has drawn it.
+  load(lesson, facts, index) {
+    this.pause();
+    this.lesson = lesson;
+    this.byEvent ||= lesson.stepStops.length === 1;
+    this.words.load(lesson);
+    this.look(lesson, facts, index);
+    this.know(facts);
+    this.speaker?.load(lesson);
+    this.show(Math.min(index, lesson.last));
+    this.words.fit();
+  }
+
+  // A frame of another lesson, for as long as nothing else is shown.
+  look(lesson, facts, index = 0) {
+    this.pointing?.light(null);
+    this.picture.load(lesson, index);
+    const sheet = styleSheet(lesson);
+    if ($("styles").textContent !== sheet) $("styles").textContent = sheet;
+    this.words.show(lesson.frames[index]);
+    this.point(facts);
+    if (!$("facts-panel").hidden) this.fillFacts(facts[index]);
   }
 
   get stops() {
@@ -57,11 +82,11 @@ class Page {
 
   tell() {
     const { step, caption } = this.lesson.frames[this.index];
-    this.words.show(this.index);
+    this.words.show(this.lesson.frames[this.index]);
     this.tellStop(step, caption);
     $("back").disabled = this.index === 0;
     $("next").disabled = this.index === this.lesson.last;
-    history.replaceState(null, "", `#${this.index}`);
+    history.replaceState(null, "", `#${this.index}${this.behind}`);
     this.post({ frame: this.index, frames: this.lesson.frames.length, step, steps: this.lesson.steps });
   }
 
@@ -154,8 +179,8 @@ class Page {
     if (!$("facts-panel").hidden) this.toggleFacts();
   }
 
-  fillFacts() {
-    $("facts-panel").replaceChildren(...this.facts[this.index].flatMap(factTables));
+  fillFacts(sides = this.facts[this.index]) {
+    $("facts-panel").replaceChildren(...sides.flatMap(factTables));
   }
 
   openOverview() {
@@ -182,18 +207,26 @@ class Page {
   // The frame's facts are there.
   know(facts) {
     this.facts = facts;
-    this.pointing = new Pointing(this.lesson, this.picture, facts, (words) => {
+    this.point(facts);
+    $("facts").disabled = false;
+  }
+
+  point(facts) {
+    this.pointing = new Pointing(this.picture.lesson, this.picture, facts, (words) => {
       $("said").textContent = words;
       $("told").textContent = words;
       $("told").hidden = !words;
     });
-    $("facts").disabled = false;
+  }
+
+  // Where an event is, in the picture's own units.
+  placeOf({ clientX, clientY }) {
+    return new DOMPoint(clientX, clientY).matrixTransform($("picture").getScreenCTM().inverse());
   }
 
   pointAt(event) {
     if (this.playing || !this.pointing) return;
-    const matrix = $("picture").getScreenCTM().inverse();
-    const { x, y } = new DOMPoint(event.clientX, event.clientY).matrixTransform(matrix);
+    const { x, y } = this.placeOf(event);
     this.pointing.light(this.pointing.at(event.target.parentNode === this.picture.layer ? event.target : null, x, y));
   }
 
@@ -302,18 +335,22 @@ function listenToThings(page) {
 }
 
 const indexFromHash = () => Number.parseInt(location.hash.slice(1), 10) || 0;
+const behindHash = () => location.hash.match(/&.*/)?.[0] ?? "";
 
 async function open() {
   const lesson = new Lesson(await unpacked("frames-packed"));
-  document.head.append(element(document, "style", { text: styleSheet(lesson) }));
+  document.head.append(element(document, "style", { id: "styles", text: styleSheet(lesson) }));
   const page = new Page(lesson);
   listenToButtons(page);
   listenToPointer(page);
   listenToThings(page);
   document.addEventListener("keydown", (event) => onKey(page, event));
-  window.addEventListener("hashchange", () => page.go(indexFromHash()));
+  window.addEventListener("hashchange", () => {
+    page.behind = behindHash();
+    page.go(indexFromHash());
+  });
   window.addEventListener("message", (event) => page.receive(event.data));
-  window.addEventListener("beforeprint", () => fillHandout($("handout"), lesson, document.title));
+  window.addEventListener("beforeprint", () => fillHandout($("handout"), page.lesson, document.title));
   window.addEventListener("afterprint", () => $("handout").replaceChildren());
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", nameTheme);
   nameTheme();
@@ -324,9 +361,11 @@ async function open() {
   document.documentElement.dataset.ready = Math.round(performance.now());
   window.lantern = page; // for those who look into it, and for tests
   page.know(await unpacked("facts-packed"));
+  return page;
 }
 
-open().catch((error) => {
+const opened = open();
+opened.catch((error) => {
   document.documentElement.classList.remove("live"); // the page as it is without scripts
   throw error;
 });

@@ -12,9 +12,24 @@ async function unpacked(id) {
 
 const KIND = { rect: 0, line: 1, polygon: 2, text: 3 };
 
+// Where the members of a list stand in a list known before, which takes in those that it lacks.
+function numbersIn(known, list) {
+  const numbers = (known.numbers ??= new Map(known.map((one, i) => [JSON.stringify(one), i])));
+  return list.map((one) => {
+    const json = JSON.stringify(one);
+    if (!numbers.has(json)) numbers.set(json, known.push(one) - 1);
+    return numbers.get(json);
+  });
+}
+
 class Lesson {
-  constructor(data) {
+  // `before`: whose place in the page it takes; both then number keys and styles alike.
+  constructor(data, before) {
     Object.assign(this, data);
+    if (before) {
+      this.numbers = ["keys", "styles"].map((list) => numbersIn(before[list], data[list]));
+      [this.keys, this.styles] = [before.keys, before.styles];
+    }
     this.size = data.page.map((length) => length * HUNDREDTH);
     this.ratio = this.size[0] / this.size[1];
     this.shapes = []; // of rows, made when first asked for
@@ -41,7 +56,7 @@ class Lesson {
   // A row as { kind, key, style, text, at }: `at` are its measures in page units, of a rectangle
   // x, y, width, height, radius; of a line and a polygon points; of a text x, y, size.
   shape(row) {
-    return (this.shapes[row] ??= shapeOf(this.rows[row]));
+    return (this.shapes[row] ??= shapeOf(this.rows[row], this.numbers));
   }
 
   entitiesOf(key) {
@@ -64,8 +79,9 @@ function listsOf(frames) {
   });
 }
 
-function shapeOf([kind, key, style, ...rest]) {
-  const shape = { kind, key, style, at: rest.map((n) => n * HUNDREDTH) };
+function shapeOf([kind, key, style, ...rest], [keys, styles] = []) {
+  const at = rest.map((n) => n * HUNDREDTH);
+  const shape = { kind, key: keys ? keys[key] : key, style: styles ? styles[style] : style, at };
   if (kind === KIND.text) {
     shape.text = rest[3];
     shape.at.length = 3;

@@ -51,18 +51,45 @@ function place(element, kind, at) {
   }
 }
 
+// The list that a map has for a key.
+function listIn(map, key) {
+  if (!map.has(key)) map.set(key, []);
+  return map.get(key);
+}
+
 class Picture {
   // Draws into an <svg>, of any document.
   constructor(lesson, svg) {
-    this.lesson = lesson;
     this.svg = svg;
-    svg.setAttribute("viewBox", `0 0 ${lesson.size.join(" ")}`);
+    this.open(lesson);
     this.layer = svg.appendChild(this.make("g"));
     this.over = svg.appendChild(this.make("g"));
     this.over.setAttribute("class", "over");
     this.standing = new Map(); // by row: elements that stand as it says
     this.ready = new Map(); // and one that was made beforehand
     this.moving = null;
+  }
+
+  open(lesson) {
+    this.lesson = lesson;
+    this.svg.setAttribute("viewBox", `0 0 ${lesson.size.join(" ")}`);
+  }
+
+  // A frame of a lesson that takes the place of this one: elements of the same key and kind stay.
+  load(lesson, index) {
+    this.settle();
+    this.dropSpare();
+    this.ready = new Map();
+    this.open(lesson);
+    const standing = new Map();
+    for (let child = this.layer.lastChild; child; child = child.previousSibling)
+      listIn(standing, 4 * child.thing + child.kind).push(child);
+    this.arrange(lesson.lists[index].map((row) => {
+      const { kind, key } = lesson.shape(row);
+      const element = standing.get(4 * key + kind)?.pop();
+      return element ? this.dressed(element, row) : this.made(row);
+    }));
+    this.index = index;
   }
 
   make(tag) {
@@ -128,14 +155,18 @@ class Picture {
   // Makes what a frame will need, so that the step there costs less.
   prepare(index) {
     if (this.spare?.index === index) return;
-    this.spare?.layer.remove();
-    this.spare = null;
+    this.dropSpare();
     const fresh = this.lesson.lists[index].filter((row) => !this.standing.has(row));
     if (fresh.length > MANY) return this.prepareLayer(index);
     const ready = new Map();
     for (const row of this.lesson.lists[index])
       if (!this.standing.has(row) && !ready.has(row)) ready.set(row, this.ready.get(row) ?? this.made(row));
     this.ready = ready;
+  }
+
+  dropSpare() {
+    this.spare?.layer.remove();
+    this.spare = null;
   }
 
   // Of very many shapes a whole layer, out of sight: then even their style and place are settled.
@@ -163,16 +194,22 @@ class Picture {
   }
 
   made(row) {
-    const { kind, key, style, text, at } = this.lesson.shape(row);
+    const { kind, key } = this.lesson.shape(row);
     const element = this.make(TAG[kind]);
-    Object.assign(element, { kind, thing: key, row });
-    element.setAttribute("class", `s${style}`);
-    if (kind === KIND.text) {
-      element.setAttribute("d", outlineOf(this.lesson, text));
-      element.halo = this.lesson.styles[style][1] > 0;
-      if (element.halo) element.setAttribute("class", `s${style} halo`);
-    }
-    place(element, kind, at);
+    Object.assign(element, { kind, thing: key });
+    return this.dressed(element, row);
+  }
+
+  // An element as a row has it. What it has already is left alone.
+  dressed(element, row) {
+    const { kind, style, text, at } = this.lesson.shape(row);
+    const outline = kind === KIND.text ? outlineOf(this.lesson, text) : "";
+    const halo = kind === KIND.text && this.lesson.styles[style][1] > 0;
+    if (element.look !== style) element.setAttribute("class", `s${style}${halo ? " halo" : ""}`);
+    if (outline && element.outline !== outline) element.setAttribute("d", outline);
+    const stays = element.halo === halo && element.at?.length === at.length && at.every((n, i) => n === element.at[i]);
+    Object.assign(element, { row, outline, halo, at, look: style });
+    if (!stays) place(element, kind, at);
     return element;
   }
 
@@ -183,25 +220,18 @@ class Picture {
 
   // These elements and no others, in this order.
   arrange(elements) {
+    const staying = new Set(elements);
+    for (const element of [...this.layer.childNodes]) if (!staying.has(element)) element.remove();
     let cursor = this.layer.firstChild;
     for (const element of elements) {
       if (element === cursor) cursor = cursor.nextSibling;
       else this.layer.insertBefore(element, cursor);
-    }
-    while (cursor) {
-      const next = cursor.nextSibling;
-      cursor.remove();
-      cursor = next;
     }
     this.keep(elements);
   }
 
   keep(elements) {
     this.standing = new Map();
-    for (const element of elements) {
-      const same = this.standing.get(element.row);
-      if (same) same.push(element);
-      else this.standing.set(element.row, [element]);
-    }
+    for (const element of elements) listIn(this.standing, element.row).push(element);
   }
 }

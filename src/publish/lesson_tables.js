@@ -18,7 +18,12 @@ class Words {
   static MOST_EDGE = 0.14; // of the width: words as narrow as a small picture would make it smaller
 
   constructor(lesson) {
+    this.load(lesson);
+  }
+
+  load(lesson) {
     this.lesson = lesson;
+    for (const spare of document.querySelectorAll("#words .spare")) spare.remove();
     document.getElementById("words").append(...this.spares());
     document.documentElement.style.setProperty("--ratio", lesson.ratio);
   }
@@ -42,8 +47,7 @@ class Words {
       }));
   }
 
-  show(index) {
-    const { step, caption, part, counters, ending } = this.lesson.frames[index];
+  show({ step, caption, part, counters, ending }) {
     const [told, numbers] = ["caption", "counters"].map((id) => document.getElementById(id));
     if (told.textContent !== caption) told.textContent = caption;
     numbers.replaceChildren(...counterList(document, counters));
@@ -224,6 +228,13 @@ class SpeakerView {
     });
     doc.addEventListener("keydown", onKey);
     this.timer = setInterval(() => this.tick(), 500);
+  }
+
+  load(lesson) {
+    if (!this.isOpen) return;
+    this.lesson = lesson;
+    for (const picture of [this.now, this.next]) picture.load(lesson, 0);
+    this.window.document.getElementById("styles").textContent = styleSheet(lesson);
   }
 
   get isOpen() {
