@@ -1,1 +1,452 @@
-// A live page.
+// A live page: the engine in a Worker draws what the reader's hand, the controls and the text make
+// of the scenario, in the place of the lesson as it was recorded.
+
+const MOST_SECONDS = 10; // for a run
+const MOST_LETTERS = 1 << 20; // of a text in an address
+
+// What the engine could not bear.
+class Ended extends Error {}
+
+// The Worker. Where it takes too long, or fails, it is made anew; `again()` brings it to where it was.
+class Engine {
+  constructor(packed, script) {
+    this.from = { packed };
+    this.script = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
+    this.line = Promise.resolve();
+    this.again = () => {};
+  }
+
+  async start() {
+    this.worker = new Worker(this.script);
+    const { module } = await this.send(this.from, 6 * MOST_SECONDS);
+    this.from = { module };
+  }
+
+  // One request after the other. The time is that of this one alone.
+  ask(request, seconds = MOST_SECONDS) {
+    const asked = this.line.then(() => this.answer(request, seconds));
+    this.line = asked.catch(() => {});
+    return asked;
+  }
+
+  async answer(request, seconds) {
+    try {
+      const { answer } = await this.send({ ask: JSON.stringify(request) }, seconds);
+      return JSON.parse(answer);
+    } catch (error) {
+      await this.start();
+      const good = this.again();
+      if (good) await this.send({ ask: JSON.stringify(good) }, MOST_SECONDS);
+      throw error;
+    }
+  }
+
+  send(message, seconds) {
+    const { worker } = this;
+    return new Promise((resolve, reject) => {
+      const end = (why) => {
+        clearTimeout(timer);
+        worker.terminate();
+        reject(new Ended(why));
+      };
+      const timer = setTimeout(() => end(`This took longer than ${seconds} s and was ended.`), 1000 * seconds);
+      worker.onerror = () => end("The engine could not be started.");
+      worker.onmessage = ({ data }) => {
+        if (data.failed) return end(`The engine failed and was started again: ${data.failed}`);
+        clearTimeout(timer);
+        resolve(data);
+      };
+      worker.postMessage(message);
+    });
+  }
+}
+
+class Live {
+  constructor(page, engine, scenario) {
+    Object.assign(this, { page, engine, past: [], future: [], waiting: new Map() });
+    this.begin(scenario, page.lesson, page.facts);
+    engine.again = () => ({ do: "open", text: this.good, name: this.name });
+    this.editor = new Editor(this);
+    this.controls = new Controls(this);
+    this.hand = new Hand(this);
+    this.listen();
+  }
+
+  // `lesson`: as it was recorded, if it was.
+  begin({ name, text }, lesson = null, facts = null) {
+    Object.assign(this, { name, text, good: text, own: { text, lesson, facts } });
+  }
+
+  listen() {
+    const acts = {
+      undo: () => this.undo(), redo: () => this.redo(), again: () => this.change(this.own.text, "again"),
+      change: () => this.toggle("change"), text: () => this.toggle("text"),
+      download: () => this.download(), link: () => this.copyLink(),
+    };
+    for (const [id, act] of Object.entries(acts)) $(id).addEventListener("click", act);
+    KEYS.c = acts.change;
+    KEYS.t = acts.text;
+    document.addEventListener("keydown", (event) => {
+      const key = event.key.toLowerCase();
+      if (!(event.ctrlKey || event.metaKey) || !(key === "z" || key === "y")) return;
+      event.preventDefault();
+      key === "y" || event.shiftKey ? this.redo() : this.undo();
+    });
+    $("live-panel").addEventListener("keydown", (event) => {
+      event.stopPropagation();
+      if (event.key === "Escape" && !event.defaultPrevented) this.close();
+    });
+    window.addEventListener("hashchange", () => this.openLink());
+  }
+
+  // --- one thing at a time
+
+  // Of what waits the newest of each kind is done, and nothing is done at once with another.
+  soon(kind, act) {
+    this.waiting.delete(kind);
+    this.waiting.set(kind, act);
+    return (this.working ??= this.work());
+  }
+
+  async work() {
+    for (const [kind, act] of this.waiting) {
+      this.waiting.delete(kind);
+      try {
+        await act();
+      } catch (error) {
+        this.say(error.message);
+        if (!(error instanceof Ended)) console.error(error);
+      }
+    }
+    this.working = null;
+  }
+
+  // --- the text
+
+  change(text, cause, shown) {
+    this.take(text, cause);
+    return this.soon("run", () => this.run(shown));
+  }
+
+  // Changes of one cause in a row are undone as one.
+  take(text, cause) {
+    if (text === this.text) return;
+    const now = performance.now();
+    if (cause !== this.cause || now > this.lastly + 1000) this.past.push(this.text);
+    [this.cause, this.lastly, this.future] = [cause, now, []];
+    this.become(text);
+  }
+
+  undo() {
+    this.turnTo(this.past, this.future);
+  }
+  redo() {
+    this.turnTo(this.future, this.past);
+  }
+  turnTo(from, to) {
+    this.editor.flush();
+    if (!from.length) return;
+    to.push(this.text);
+    this.cause = null;
+    this.become(from.pop());
+    this.soon("run", () => this.run());
+  }
+
+  become(text) {
+    this.page.behind = "";
+    this.text = text;
+    this.editor.show(text);
+    this.mark();
+  }
+
+  // The world is the reader's own, or the lesson's.
+  mark() {
+    $("own").hidden = this.text === this.own.text && !this.past.length && !this.future.length;
+    $("own").firstElementChild.hidden = $("again").hidden = this.text === this.own.text;
+    $("undo").disabled = !this.past.length;
+    $("redo").disabled = !this.future.length;
+  }
+
+  // Refused text leaves the picture of the last good one.
+  async run({ index, plays } = {}) {
+    const { text, name, page } = this;
+    const { refused, warnings, unmet } = await this.engine.ask({ do: "open", text, name });
+    this.editor.tell(refused ?? [...warnings, ...unmet]);
+    if (refused) return;
+    this.good = text;
+    if (text === this.own.text && this.own.lesson) page.load(this.own.lesson, this.own.facts, index ?? this.near(this.own.lesson));
+    else await this.draw(index);
+    await this.controls.refresh();
+    if (plays && this.passes) page.play();
+  }
+
+  async draw(index) {
+    const { lesson: data, facts, card } = await this.engine.ask({ do: "lesson" });
+    const lesson = new Lesson(data, this.page.lesson);
+    if (this.good === this.own.text) Object.assign(this.own, { lesson, facts });
+    this.page.load(lesson, facts, index ?? this.near(lesson));
+    $("title").textContent = document.title = card.title;
+    fillQuestions(this.page, card.questions ?? []);
+  }
+
+  // The frame of another run that is nearest to the one shown: of the same step, as far along.
+  near(lesson) {
+    const { frames } = this.page.lesson;
+    const { index } = this.page;
+    const of = (list) => list.flatMap(({ step }, i) => (step === frames[index].step ? [i] : []));
+    const [before, now] = [of(frames), of(lesson.frames)];
+    const at = before.indexOf(index);
+    return (at === before.length - 1 ? now.at(-1) : now[Math.min(at, now.length - 1)]) ?? lesson.last;
+  }
+
+  // Whether time passes after the frame that is shown.
+  get passes() {
+    const { frames, last } = this.page.lesson;
+    return frames[last].time > frames[this.page.index].time;
+  }
+
+  // The facts of all frames of a text.
+  async runAll(text) {
+    await this.change(text, "run");
+    if (this.good !== text) throw new Error(this.editor.told);
+    const all = [];
+    for (let index = 0; index <= this.page.lesson.last; index++)
+      all.push(JSON.parse((await this.engine.ask({ do: "facts", index })).facts));
+    return all;
+  }
+
+  say(words) {
+    $("hint").textContent = words;
+    $("hint").hidden = !words;
+    clearTimeout(this.saying);
+    this.saying = setTimeout(() => ($("hint").hidden = true), 6000);
+  }
+
+  // --- the panel
+
+  toggle(part) {
+    const opens = $(`${part}-part`).hidden;
+    if (opens && !$("facts-panel").hidden) this.page.toggleFacts();
+    $(`${part}-part`).hidden = !opens;
+    $("live-panel").hidden = $("change-part").hidden && $("text-part").hidden;
+    for (const name of ["aria-pressed", "aria-expanded"]) $(part).setAttribute(name, opens);
+    if (!opens && $(`${part}-part`).contains(document.activeElement)) $(part).focus();
+    if (opens && part === "change") this.soon("controls", () => this.controls.refresh());
+    if (opens && part === "text") this.editor.show(this.text);
+    this.page.words.fit();
+  }
+
+  close() {
+    for (const part of ["change", "text"]) if (!$(`${part}-part`).hidden) this.toggle(part);
+  }
+
+  // --- taking it along
+
+  download() {
+    const link = element(document, "a", { href: URL.createObjectURL(new Blob([this.text])), download: this.name });
+    link.click();
+    URL.revokeObjectURL(link.href);
+  }
+
+  // The changed text stands in the address, behind the frame.
+  async copyLink() {
+    const stream = new Blob([this.text]).stream().pipeThrough(new CompressionStream("deflate-raw"));
+    const bytes = new Uint8Array(await new Response(stream).arrayBuffer());
+    const letters = btoa(Array.from(bytes, (byte) => String.fromCharCode(byte)).join(""));
+    this.link(`&t=${letters.replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "")}`);
+    try {
+      await navigator.clipboard.writeText(location.href);
+      this.say("The link is copied.");
+    } catch {
+      this.say("The link is in the address bar.");
+    }
+  }
+
+  link(behind) {
+    this.linked = this.page.behind = behind;
+    this.page.tell();
+  }
+
+  async openLink() {
+    const { behind, index } = this.page;
+    const [, packed] = behind.match(/^&t=([\w-]+)$/) ?? [];
+    if (!packed || behind === this.linked) return;
+    try {
+      await this.change(await unpackedLink(packed), "link", { index });
+      this.link(behind);
+    } catch {
+      this.say("The text in this link is damaged.");
+    }
+  }
+}
+
+async function unpackedLink(packed) {
+  const bytes = Uint8Array.from(atob(packed.replaceAll("-", "+").replaceAll("_", "/")), (letter) => letter.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
+  let text = "";
+  for await (const part of stream.pipeThrough(new TextDecoderStream()))
+    if ((text += part).length > MOST_LETTERS) throw new Error("too long");
+  return text;
+}
+
+// --- controls: sliders and lists of what this scene has
+
+class Controls {
+  constructor(live) {
+    this.live = live;
+    $("change-part").addEventListener("input", (event) => {
+      const field = event.target.closest("[data-path]");
+      if (field) this.set(field.dataset.path, valueIn(field));
+    });
+    $("change-part").addEventListener("submit", (event) => event.preventDefault());
+  }
+
+  set(path, value) {
+    const { live } = this;
+    live.editor.flush();
+    live.soon(`set ${path}`, async () => {
+      const { text, refused } = await live.engine.ask({ do: "set", path, value });
+      if (refused) return live.say(refused[0].message);
+      live.take(text, path);
+      await live.run();
+    });
+  }
+
+  async refresh() {
+    if ($("change-part").hidden) return;
+    const { controls } = await this.live.engine.ask({ do: "controls" });
+    const paths = controls.map(({ path }) => path).join();
+    if (paths !== this.paths) $("change-part").replaceChildren(...fieldsOf(controls));
+    this.paths = paths;
+    if (!controls.length) $("change-part").textContent = "Nothing here can be set by hand. The text can be changed.";
+    for (const field of document.querySelectorAll("#change-part [data-path]"))
+      putIn(field, controls.find(({ path }) => path === field.dataset.path));
+  }
+}
+
+// Each under its table's name.
+function fieldsOf(controls) {
+  let last;
+  return controls.flatMap((control) => {
+    const of = control.path.slice(0, control.path.lastIndexOf("."));
+    const head = of === last ? [] : [element(document, "h2", { text: of })];
+    last = of;
+    return [...head, fieldOf(control)];
+  });
+}
+
+function fieldOf({ path, key, means, type, least, most, step, choices, unit }) {
+  const input = (kind, more) => element(document, "input", { type: kind, ...more });
+  const parts = {
+    choice: () => [element(document, "select", { children: (choices ?? []).map((one) => element(document, "option", { text: bare(one) })) })],
+    truth: () => [input("checkbox")],
+    point: () => [input("number", { step: "any", "aria-label": `${key} x` }), input("number", { step: "any", "aria-label": `${key} y` })],
+  };
+  const range = () => [input("range", { min: least, max: most, step: step ?? (type === "whole" ? 1 : "any") }), element(document, "output")];
+  const label = element(document, type === "point" ? "fieldset" : "label", {
+    "data-path": path, "data-type": type, "data-unit": unit ?? "", title: means,
+    children: [element(document, "b", { text: key }), ...(parts[type] ?? range)(), element(document, "small", { text: means })],
+  });
+  return label;
+}
+
+// A TOML string of one line without its quotes, or what has none.
+const bare = (value) => String(value).replace(/^(["'])(.*)\1$/, "$2");
+
+function valueIn(field) {
+  const inputs = [...field.querySelectorAll("input, select")];
+  const { type } = field.dataset;
+  if (type === "choice") return JSON.stringify(inputs[0].value);
+  if (type === "truth") return String(inputs[0].checked);
+  if (type === "point") return `[${inputs.map((one) => Number(one.value)).join(", ")}]`;
+  field.querySelector("output").textContent = `${inputs[0].value} ${field.dataset.unit}`;
+  return inputs[0].value;
+}
+
+function putIn(field, { type, value, unit }) {
+  const inputs = [...field.querySelectorAll("input, select")];
+  if (field.contains(document.activeElement) && type === "point") return; // it is being typed
+  const output = field.querySelector("output");
+  if (output) output.textContent = `${value} ${unit ?? ""}`;
+  if (type === "truth") inputs[0].checked = value === "true";
+  else if (type === "point") String(value).match(/-?[\d.]+(e-?\d+)?/g)?.forEach((n, i) => inputs[i] && (inputs[i].value = n));
+  else if (document.activeElement !== inputs[0] || inputs[0].type !== "range") inputs[0].value = bare(value);
+}
+
+// --- questions: say first, then look
+
+// A question that has `predict`, a count's name, shows its answer when the reader has said a number.
+function fillQuestions(page, questions) {
+  for (const old of $("question-dialog").querySelectorAll("details")) old.remove();
+  $("question-dialog").prepend(...questions.map(({ asked, answer, frame }) => {
+    const link = element(document, "a", { href: `#${frame}`, text: "Look at it." });
+    link.addEventListener("click", (event) => { event.preventDefault(); page.go(frame); });
+    return element(document, "details", {
+      children: [element(document, "summary", { text: asked }), element(document, "p", { children: [`${answer} `, link] })],
+    });
+  }));
+  if ($("question")) $("question").hidden = !questions.length;
+  questions.forEach((question, i) => question.predict && askFirst(page, question, $("question-dialog").querySelectorAll("details")[i]));
+}
+
+function askFirst(page, { predict, frame }, details) {
+  const answer = details.querySelector("p");
+  const number = element(document, "input", { type: "number", min: 0, required: "" });
+  const said = element(document, "p", { role: "status" });
+  const form = element(document, "form", {
+    children: [element(document, "label", { children: [`Your number of ${predict.replaceAll("_", " ")}: `, number] }), element(document, "button", { text: "Look" })],
+  });
+  answer.hidden = true;
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    const counts = page.facts[frame].map(({ title, counts }) => `${title ? `${title}: ` : ""}${new Map(counts).get(predict) ?? "none"}`);
+    said.textContent = `You said ${number.value}. The engine counts ${counts.join(", ")}.`;
+    answer.hidden = false;
+    page.go(frame);
+  });
+  details.append(form, said, answer);
+}
+
+// --- a page of many scenarios
+
+function fillChoice(live, scenarios) {
+  const list = $("scenario-list");
+  list.replaceChildren(...scenarios.map(({ title, name }, i) => element(document, "option", { value: i, text: title || name })));
+  list.hidden = false;
+  list.addEventListener("change", () => {
+    live.begin(scenarios[list.value]);
+    Object.assign(live, { past: [], future: [], cause: null });
+    live.become(live.text);
+    live.soon("run", () => live.run({ index: 0 }));
+  });
+}
+
+async function startLive(page) {
+  const read = (id) => document.getElementById(id)?.textContent;
+  const packed = read("engine-packed") ?? window.lanternEngine;
+  document.documentElement.dataset.live = "loading";
+  $("bar").querySelector("#facts").before($("live-buttons").content);
+  $("place").before($("live-marks").content);
+  $("help-dialog").querySelector("dl").append($("live-keys").content);
+  const engine = new Engine(packed, read("worker-script"));
+  const scenarios = JSON.parse(read("scenarios") ?? "[]");
+  const scenario = JSON.parse(read("scenario") ?? "null") ?? scenarios[0];
+  await engine.start();
+  const { frames, refused } = await engine.ask({ do: "open", ...scenario });
+  if (refused) throw new Error(refused[0].message);
+  const live = new Live(page, engine, scenario);
+  page.live = live;
+  page.run = (text) => live.runAll(text);
+  if (scenarios.length) fillChoice(live, scenarios);
+  const isRecorded = !scenarios.length && frames === page.lesson.frames.length;
+  if (isRecorded) fillQuestions(page, JSON.parse(read("card")).questions);
+  else await live.draw(scenarios.length ? 0 : undefined);
+  document.documentElement.dataset.live = "ready";
+  live.openLink();
+  live.hand.invite();
+}
+
+opened.then(startLive).catch((error) => {
+  document.documentElement.dataset.live = "off"; // the recorded lesson is there all the same
+  console.warn(error);
+});
