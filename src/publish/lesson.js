@@ -26,8 +26,9 @@ class Page {
   // Another lesson in the place of this one: the engine of a live page has drawn it.
   load(lesson, facts, index) {
     this.pause();
+    const hasOneStep = [lesson, this.lesson].map(({ stepStops }) => stepStops.length === 1);
+    if (hasOneStep.includes(true)) [this.byEvent] = hasOneStep;
     this.lesson = lesson;
-    this.byEvent ||= lesson.stepStops.length === 1;
     this.words.load(lesson);
     this.look(lesson, facts, index);
     this.know(facts);
@@ -72,6 +73,7 @@ class Page {
     if (!$("facts-panel").hidden) this.fillFacts();
     this.speaker?.show(index, this.following);
     if (!this.playing) this.prepareNext();
+    this.shown?.();
   }
 
   // What comes next is made while nobody waits for it.
@@ -93,6 +95,7 @@ class Page {
   // Slider and number count stops, from 1 on for people. A step stops at its last frame.
   tellStop(step, caption) {
     const stop = this.stops.findIndex((stop) => stop >= this.index);
+    $("pace").setAttribute("aria-pressed", this.byEvent);
     $("slider").max = this.stops.length - 1;
     $("slider").value = stop;
     $("slider").setAttribute("aria-label", this.byEvent ? "Frame" : "Step");
@@ -116,7 +119,6 @@ class Page {
 
   setPace(byEvent) {
     this.byEvent = byEvent;
-    $("pace").setAttribute("aria-pressed", byEvent);
     this.tell();
   }
 
@@ -338,7 +340,7 @@ const indexFromHash = () => Number.parseInt(location.hash.slice(1), 10) || 0;
 const behindHash = () => location.hash.match(/&.*/)?.[0] ?? "";
 
 async function open() {
-  const lesson = new Lesson(await unpacked("frames-packed"));
+  const lesson = new Lesson((await unpacked("frames-packed")) ?? EMPTY);
   document.head.append(element(document, "style", { id: "styles", text: styleSheet(lesson) }));
   const page = new Page(lesson);
   listenToButtons(page);
@@ -355,12 +357,11 @@ async function open() {
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", nameTheme);
   nameTheme();
   window.addEventListener("resize", () => page.words.fit());
-  $("pace").setAttribute("aria-pressed", page.byEvent);
   page.go(indexFromHash()); // before anything writes a number there
   page.words.fit();
   document.documentElement.dataset.ready = Math.round(performance.now());
   window.lantern = page; // for those who look into it, and for tests
-  page.know(await unpacked("facts-packed"));
+  page.know((await unpacked("facts-packed")) ?? [[]]);
   return page;
 }
 

@@ -2,9 +2,10 @@
 
 const HUNDREDTH = 0.01;
 
-// The JSON in <script id=...>: base64 of a zlib stream.
+// The JSON in <script id=...>: base64 of a zlib stream; null if it is empty.
 async function unpacked(id) {
-  const letters = atob(document.getElementById(id).textContent);
+  const letters = atob(document.getElementById(id).textContent.trim());
+  if (!letters) return null;
   const bytes = Uint8Array.from(letters, (letter) => letter.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Response(stream).json();
@@ -21,6 +22,12 @@ function numbersIn(known, list) {
     return numbers.get(json);
   });
 }
+
+// Of a page whose engine draws the first frame.
+const EMPTY = {
+  page: [160000, 90000], rows: [], keys: [], styles: [], texts: [], glyphs: [],
+  frames: [{ step: 0, event: 0, time: 0, caption: "", rows: [] }],
+};
 
 class Lesson {
   // `before`: whose place in the page it takes; both then number keys and styles alike.

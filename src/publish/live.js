@@ -49,7 +49,8 @@ class Engine {
         worker.terminate();
         reject(new Ended(why));
       };
-      const timer = setTimeout(() => end(`This took longer than ${seconds} s and was ended.`), 1000 * seconds);
+      const late = () => end(`This took longer than ${seconds} s and was ended.`);
+      const timer = setTimeout(late, 1000 * seconds);
       worker.onerror = () => end("The engine could not be started.");
       worker.onmessage = ({ data }) => {
         if (data.failed) return end(`The engine failed and was started again: ${data.failed}`);
@@ -62,9 +63,9 @@ class Engine {
 }
 
 class Live {
-  constructor(page, engine, scenario) {
-    Object.assign(this, { page, engine, past: [], future: [], waiting: new Map() });
-    this.begin(scenario, page.lesson, page.facts);
+  constructor(page, engine, scenario, recorded) {
+    Object.assign(this, { page, engine, waiting: new Map() });
+    this.begin(scenario, recorded);
     engine.again = () => ({ do: "open", text: this.good, name: this.name });
     this.editor = new Editor(this);
     this.controls = new Controls(this);
@@ -72,9 +73,9 @@ class Live {
     this.listen();
   }
 
-  // `lesson`: as it was recorded, if it was.
-  begin({ name, text }, lesson = null, facts = null) {
-    Object.assign(this, { name, text, good: text, own: { text, lesson, facts } });
+  // `drawn`: the lesson's own frames, if they are there.
+  begin({ name, text }, drawn = null) {
+    Object.assign(this, { name, text, good: text, own: { text, drawn }, past: [], future: [], cause: null });
   }
 
   listen() {
@@ -174,19 +175,20 @@ class Live {
     this.editor.tell(refused ?? [...warnings, ...unmet]);
     if (refused) return;
     this.good = text;
-    if (text === this.own.text && this.own.lesson) page.load(this.own.lesson, this.own.facts, index ?? this.near(this.own.lesson));
-    else await this.draw(index);
+    const isOwn = text === this.own.text;
+    const drawn = (isOwn && this.own.drawn) || (await this.engine.ask({ do: "lesson" }));
+    if (!(drawn.lesson instanceof Lesson)) drawn.lesson = new Lesson(drawn.lesson, page.lesson);
+    if (isOwn) this.own.drawn = drawn;
+    page.load(drawn.lesson, drawn.facts, index ?? this.near(drawn.lesson));
+    $("title").textContent = document.title = drawn.card.title;
+    fillQuestions(page, drawn.card.questions, isOwn);
     await this.controls.refresh();
     if (plays && this.passes) page.play();
   }
 
-  async draw(index) {
-    const { lesson: data, facts, card } = await this.engine.ask({ do: "lesson" });
-    const lesson = new Lesson(data, this.page.lesson);
-    if (this.good === this.own.text) Object.assign(this.own, { lesson, facts });
-    this.page.load(lesson, facts, index ?? this.near(lesson));
-    $("title").textContent = document.title = card.title;
-    fillQuestions(this.page, card.questions ?? []);
+  // Why neither hand nor controls can change the text.
+  get broken() {
+    return this.text !== this.good && "The text has a mistake: correct it, or undo it, first.";
   }
 
   // The frame of another run that is nearest to the one shown: of the same step, as far along.
@@ -208,7 +210,7 @@ class Live {
   // The facts of all frames of a text.
   async runAll(text) {
     await this.change(text, "run");
-    if (this.good !== text) throw new Error(this.editor.told);
+    if (this.good !== text) throw new Error(this.editor.told || $("hint").textContent);
     const all = [];
     for (let index = 0; index <= this.page.lesson.last; index++)
       all.push(JSON.parse((await this.engine.ask({ do: "facts", index })).facts));
@@ -232,7 +234,7 @@ class Live {
     for (const name of ["aria-pressed", "aria-expanded"]) $(part).setAttribute(name, opens);
     if (!opens && $(`${part}-part`).contains(document.activeElement)) $(part).focus();
     if (opens && part === "change") this.soon("controls", () => this.controls.refresh());
-    if (opens && part === "text") this.editor.show(this.text);
+    if (opens && part === "text") this.editor.reveal();
     this.page.words.fit();
   }
 
@@ -243,9 +245,10 @@ class Live {
   // --- taking it along
 
   download() {
-    const link = element(document, "a", { href: URL.createObjectURL(new Blob([this.text])), download: this.name });
+    const href = URL.createObjectURL(new Blob([this.text]));
+    const link = element(document, "a", { href, download: this.name });
     link.click();
-    URL.revokeObjectURL(link.href);
+    setTimeout(() => URL.revokeObjectURL(href), 1000);
   }
 
   // The changed text stands in the address, behind the frame.
@@ -283,128 +286,11 @@ class Live {
 async function unpackedLink(packed) {
   const bytes = Uint8Array.from(atob(packed.replaceAll("-", "+").replaceAll("_", "/")), (letter) => letter.charCodeAt(0));
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
+  const reader = stream.pipeThrough(new TextDecoderStream()).getReader();
   let text = "";
-  for await (const part of stream.pipeThrough(new TextDecoderStream()))
-    if ((text += part).length > MOST_LETTERS) throw new Error("too long");
+  for (let part = await reader.read(); !part.done; part = await reader.read())
+    if ((text += part.value).length > MOST_LETTERS) throw new Error("too long");
   return text;
-}
-
-// --- controls: sliders and lists of what this scene has
-
-class Controls {
-  constructor(live) {
-    this.live = live;
-    $("change-part").addEventListener("input", (event) => {
-      const field = event.target.closest("[data-path]");
-      if (field) this.set(field.dataset.path, valueIn(field));
-    });
-    $("change-part").addEventListener("submit", (event) => event.preventDefault());
-  }
-
-  set(path, value) {
-    const { live } = this;
-    live.editor.flush();
-    live.soon(`set ${path}`, async () => {
-      const { text, refused } = await live.engine.ask({ do: "set", path, value });
-      if (refused) return live.say(refused[0].message);
-      live.take(text, path);
-      await live.run();
-    });
-  }
-
-  async refresh() {
-    if ($("change-part").hidden) return;
-    const { controls } = await this.live.engine.ask({ do: "controls" });
-    const paths = controls.map(({ path }) => path).join();
-    if (paths !== this.paths) $("change-part").replaceChildren(...fieldsOf(controls));
-    this.paths = paths;
-    if (!controls.length) $("change-part").textContent = "Nothing here can be set by hand. The text can be changed.";
-    for (const field of document.querySelectorAll("#change-part [data-path]"))
-      putIn(field, controls.find(({ path }) => path === field.dataset.path));
-  }
-}
-
-// Each under its table's name.
-function fieldsOf(controls) {
-  let last;
-  return controls.flatMap((control) => {
-    const of = control.path.slice(0, control.path.lastIndexOf("."));
-    const head = of === last ? [] : [element(document, "h2", { text: of })];
-    last = of;
-    return [...head, fieldOf(control)];
-  });
-}
-
-function fieldOf({ path, key, means, type, least, most, step, choices, unit }) {
-  const input = (kind, more) => element(document, "input", { type: kind, ...more });
-  const parts = {
-    choice: () => [element(document, "select", { children: (choices ?? []).map((one) => element(document, "option", { text: bare(one) })) })],
-    truth: () => [input("checkbox")],
-    point: () => [input("number", { step: "any", "aria-label": `${key} x` }), input("number", { step: "any", "aria-label": `${key} y` })],
-  };
-  const range = () => [input("range", { min: least, max: most, step: step ?? (type === "whole" ? 1 : "any") }), element(document, "output")];
-  const label = element(document, type === "point" ? "fieldset" : "label", {
-    "data-path": path, "data-type": type, "data-unit": unit ?? "", title: means,
-    children: [element(document, "b", { text: key }), ...(parts[type] ?? range)(), element(document, "small", { text: means })],
-  });
-  return label;
-}
-
-// A TOML string of one line without its quotes, or what has none.
-const bare = (value) => String(value).replace(/^(["'])(.*)\1$/, "$2");
-
-function valueIn(field) {
-  const inputs = [...field.querySelectorAll("input, select")];
-  const { type } = field.dataset;
-  if (type === "choice") return JSON.stringify(inputs[0].value);
-  if (type === "truth") return String(inputs[0].checked);
-  if (type === "point") return `[${inputs.map((one) => Number(one.value)).join(", ")}]`;
-  field.querySelector("output").textContent = `${inputs[0].value} ${field.dataset.unit}`;
-  return inputs[0].value;
-}
-
-function putIn(field, { type, value, unit }) {
-  const inputs = [...field.querySelectorAll("input, select")];
-  if (field.contains(document.activeElement) && type === "point") return; // it is being typed
-  const output = field.querySelector("output");
-  if (output) output.textContent = `${value} ${unit ?? ""}`;
-  if (type === "truth") inputs[0].checked = value === "true";
-  else if (type === "point") String(value).match(/-?[\d.]+(e-?\d+)?/g)?.forEach((n, i) => inputs[i] && (inputs[i].value = n));
-  else if (document.activeElement !== inputs[0] || inputs[0].type !== "range") inputs[0].value = bare(value);
-}
-
-// --- questions: say first, then look
-
-// A question that has `predict`, a count's name, shows its answer when the reader has said a number.
-function fillQuestions(page, questions) {
-  for (const old of $("question-dialog").querySelectorAll("details")) old.remove();
-  $("question-dialog").prepend(...questions.map(({ asked, answer, frame }) => {
-    const link = element(document, "a", { href: `#${frame}`, text: "Look at it." });
-    link.addEventListener("click", (event) => { event.preventDefault(); page.go(frame); });
-    return element(document, "details", {
-      children: [element(document, "summary", { text: asked }), element(document, "p", { children: [`${answer} `, link] })],
-    });
-  }));
-  if ($("question")) $("question").hidden = !questions.length;
-  questions.forEach((question, i) => question.predict && askFirst(page, question, $("question-dialog").querySelectorAll("details")[i]));
-}
-
-function askFirst(page, { predict, frame }, details) {
-  const answer = details.querySelector("p");
-  const number = element(document, "input", { type: "number", min: 0, required: "" });
-  const said = element(document, "p", { role: "status" });
-  const form = element(document, "form", {
-    children: [element(document, "label", { children: [`Your number of ${predict.replaceAll("_", " ")}: `, number] }), element(document, "button", { text: "Look" })],
-  });
-  answer.hidden = true;
-  form.addEventListener("submit", (event) => {
-    event.preventDefault();
-    const counts = page.facts[frame].map(({ title, counts }) => `${title ? `${title}: ` : ""}${new Map(counts).get(predict) ?? "none"}`);
-    said.textContent = `You said ${number.value}. The engine counts ${counts.join(", ")}.`;
-    answer.hidden = false;
-    page.go(frame);
-  });
-  details.append(form, said, answer);
 }
 
 // --- a page of many scenarios
@@ -415,7 +301,6 @@ function fillChoice(live, scenarios) {
   list.hidden = false;
   list.addEventListener("change", () => {
     live.begin(scenarios[list.value]);
-    Object.assign(live, { past: [], future: [], cause: null });
     live.become(live.text);
     live.soon("run", () => live.run({ index: 0 }));
   });
@@ -425,28 +310,32 @@ async function startLive(page) {
   const read = (id) => document.getElementById(id)?.textContent;
   const packed = read("engine-packed") ?? window.lanternEngine;
   document.documentElement.dataset.live = "loading";
-  $("bar").querySelector("#facts").before($("live-buttons").content);
-  $("place").before($("live-marks").content);
-  $("help-dialog").querySelector("dl").append($("live-keys").content);
   const engine = new Engine(packed, read("worker-script"));
   const scenarios = JSON.parse(read("scenarios") ?? "[]");
   const scenario = JSON.parse(read("scenario") ?? "null") ?? scenarios[0];
   await engine.start();
-  const { frames, refused } = await engine.ask({ do: "open", ...scenario });
+  const { text, name } = scenario;
+  const { frames, refused } = await engine.ask({ do: "open", text, name });
   if (refused) throw new Error(refused[0].message);
-  const live = new Live(page, engine, scenario);
+  $("facts").before($("live-buttons").content);
+  $("place").before($("live-marks").content);
+  $("help-dialog").querySelector("dl").append($("live-keys").content);
+  const isRecorded = !scenarios.length && frames === page.lesson.frames.length;
+  const { lesson, facts } = page;
+  const card = JSON.parse(read("card") ?? "{}");
+  const live = new Live(page, engine, scenario, isRecorded && { lesson, facts, card });
   page.live = live;
   page.run = (text) => live.runAll(text);
   if (scenarios.length) fillChoice(live, scenarios);
-  const isRecorded = !scenarios.length && frames === page.lesson.frames.length;
-  if (isRecorded) fillQuestions(page, JSON.parse(read("card")).questions);
-  else await live.draw(scenarios.length ? 0 : undefined);
+  if (isRecorded) fillQuestions(page, card.questions);
+  else await live.soon("run", () => live.run({ index: scenarios.length ? 0 : undefined }));
   document.documentElement.dataset.live = "ready";
   live.openLink();
   live.hand.invite();
 }
 
 opened.then(startLive).catch((error) => {
-  document.documentElement.dataset.live = "off"; // the recorded lesson is there all the same
+  document.documentElement.dataset.live = "off"; // what was recorded is there all the same
+  if (!$("caption").textContent) $("caption").textContent = `The engine cannot run here: ${error.message}`;
   console.warn(error);
 });

@@ -1,6 +1,7 @@
 // The scenario's text: a textarea without colours of its own upon lines that have numbers, colours
 // and what the engine says of them.
 
+const MOST_BEHIND = 24; // letters of a line that leave room for a diagnostic
 const REST = 250; // ms without a key until the text is run
 const TOKENS = /(#.*$|"(?:[^"\\]|\\.)*"|'[^']*')/; // behind a line's head: the table's or the key's
 
@@ -50,10 +51,10 @@ class Editor {
     const box = $("lines");
     lines.forEach((line, i) => {
       const said = this.diagnostics.filter((one) => one.line === i + 1);
-      const key = JSON.stringify([line, said]);
+      const key = JSON.stringify([line, said, said.length && lines[i + 1]]);
       if (this.drawn[i] === key) return;
       this.drawn[i] = key;
-      const made = element(document, "div", { children: [...coloured(line, said), ...saidOf(said)] });
+      const made = element(document, "div", { children: [...coloured(line, said), ...saidOf(said, lines[i + 1])] });
       box.children[i] ? box.children[i].replaceWith(made) : box.append(made);
     });
     while (box.children.length > lines.length) box.lastChild.remove();
@@ -61,6 +62,12 @@ class Editor {
     const { style } = box.parentNode;
     style.setProperty("--rows", lines.length);
     style.setProperty("--columns", Math.max(...lines.map((line) => line.length)) + 2);
+  }
+
+  // It has been opened: what is wrong is seen.
+  reveal() {
+    this.draw();
+    $("lines").querySelector(".diagnostic")?.scrollIntoView({ block: "center" });
   }
 
   // What the engine says of the text.
@@ -71,8 +78,9 @@ class Editor {
     this.area.setAttribute("aria-invalid", diagnostics.some(({ severity }) => severity === "error"));
     $("text").classList.toggle("wrong", diagnostics.length > 0);
     this.draw();
-    if (document.activeElement === this.area)
-      $("lines").children[this.caret[0] - 1]?.querySelector(".diagnostic")?.scrollIntoView({ block: "nearest", inline: "nearest" });
+    if (document.activeElement !== this.area) return;
+    const seen = $("lines").children[this.caret[0] - 1]?.querySelector(".diagnostic");
+    seen?.scrollIntoView({ block: "nearest", inline: "nearest" });
   }
 
   typed() {
@@ -113,7 +121,8 @@ class Editor {
     const begun = [...before].slice(from - 1).join("");
     const fitting = words.filter(({ word }) => word !== begun);
     this.list.replaceChildren(...fitting.map(({ word, means }, i) => element(document, "li", {
-      role: "option", id: `completion-${i}`, "data-word": word, children: [element(document, "b", { text: word }), ` ${means ?? ""}`],
+      role: "option", id: `completion-${i}`, "data-word": word,
+      children: [element(document, "b", { text: word }), ` ${means ?? ""}`],
     })));
     this.from = from;
     this.list.hidden = !fitting.length;
@@ -174,13 +183,16 @@ function coloured(line, said) {
   if (first) {
     const letters = [...line].slice(first.column - 1).join("");
     const length = letters.match(/^[\w.-]+|^"[^"]*"?|^./)?.[0].length ?? 1;
-    pieces.push(element(document, "i", { class: first.severity, style: `--column:${first.column - 1};--length:${length}` }));
+    const style = `--column:${first.column - 1};--length:${length}`;
+    pieces.push(element(document, "i", { class: first.severity, style }));
   }
   return pieces;
 }
 
-function saidOf(said) {
+// Under the line, behind the words of the one that follows if those are few.
+function saidOf(said, following = "") {
   if (!said.length) return [];
   const words = said.map(({ message, suggestion }) => [message, suggestion].filter(Boolean).join(" ")).join("\n");
-  return [element(document, "p", { class: `diagnostic ${said[0].severity}`, text: words })];
+  const style = `--behind:${following.length < MOST_BEHIND ? following.length + 1 : 0}`;
+  return [element(document, "p", { class: `diagnostic ${said[0].severity}`, text: words, style })];
 }

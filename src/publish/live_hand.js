@@ -2,6 +2,7 @@
 // frame that comes of it. One request is on its way at a time, and behind it the newest place alone.
 
 const MOVED = /(^|\/)(world\/(body|box|name|over|corner)|atlas\/(texture|plate))\//;
+const ATLAS = /(^|\/)atlas\//;
 const DRAG_SECONDS = 2;
 const REACH = 16; // page units to a texture's corner, or beside a body for a finger
 const THROWN = 250; // page units a second: slower is let go
@@ -23,6 +24,9 @@ class Hand {
     });
     listen("touchmove", (event) => this.held && event.preventDefault(), { passive: false });
     $("things").addEventListener("keydown", (event) => this.key(event));
+    const giveUp = (event) => event.key === "Escape" && this.held?.begun && this.giveUp(event);
+    document.addEventListener("keydown", giveUp, true);
+    this.page.shown = () => this.handle.remove();
     this.handle = this.page.picture.make("circle");
     this.handle.setAttribute("class", "handle");
     this.handle.setAttribute("r", 9);
@@ -39,25 +43,31 @@ class Hand {
       for (const found of document.elementsFromPoint(clientX + dx, clientY + dy)) {
         if (found === this.handle) return this.handled;
         const [key, one] = (found.parentNode === this.page.picture.layer && this.lesson.keys[found.thing]) || [];
-        if (one && MOVED.test(key)) return this.cornered(found, one, this.page.placeOf({ clientX, clientY }));
+        if (!one || !MOVED.test(key)) continue;
+        if (!ATLAS.test(key)) return one;
+        if (this.isCorner(one, this.page.placeOf({ clientX, clientY }))) return textureOf(one);
       }
     return null;
   }
 
-  // Near its corner it is a texture's size that is moved.
-  cornered({ thing, at }, one, { x, y }) {
-    if (!/(^|\/)atlas\//.test(this.lesson.keys[thing][0])) return one;
-    const [right, lower] = [at[0] + at[2], at[1] + at[3]];
-    const isNear = Math.hypot(right - x, lower - y) < Math.min(REACH, 0.4 * at[2], 0.4 * at[3]) * 1.5;
-    return isNear ? one.replace(/body\/(?!.*body\/)/, "texture/") : one;
+  // Of a texture it is the lower right corner, and its size is what moves.
+  isCorner(one, { x, y }) {
+    const [left, upper, right, lower] = this.boxOf(one);
+    return Math.hypot(right - x, lower - y) < Math.min(REACH, 0.4 * (right - left), 0.4 * (lower - upper));
   }
 
-  // The box of what is drawn of it, [x, y, x, y].
+  // What is drawn of a body, without its name.
+  drawnOf(one) {
+    return [...this.page.picture.layer.children].filter(({ thing, kind }) => {
+      const [key, first] = this.lesson.keys[thing];
+      return kind !== KIND.text && first === one && MOVED.test(key);
+    });
+  }
+
+  // The box around that, [x, y, x, y].
   boxOf(one) {
     const box = [Infinity, Infinity, -Infinity, -Infinity];
-    for (const { thing, kind, at } of this.page.picture.layer.children) {
-      const [key, ...entities] = this.lesson.keys[thing];
-      if (kind === KIND.text || !MOVED.test(key) || nameOf(one) !== nameOf(entities[0] ?? "") || sideOf(one) !== sideOf(entities[0])) continue;
+    for (const { kind, at } of this.drawnOf(one)) {
       const points = kind === KIND.rect ? [at[0], at[1], at[0] + at[2], at[1] + at[3]] : at;
       points.forEach((n, i) => {
         box[i % 2] = Math.min(box[i % 2], n);
@@ -81,7 +91,8 @@ class Hand {
     if (!one) return;
     const { x, y } = this.page.placeOf(event);
     const turns = event.altKey || event.target === this.handle;
-    this.held = { one, pointer: event.pointerId, from: { x, y }, at: { x, y }, turn: 0, turns, start: event, track: [] };
+    const place = { from: { x, y }, at: { x, y }, turn: 0 };
+    this.held = { one, ...place, pointer: event.pointerId, turns, start: event, track: [] };
   }
 
   move(event) {
@@ -106,14 +117,16 @@ class Hand {
     const { held } = this;
     if (!held || event.pointerId !== held.pointer) return;
     if (!held.begun) return (this.held = null);
-    this.dragged = event.type === "pointerup";
-    this.release(held, this.dragged && !held.turns && this.live.passes ? speedOf(held.track, event.timeStamp) : null);
+    this.dragged = event.type === "pointerup"; // no click will follow
+    const throws = this.dragged && !held.turns && this.live.passes;
+    this.release(held, throws ? speedOf(held.track, event.timeStamp) : null);
   }
 
   hover(event) {
     const one = event.pointerType === "touch" || event.buttons ? null : this.at(event);
     $("stage").dataset.hand = one ? (kindOf(one) === "texture" ? "size" : "grab") : "";
-    if (one && event.pointerType !== "touch") this.offerTurn(one);
+    if (one) this.offerTurn(one);
+    else if (event.target.parentNode === this.page.picture.layer) this.handle.remove();
   }
 
   // A handle beside a body of a world in which things turn.
@@ -132,7 +145,7 @@ class Hand {
     const { live, page } = this;
     this.held = held;
     held.begun = true;
-    held.middle = this.middleOf(held.one);
+    held.middle = this.middleOf(held.one.replace("texture/", "body/"));
     this.handle.remove();
     live.say("");
     page.pause();
@@ -141,8 +154,8 @@ class Hand {
     live.editor.flush();
     live.soon("grab", async () => {
       const { one: entity, from } = held;
-      const { refused } = live.text === live.good ? await live.engine.ask({ do: "grab", frame: page.index, entity, ...from })
-        : { refused: [{ message: "The text has a mistake: correct it, or undo it, first." }] };
+      const { refused } = live.broken ? { refused: [{ message: live.broken }] }
+        : await live.engine.ask({ do: "grab", frame: page.index, entity, ...from });
       if (!refused) return;
       held.refused = true;
       live.say(refused[0].message);
@@ -183,6 +196,17 @@ class Hand {
     });
   }
 
+  // All is as it was.
+  giveUp(event) {
+    event.stopImmediatePropagation();
+    const { held, live } = this;
+    held.refused = this.dragged = true;
+    this.held = null;
+    $("stage").dataset.hand = "";
+    live.soon("release", () => live.run());
+    live.editor.show(live.text);
+  }
+
   // Where it is now and what is to be tested, for those who do not see it.
   tell(one) {
     const { facts, index } = this.page;
@@ -201,11 +225,13 @@ class Hand {
     if (!(step || turn) || kindOf(one) !== "body" || event.ctrlKey || event.metaKey) return;
     event.preventDefault();
     event.stopPropagation();
-    if (this.held?.one !== one) {
+    if (this.held?.one.replace("texture/", "body/") !== one) {
       if (this.held) return;
+      const [drawn] = this.drawnOf(one);
+      if (!drawn) return;
       const from = this.middleOf(one);
-      if (!Number.isFinite(from.x)) return;
-      this.begin({ one, from, at: from, turn: 0 });
+      const isTexture = ATLAS.test(this.lesson.keys[drawn.thing][0]);
+      this.begin({ one: isTexture ? textureOf(one) : one, from, at: from, turn: 0 });
     }
     const { held } = this;
     const far = event.shiftKey ? 2 : 20;
@@ -218,15 +244,17 @@ class Hand {
 
   // Told once.
   invite() {
-    const [first] = [...this.page.picture.layer.children].filter(({ thing }) => MOVED.test(this.lesson.keys[thing][0]));
+    const first = [...this.page.picture.layer.children].find(({ thing }) => MOVED.test(this.lesson.keys[thing][0]));
     if (!first) return;
     try {
       if (localStorage.getItem("lantern-hand")) return;
       localStorage.setItem("lantern-hand", "1");
     } catch {} // a page may be kept from remembering
-    this.live.say("Drag a body: the engine answers.");
+    this.live.say(`Drag a ${ATLAS.test(this.lesson.keys[first.thing][0]) ? "texture’s corner" : "body"}: the engine answers.`);
   }
 }
+
+const textureOf = (body) => body.replace(/(^|\/)body\/(?=[^/]*$)/, "$1texture/");
 
 // How far a hand has gone around a middle, clockwise.
 function degrees(middle, from, to) {
@@ -235,11 +263,11 @@ function degrees(middle, from, to) {
   return turned > 180 ? turned - 360 : turned < -180 ? turned + 360 : turned;
 }
 
-// Of the hand's last tenth of a second, if it throws.
+// Of the hand's last tenth of a second, if it throws: it has not rested before it lets go.
 function speedOf(track, now) {
-  const [first] = track.filter(({ t }) => t > now - 100);
   const last = track.at(-1);
-  if (!first || last.t <= first.t) return null;
+  const first = track.find(({ t }) => t > last.t - 100);
+  if (last.t < now - 100 || last.t <= first.t) return null;
   const [vx, vy] = ["x", "y"].map((axis) => (1000 * (last[axis] - first[axis])) / (last.t - first.t));
   return Math.hypot(vx, vy) > THROWN ? { vx, vy } : null;
 }

@@ -1,0 +1,123 @@
+// What can be set by hand: sliders and lists of what this scene has; and the questions, to which a
+// reader may say a number before the engine tells its own.
+
+class Controls {
+  constructor(live) {
+    this.live = live;
+    $("change-part").addEventListener("input", (event) => {
+      const field = event.target.closest("[data-path]");
+      if (field) this.set(field.dataset.path, valueIn(field));
+    });
+    $("change-part").addEventListener("submit", (event) => event.preventDefault());
+  }
+
+  set(path, value) {
+    const { live } = this;
+    live.editor.flush();
+    live.soon(`set ${path}`, async () => {
+      if (live.broken) return live.say(live.broken);
+      const { text, refused } = await live.engine.ask({ do: "set", path, value });
+      if (refused) return live.say(refused[0].message);
+      live.take(text, path);
+      await live.run();
+    });
+  }
+
+  async refresh() {
+    if ($("change-part").hidden) return;
+    const { controls } = await this.live.engine.ask({ do: "controls" });
+    const paths = controls.map(({ path }) => path).join();
+    if (paths !== this.paths) $("change-part").replaceChildren(...fieldsOf(controls));
+    this.paths = paths;
+    if (!controls.length) $("change-part").textContent = "Nothing here can be set by hand. The text can be changed.";
+    for (const field of document.querySelectorAll("#change-part [data-path]"))
+      putIn(field, controls.find(({ path }) => path === field.dataset.path));
+  }
+}
+
+// Each under its table's name.
+function fieldsOf(controls) {
+  let last;
+  return controls.flatMap((control) => {
+    const of = control.path.slice(0, control.path.lastIndexOf("."));
+    const head = of === last ? [] : [element(document, "h2", { text: of })];
+    last = of;
+    return [...head, fieldOf(control)];
+  });
+}
+
+function fieldOf({ path, key, means, type, least, most, step, choices, unit }) {
+  const input = (kind, more) => element(document, "input", { type: kind, ...more });
+  const coordinate = (axis) => input("number", { step: "any", "aria-label": `${key} ${axis}` });
+  const option = (one) => element(document, "option", { text: bare(one) });
+  const parts = {
+    choice: () => [element(document, "select", { children: (choices ?? []).map(option) })],
+    truth: () => [input("checkbox")],
+    point: () => ["x", "y"].map(coordinate),
+  };
+  const range = () => [input("range", { min: least, max: most, step: step ?? (type === "whole" ? 1 : "any") }),
+    element(document, "output")];
+  return element(document, type === "point" ? "fieldset" : "label", {
+    "data-path": path, "data-type": type, "data-unit": unit ?? "", title: means,
+    children: [element(document, "b", { text: key }), ...(parts[type] ?? range)(), element(document, "small", { text: means })],
+  });
+}
+
+// A TOML string of one line without its quotes, or what has none.
+const bare = (value) => String(value).replace(/^(["'])(.*)\1$/, "$2");
+
+function valueIn(field) {
+  const inputs = [...field.querySelectorAll("input, select")];
+  const { type } = field.dataset;
+  if (type === "choice") return JSON.stringify(inputs[0].value);
+  if (type === "truth") return String(inputs[0].checked);
+  if (type === "point") return `[${inputs.map((one) => Number(one.value)).join(", ")}]`;
+  const value = String(Number(Number(inputs[0].value).toPrecision(4)));
+  field.querySelector("output").textContent = `${value} ${field.dataset.unit}`;
+  return value;
+}
+
+function putIn(field, { type, value, unit }) {
+  const inputs = [...field.querySelectorAll("input, select")];
+  if (field.contains(document.activeElement) && type === "point") return; // it is being typed
+  const output = field.querySelector("output");
+  if (output) output.textContent = `${value} ${unit ?? ""}`;
+  if (type === "truth") inputs[0].checked = value === "true";
+  else if (type === "point") String(value).match(/-?[\d.]+(e-?\d+)?/g)?.slice(0, 2).forEach((n, i) => (inputs[i].value = n));
+  else if (document.activeElement !== inputs[0] || inputs[0].type !== "range") inputs[0].value = bare(value);
+}
+
+// --- questions: say first, then look
+
+// A question that has `predict`, a count's name, shows its answer when the reader has said a number.
+// What the lesson answers need not hold of a world that is the reader's own.
+function fillQuestions(page, questions, isOwn = true) {
+  for (const old of $("question-dialog").querySelectorAll("details")) old.remove();
+  $("question-dialog").prepend(...questions.map((question) => {
+    const { asked, answer, frame, predict } = question;
+    const link = element(document, "a", { href: `#${frame}`, text: "Look at it." });
+    link.addEventListener("click", (event) => { event.preventDefault(); page.go(frame); });
+    const told = element(document, "p", { children: [`${isOwn ? "" : "In the lesson: "}${answer} `, link] });
+    return element(document, "details", {
+      children: [element(document, "summary", { text: asked }), ...(predict ? askFirst(page, question, told) : []), told],
+    });
+  }));
+  if ($("question")) $("question").hidden = !questions.length;
+}
+
+function askFirst(page, { predict, frame }, answer) {
+  const number = element(document, "input", { type: "number", min: 0, required: "" });
+  const words = element(document, "label", { children: [`Your number of ${predict.replaceAll("_", " ")}: `, number] });
+  const form = element(document, "form", { children: [words, element(document, "button", { text: "Look" })] });
+  const said = element(document, "p", { role: "status" });
+  answer.hidden = true;
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    const counted = page.facts[frame].map(({ title, counts }) =>
+      `${title ? `${title}: ` : ""}${new Map(counts).get(predict) ?? "none"}`);
+    said.textContent = `You said ${number.value}. The engine counts ${counted.join(", ")}.`;
+    answer.hidden = false;
+    page.go(frame);
+  });
+  return [form, said];
+}
