@@ -181,9 +181,13 @@ class Live {
     if (isOwn) this.own.drawn = drawn;
     page.load(drawn.lesson, drawn.facts, index ?? this.near(drawn.lesson));
     $("title").textContent = document.title = drawn.card.title;
-    fillQuestions(page, drawn.card.questions, isOwn);
+    fillQuestions(page, drawn.card.questions ?? [], isOwn);
     await this.controls.refresh();
     if (plays && this.passes) page.play();
+  }
+
+  get hasLevel() {
+    return /^\s*\[?level\b/m.test(this.good);
   }
 
   // Why neither hand nor controls can change the text.

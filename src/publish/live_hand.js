@@ -3,11 +3,12 @@
 
 const MOVED = /(^|\/)(world\/(body|box|name|over|corner)|atlas\/(texture|plate))\//;
 const ATLAS = /(^|\/)atlas\//;
+const WALL = ""; // what the engine calls the corner of a wall that is near
 const DRAG_SECONDS = 2;
 const REACH = 16; // page units to a texture's corner, or beside a body for a finger
 const THROWN = 250; // page units a second: slower is let go
 const STEPS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
-const TURNS = { ",": -15, ".": 15 };
+const TURNS = { ",": 15, ".": -15 }; // degrees, counter-clockwise
 
 class Hand {
   constructor(live) {
@@ -45,9 +46,21 @@ class Hand {
         const [key, one] = (found.parentNode === this.page.picture.layer && this.lesson.keys[found.thing]) || [];
         if (!one || !MOVED.test(key)) continue;
         if (!ATLAS.test(key)) return one;
-        if (this.isCorner(one, this.page.placeOf({ clientX, clientY }))) return textureOf(one);
+        if (this.isCorner(one, this.page.placeOf({ clientX, clientY }))) return one;
       }
-    return null;
+    return this.live.hasLevel && this.isVertex(this.page.placeOf({ clientX, clientY })) ? WALL : null;
+  }
+
+  // Whether something that is drawn of a world has a corner here. The engine knows which are walls'.
+  isVertex({ x, y }) {
+    return [...this.page.picture.layer.children].some(({ thing, kind, at }) =>
+      (kind === KIND.line || kind === KIND.polygon) && /^$|(^|\/)world\//.test(this.lesson.keys[thing][0]) &&
+      at.some((n, i) => i % 2 === 0 && Math.hypot(n - x, at[i + 1] - y) < REACH));
+  }
+
+  sizes(one) {
+    const [drawn] = this.drawnOf(one);
+    return drawn && ATLAS.test(this.lesson.keys[drawn.thing][0]);
   }
 
   // Of a texture it is the lower right corner, and its size is what moves.
@@ -88,7 +101,7 @@ class Hand {
     this.dragged = false;
     if (event.button || this.held) return;
     const one = this.at(event);
-    if (!one) return;
+    if (one === null) return;
     const { x, y } = this.page.placeOf(event);
     const turns = event.altKey || event.target === this.handle;
     const place = { from: { x, y }, at: { x, y }, turn: 0 };
@@ -124,14 +137,14 @@ class Hand {
 
   hover(event) {
     const one = event.pointerType === "touch" || event.buttons ? null : this.at(event);
-    $("stage").dataset.hand = one ? (kindOf(one) === "texture" ? "size" : "grab") : "";
+    $("stage").dataset.hand = one === null ? "" : this.sizes(one) ? "size" : "grab";
     if (one) this.offerTurn(one);
     else if (event.target.parentNode === this.page.picture.layer) this.handle.remove();
   }
 
   // A handle beside a body of a world in which things turn.
   offerTurn(one) {
-    if (!this.live.passes || kindOf(one) !== "body" || this.held) return this.handle.remove();
+    if (!this.live.passes || this.sizes(one) || this.held) return this.handle.remove();
     const [, upper, right] = this.boxOf(one);
     this.handled = one;
     this.handle.setAttribute("cx", right + 8);
@@ -145,7 +158,7 @@ class Hand {
     const { live, page } = this;
     this.held = held;
     held.begun = true;
-    held.middle = this.middleOf(held.one.replace("texture/", "body/"));
+    held.middle = held.turns && this.middleOf(held.one);
     this.handle.remove();
     live.say("");
     page.pause();
@@ -158,7 +171,7 @@ class Hand {
         : await live.engine.ask({ do: "grab", frame: page.index, entity, ...from });
       if (!refused) return;
       held.refused = true;
-      live.say(refused[0].message);
+      if (entity !== WALL) live.say(refused[0].message);
     });
   }
 
@@ -209,6 +222,7 @@ class Hand {
 
   // Where it is now and what is to be tested, for those who do not see it.
   tell(one) {
+    if (one === WALL) return;
     const { facts, index } = this.page;
     const side = facts[index].find(({ name }) => name === sideOf(one)) ?? facts[index][0];
     const body = side.bodies.find(([, name]) => name === nameOf(one));
@@ -225,13 +239,11 @@ class Hand {
     if (!(step || turn) || kindOf(one) !== "body" || event.ctrlKey || event.metaKey) return;
     event.preventDefault();
     event.stopPropagation();
-    if (this.held?.one.replace("texture/", "body/") !== one) {
+    if (this.held?.one !== one) {
       if (this.held) return;
-      const [drawn] = this.drawnOf(one);
-      if (!drawn) return;
+      if (!this.drawnOf(one).length) return;
       const from = this.middleOf(one);
-      const isTexture = ATLAS.test(this.lesson.keys[drawn.thing][0]);
-      this.begin({ one: isTexture ? textureOf(one) : one, from, at: from, turn: 0 });
+      this.begin({ one, from, at: from, turn: 0 });
     }
     const { held } = this;
     const far = event.shiftKey ? 2 : 20;
@@ -245,21 +257,21 @@ class Hand {
   // Told once.
   invite() {
     const first = [...this.page.picture.layer.children].find(({ thing }) => MOVED.test(this.lesson.keys[thing][0]));
-    if (!first) return;
+    if (!first && !this.live.hasLevel) return;
     try {
       if (localStorage.getItem("lantern-hand")) return;
       localStorage.setItem("lantern-hand", "1");
     } catch {} // a page may be kept from remembering
-    this.live.say(`Drag a ${ATLAS.test(this.lesson.keys[first.thing][0]) ? "texture’s corner" : "body"}: the engine answers.`);
+    const isAtlas = first && ATLAS.test(this.lesson.keys[first.thing][0]);
+    const what = isAtlas ? "texture’s corner" : first ? "body" : "corner of a wall";
+    this.live.say(`Drag a ${what}: the engine answers.`);
   }
 }
 
-const textureOf = (body) => body.replace(/(^|\/)body\/(?=[^/]*$)/, "$1texture/");
-
-// How far a hand has gone around a middle, clockwise.
+// How far a hand has gone around a middle, counter-clockwise.
 function degrees(middle, from, to) {
   const angle = ({ x, y }) => Math.atan2(y - middle.y, x - middle.x);
-  const turned = ((angle(to) - angle(from)) * 180) / Math.PI;
+  const turned = ((angle(from) - angle(to)) * 180) / Math.PI;
   return turned > 180 ? turned - 360 : turned < -180 ? turned + 360 : turned;
 }
 
