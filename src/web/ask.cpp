@@ -2,6 +2,7 @@
 #include <cstdlib>
 #include <string>
 
+#include "embedded/version.hpp"
 #include "live/session.hpp"
 
 #define LANTERN_EXPORT(name) extern "C" __attribute__((export_name(#name)))
@@ -29,3 +30,6 @@ LANTERN_EXPORT(ask) std::size_t ask(const char* question, std::size_t bytes) {
   return answer.size();
 }
 LANTERN_EXPORT(answer_at) const char* answer_at() { return answer.data(); }
+
+// Which Lantern this is: the program looks for these letters in the file.
+LANTERN_EXPORT(mark) const char* mark() { return lantern::kEngineMark.data(); }
