@@ -158,9 +158,11 @@ class LeafArray {
     const std::size_t block = values_.size();
     if (block + room > std::numeric_limits<std::uint32_t>::max())
       throw Refused("the leaves need more than {} places", block);
-    const std::size_t capacity = values_.capacity();
+    if (block + room > values_.capacity()) {  // by our own rule: libraries have different ones
+      values_.reserve(block + std::max<std::size_t>(block, room));
+      ++allocations_;
+    }
     values_.resize(block + room);
-    allocations_ += values_.capacity() != capacity;
     return static_cast<std::uint32_t>(block);
   }
 

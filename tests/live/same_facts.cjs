@@ -1,0 +1,50 @@
+// Every sequence in the page's engine: facts and SVGs are those of the program, byte for byte.
+// Usage: node same_facts.cjs ENGINE SCENARIOS RENDERED, where `lantern render SCENARIOS --format svg
+// -o RENDERED` has been.
+const fs = require("fs");
+const path = require("path");
+const { Engine } = require("./engine.cjs");
+
+// What tells of the files and the program, not of the frame.
+const ownFacts = (json) => json.replace(/,\n"made_from": [\s\S]*$/, "\n}\n");
+const ownSvg = (svg) => svg.replace(/<!-- Lantern made this[^\n]*\n$/, "").replace(/\bl[0-9a-f]{8}-/g, "l-");
+
+function firstDifference(a, b) {
+  const [x, y] = [a.split("\n"), b.split("\n")];
+  const i = x.findIndex((line, k) => line !== y[k]);
+  return `line ${i + 1}:\n  ${x[i]?.slice(0, 300)}\n  ${y[i]?.slice(0, 300)}`;
+}
+
+async function main([wasm, scenarios, rendered]) {
+  const bytes = fs.readFileSync(wasm);
+  let [frames, different, most] = [0, 0, 0];
+  for (const file of fs.readdirSync(scenarios).filter((name) => name.endsWith(".toml")).sort()) {
+    const name = path.basename(file, ".toml");
+    const engine = await Engine.start(bytes);
+    const opened = engine.ask({ do: "open", text: fs.readFileSync(path.join(scenarios, file), "utf8"), name: path.join(scenarios, file) });
+    if (opened.refused) throw new Error(`${file}: ${opened.said}`);
+    for (const warning of opened.unmet) throw new Error(`${file}: ${warning.message}`);
+    for (let index = 0; index < opened.frames; index++) {
+      const native = path.join(rendered, name, `${name}_${String(index).padStart(4, "0")}`);
+      const pairs = {
+        facts: [ownFacts(fs.readFileSync(`${native}.json`, "utf8")), engine.ask({ do: "facts", index }).facts],
+        picture: [ownSvg(fs.readFileSync(`${native}.svg`, "utf8")), engine.ask({ do: "svg", index, width: 1600, height: 900 }).svg],
+      };
+      frames += 1;
+      for (const [what, [program, page]] of Object.entries(pairs)) {
+        if (program === page) continue;
+        different += 1;
+        console.log(`${name}, frame ${index}: another ${what}, ${firstDifference(program, page)}`);
+        break;
+      }
+    }
+    most = Math.max(most, engine.bytes());
+  }
+  console.log(`${frames} frames, ${different} differ; at most ${(most / 2 ** 20).toFixed(0)} MB`);
+  if (frames === 0 || different > 0) process.exitCode = 1;
+}
+
+main(process.argv.slice(2)).catch((error) => {
+  console.error(error);
+  process.exitCode = 1;
+});
