@@ -269,9 +269,12 @@ struct FrameQuestion {
   static constexpr std::string_view kName = "question";
   static constexpr bool kIsObject = true;
   std::string asked;
-  std::string answer;  // counts filled in
+  std::string answer;   // counts filled in
+  std::string predict;  // a count that is to be guessed before; may be empty
 
-  static auto fields(auto& r, auto&& v) { return v("asked", r.asked)("answer", r.answer); }
+  static auto fields(auto& r, auto&& v) {
+    return v("asked", r.asked)("answer", r.answer).when(!r.predict.empty(), "predict", r.predict);
+  }
 };
 
 // How the structure was told to be, and what its panels need beside the nodes.

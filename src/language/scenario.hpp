@@ -315,6 +315,7 @@ struct Step {
   std::string speaker_notes;        // for whoever speaks, never drawn; may be empty
   std::string question;             // for the students, after the sequence; or empty
   std::string answer;               // to it, as this step's last frame shows; it may quote counts
+  std::string predict;              // a count to be guessed before the answer is shown; or empty
   std::optional<std::string> plot;  // adds a point to the chart, or a bar of this label
   std::optional<Pace> pace;         // of this step alone
   std::vector<std::string> events;  // in event pace, only these give frames; empty for all

@@ -120,7 +120,12 @@ class Session::Engine {
     for (std::size_t i = 0; i < frames.size(); ++i) {
       all.add(frames[i], i > 0 ? &frames[i - 1] : nullptr, play_->picture(i), play_->scenario());
       if (const auto* q = frames[i].find<FrameQuestion>())
-        questions.begin_array().value(q->asked).value(q->answer).value(i).end_array();
+        questions.begin_array()
+            .value(q->asked)
+            .value(q->answer)
+            .value(i)
+            .value(q->predict)
+            .end_array();
     }
     return fmt::format("{{{}, \"questions\": {}}}", all.json(), questions.end_array().text());
   }

@@ -9,24 +9,30 @@
 
 namespace lantern::live {
 
-// What is asked, by "do", and answered; D is {"severity", "line", "column", "message",
-// "suggestion"}, with line 0 for the file as a whole. Lines and columns count from 1. A picture is
-// {"lesson": frames as a lesson page has them, "facts": [...], "hashes": ["..."]}.
-//   open      text, name            {"frames": n, "warnings": [D], "unmet": [D]}: parsed, and run
-//   whole lesson                          the picture of all frames, and "questions": [[asked,
-//   answer, frame]] frame     index                 that of one grab      frame, entity, x, y
-//   {"grabbed": "position" | "move" | "size" | "corner"}: a hand goes
-//                                   down on a "body/red", in page units; on a level's corner where
-//                                   `entity` is empty
-//   drag      x, y, turn, vx, vy    {"text", "index"} and the picture of that frame, with what was
-//                                   grabbed at another place, turned so many degrees more, and
-//                                   thrown as fast, in page units a second. Always from the text at
-//                                   the grab; what stands still on the page stays there
-//   set       path, value           {"text"}, see with_value()
-//   controls                        see controls_json()
-//   complete  text, line, column    see complete_json()
-//   facts     index                 {"facts": the frame's JSON as a text}
-//   svg       index, width, height  {"svg"}
+// What is asked, by "do", with what, and what is answered. D is {"severity", "line", "column",
+// "message", "suggestion"}, with line 0 for the file as a whole; lines and columns count from 1. A
+// picture is {"lesson": frames as a lesson page has them, "facts": [...], "hashes": ["..."]}.
+//
+// open: text, name. {"frames": n, "warnings": [D], "unmet": [D]}; the text is parsed, and run
+// whole.
+//
+// lesson. The picture of all frames, and "questions": [[asked, answer, frame, predict]].
+//
+// frame: index. The picture of one.
+//
+// grab: frame, entity, x, y. {"grabbed": "position", "move", "size" or "corner"}; a hand goes down
+// on a "body/red", in page units, or on a level's corner where `entity` is empty.
+//
+// drag: x, y, turn, vx, vy. {"text", "index"} and the picture of that frame, with what was grabbed
+// at another place, turned by so many degrees, and thrown as fast, in page units a second. It
+// begins from the text at the grab, and what does not change stays where it is on the page.
+//
+// set: path, value. {"text"}, see with_value().
+//
+// controls; complete: text, line, column. See controls_json() and complete_json().
+//
+// facts: index. {"facts": the frame's JSON as a text}. svg: index, width, height. {"svg"}.
+//
 // What cannot be done is {"refused": [D], "said": as the command line says it}, and changes
 // nothing.
 class Session {

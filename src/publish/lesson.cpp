@@ -176,7 +176,7 @@ std::string to_json(const LessonCard& card) {
   json.key("questions").begin_array();
   for (const LessonQuestion& q : card.questions)
     json.begin_object()
-        .members("asked", q.asked, "answer", q.answer, "frame", q.frame)
+        .members("asked", q.asked, "answer", q.answer, "frame", q.frame, "predict", q.predict)
         .end_object();
   json.end_array();
   return json.end_object().text();
@@ -190,7 +190,8 @@ std::optional<LessonCard> lesson_card(std::string_view json) try {
   if (!value.at("lecture").is_null()) card.lecture = value.at("lecture").get<std::uint32_t>();
   for (const auto& q :
        value.value("questions", nlohmann::json::array()))  // pages of before have none
-    card.questions.push_back({q.at("asked"), q.at("answer"), q.at("frame")});
+    card.questions.push_back(
+        {q.at("asked"), q.at("answer"), q.at("frame"), q.value("predict", "")});
   return card;
 } catch (const nlohmann::json::exception&) {
   return std::nullopt;
@@ -210,9 +211,8 @@ void Lesson::add(const Frame& frame, const DrawList& list, const FrameWords& wor
   check_draw_list(list);
   if (frames_.count() == 0) first_ = list;
   last_ = list;
-  if (frame.find<FrameQuestion>())
-    card_.questions.push_back(
-        {frame.find<FrameQuestion>()->asked, frame.find<FrameQuestion>()->answer, frames_.count()});
+  if (const auto* q = frame.find<FrameQuestion>())
+    card_.questions.push_back({q->asked, q->answer, frames_.count(), q->predict});
   frames_.add(frame, list, words);
   facts_ += (facts_.empty() ? "" : ",\n") + facts_for_page(frame, list);
   const std::string caption = whole_caption(frame);

@@ -11,7 +11,8 @@ namespace lantern::publish {
 // Asked of the students after a lesson, and the frame that answers it.
 struct LessonQuestion {
   std::string asked, answer;
-  std::uint64_t frame = 0;  // of the page's frames, from 0
+  std::uint64_t frame = 0;   // of the page's frames, from 0
+  std::string predict = {};  // the count that is to be guessed before; may be empty
 };
 
 // What an index of lessons tells of one.
@@ -74,7 +75,7 @@ class Lesson {
   std::string html() const;
 
  private:
-  std::string part(std::string_view name) const;  // of the page's text
+  std::string part(std::string_view name) const;       // of the page's text
   std::string picture_of(const DrawList& list) const;  // an SVG
   std::string live_part() const;
 

@@ -278,7 +278,8 @@ void FrameMaker::settle(std::string_view verb, bool last, const std::string& cap
     tell(step_->words(last), frame);
   frame.ending = last && step_->ending;
   if (last && !step_->question.empty() && scenario_.side.empty())
-    frame.add<FrameQuestion>() = FrameQuestion{step_->question, fill(step_->answer, frame)};
+    frame.add<FrameQuestion>() =
+        FrameQuestion{step_->question, fill(step_->answer, frame), step_->predict};
   verify(step_->always, frame);
   if (last) verify(step_->expect, frame);
   if (last) require_notes(frame);

@@ -124,7 +124,7 @@ class SidesRun {
       frame.caption = caption(step, k, k + 1 == frames, frame);
       if (k + 1 == frames && !step.question.empty())
         frame.add<FrameQuestion>() =
-            FrameQuestion{step.question, filled(step, step.answer, k, frame)};
+            FrameQuestion{step.question, filled(step, step.answer, k, frame), step.predict};
       ++report_.frames;
       stopped_ = !sink_(frame);
     }

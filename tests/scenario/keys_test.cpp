@@ -1001,6 +1001,7 @@ std::vector<KeyCase> key_cases() {
     cases.push_back({table, "notes", {"\"\"", "\"Ask.\""}, bad_text("0 to 2000", 2000)});
     cases.push_back({table, "question", {}, bad_text("1 to 180", 180)});
     cases.push_back({table, "answer", {}, bad_text("1 to 180", 180)});
+    cases.push_back({table, "predict", {}, {{"@1", "must be a text"}, {"@\"\"", "letters"}}});
     cases.push_back({table, "ending", {"true", "false"}, bad_truth()});
     cases.push_back({table, "ruler", {}, {{"@1", "[[step.ruler]]"}}});
     cases.push_back({table, "headline", {}, bad_headline()});

@@ -134,6 +134,10 @@ TableDoc step_table() {
       key(&Step::answer, "answer",
           "To the `question`: what the step's last frame shows. It may quote counts.",
           range(1, kMostCaption), or_else("answers none")),
+      key(&Step::predict, "predict",
+          "A count of the step's last frame, which a live page asks for before it shows the "
+          "`answer`; it then tells the engine's own count of the world as it is by then.",
+          range(1, 64), or_else("asks for none")),
       key(&Step::plot, "plot", "Adds a point to the [chart], or a bar with this label.",
           range(1, 40), or_else("adds none")),
       key(KeyType::texts, "headline", "The scenario's `headline` from here on.",

@@ -133,7 +133,7 @@ class ScriptReader {
     step.rulers = read_rulers(table, script_);
     read_code(table, step, draft_);
     note_ending(table, step);
-    check_question(table);
+    check_question(table, step);
     for (const TomlValue* expect : table.tables("expect"))
       step.expect = read_expectations(*expect, "expect", draft_, state_);
     for (const TomlValue* always : table.tables("always"))
@@ -166,12 +166,18 @@ class ScriptReader {
   }
 
   // A question has an answer, and the answer a proof.
-  void check_question(const TableReader& table) {
+  void check_question(const TableReader& table, const Step& step) {
     for (const char* key : {"question", "answer"})
       if (table.has(key) && !table.is_good(key)) return;  // told already
     if (table.has("answer") && !table.has("question"))
       return table.bad_key("answer", "an 'answer' without a 'question'",
                            "ask, as question = \"Why is nothing tested?\"");
+    if (table.has("predict") && table.is_good("predict")) {
+      if (!table.has("question"))
+        return table.bad_key("predict", "a 'predict' without a 'question'",
+                             "ask, as question = \"How many pairs are left?\"");
+      check_counted({step.predict, table.key_place("predict")}, draft_, &state_);
+    }
     if (!table.has("question")) return;
     if (!table.has("answer"))
       return table.bad_key("question", "a 'question' without an 'answer'",
