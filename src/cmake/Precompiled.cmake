@@ -24,4 +24,7 @@ endfunction()
 set(common_headers <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <limits> <map>
   <memory> <numbers> <optional> <set> <span> <string> <string_view> <utility> <variant> <vector>
   <fmt/format.h> <glm/gtc/quaternion.hpp> <glm/matrix.hpp>)
+if(LANTERN_WEB)
+  return()
+endif()
 lantern_headers(lantern_headers LINKS fmt::fmt glm::glm HEADERS ${common_headers})

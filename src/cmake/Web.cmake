@@ -11,6 +11,7 @@ find_path(LANTERN_STB_DIR stb_truetype.h PATH_SUFFIXES stb REQUIRED)
 file(CREATE_LINK ${LANTERN_STB_DIR} ${headers}/stb SYMBOLIC)
 find_path(LANTERN_FONT_DIR Inter-Regular.otf PATHS /usr/share/fonts/opentype/inter REQUIRED)
 find_path(LANTERN_CODE_FONT_DIR Inconsolata.otf PATHS /usr/share/fonts/truetype/inconsolata REQUIRED)
+include(Precompiled)
 include(Rooms)
 
 set(src ${PROJECT_SOURCE_DIR}/src)
@@ -18,10 +19,11 @@ set(src ${PROJECT_SOURCE_DIR}/src)
 set_source_files_properties(${src}/physics/world.cpp ${src}/spatial/broad_phase_pairs.cpp
   ${src}/spatial/near_pairs.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 set_source_files_properties(${src}/language/text/problems.cpp PROPERTIES
-  COMPILE_OPTIONS -I${src}/web/config SKIP_UNITY_BUILD_INCLUSION ON)
+  COMPILE_OPTIONS -I${src}/web/config SKIP_UNITY_BUILD_INCLUSION ON
+  SKIP_PRECOMPILE_HEADERS ON)
 # They include themselves; Highway's vectors for WebAssembly have no doubles, of which one is made.
 set_source_files_properties(${src}/spatial/box_vectors.cpp ${src}/physics/contact/quick_vectors.cpp
-  PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
 set_source_files_properties(${src}/spatial/box_vectors.cpp PROPERTIES COMPILE_OPTIONS -msimd128)
 add_library(lantern_web_options INTERFACE)
 target_include_directories(lantern_web_options INTERFACE ${src})
@@ -32,6 +34,13 @@ endforeach()
 target_link_libraries(lantern_web_options INTERFACE lantern_version)
 target_compile_definitions(lantern_web_options INTERFACE FMT_HEADER_ONLY TOML_HEADER_ONLY=1)
 target_compile_options(lantern_web_options INTERFACE -include ${src}/web/one_thread.hpp)
+
+set(quick -O2)
+set(small -Os)
+foreach(kind quick small)
+  lantern_headers(web_${kind}_headers LINKS lantern_web_options OPTIONS ${${kind}}
+    HEADERS ${common_headers})
+endforeach()
 
 add_executable(lantern_wasm)
 set_target_properties(lantern_wasm PROPERTIES OUTPUT_NAME lantern SUFFIX .wasm)
@@ -48,11 +57,13 @@ foreach(room base geometry lecture spatial atlas physics language frame run draw
   endif()
   add_library(lantern_web_${room} OBJECT ${sources})
   # Those where a run's time goes are quick; of the others a small one is opened sooner.
-  if(room MATCHES "^(geometry|lecture|spatial|physics|draw)$")
-    target_compile_options(lantern_web_${room} PRIVATE -O2)
+  if(room MATCHES "^(geometry|lecture|physics|draw)$")
+    set(kind quick)
   else()
-    target_compile_options(lantern_web_${room} PRIVATE -Oz)
+    set(kind small)
   endif()
+  target_compile_options(lantern_web_${room} PRIVATE ${${kind}})
+  lantern_precompile(lantern_web_${room} FROM web_${kind}_headers)
   target_link_libraries(lantern_web_${room} PRIVATE lantern_web_options)
   target_link_libraries(lantern_wasm PRIVATE lantern_web_${room})
 endforeach()
