@@ -98,6 +98,8 @@ class Live {
       if (event.key === "Escape" && !event.defaultPrevented) this.close();
     });
     window.addEventListener("hashchange", () => this.openLink());
+    const facts = $("facts-panel"); // it stands in the same place
+    new MutationObserver(() => facts.hidden || this.close()).observe(facts, { attributeFilter: ["hidden"] });
   }
 
   // --- one thing at a time
