@@ -334,7 +334,7 @@ async function startLive(page) {
   page.run = (text) => live.runAll(text);
   if (scenarios.length) fillChoice(live, scenarios);
   if (isRecorded) fillQuestions(page, card.questions);
-  else await live.soon("run", () => live.run({ index: scenarios.length ? 0 : undefined }));
+  else await live.run({ index: scenarios.length ? 0 : undefined });
   document.documentElement.dataset.live = "ready";
   live.openLink();
   live.hand.invite();
