@@ -326,8 +326,10 @@ async function startLive(page) {
   $("facts").before($("live-buttons").content);
   $("place").before($("live-marks").content);
   $("help-dialog").querySelector("dl").append($("live-keys").content);
-  const isRecorded = !scenarios.length && frames === page.lesson.frames.length;
   const { lesson, facts } = page;
+  const { lesson: first } = await engine.ask({ do: "frame", index: 0 });
+  // All frames, and as large as the engine draws them: else those are not what a hand would move.
+  const isRecorded = frames === lesson.frames.length && `${first?.page}` === `${lesson.page}`;
   const card = JSON.parse(read("card") ?? "{}");
   const live = new Live(page, engine, scenario, isRecorded && { lesson, facts, card });
   page.live = live;
