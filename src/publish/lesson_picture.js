@@ -5,6 +5,7 @@ const MANY = 1500; // shapes that make a step slow
 const SVG = "http://www.w3.org/2000/svg";
 const TAG = ["rect", "line", "polygon", "path"];
 const RECT_AT = ["x", "y", "width", "height", "rx"]; // in the order of a rectangle's measures
+const LINE_AT = ["x1", "y1", "x2", "y2"];
 const role = (number) => (number === 0 ? "none" : `var(--role-${number})`);
 
 // The classes that paint: colours by role, so that a theme changes them all at once.
@@ -34,13 +35,13 @@ function outlineOf(lesson, text) {
 
 const thousandths = (n) => Math.round(n * 1000) / 1000;
 
-// Sets where an element is.
-function place(element, kind, at) {
-  const set = (name, value) => element.setAttribute(name, thousandths(value));
-  if (kind === KIND.rect) {
-    RECT_AT.forEach((name, i) => set(name, Math.max(at[i], i < 2 ? at[i] : 0)));
-  } else if (kind === KIND.line) {
-    ["x1", "y1", "x2", "y2"].forEach((name, i) => set(name, at[i]));
+// Sets where an element is; `before`: where it is known to be.
+function place(element, kind, at, before = []) {
+  if (kind === KIND.rect || kind === KIND.line) {
+    for (const [i, name] of (kind === KIND.rect ? RECT_AT : LINE_AT).entries()) {
+      if (at[i] === before[i]) continue;
+      element.setAttribute(name, thousandths(kind === KIND.rect && i > 1 ? Math.max(at[i], 0) : at[i]));
+    }
   } else if (kind === KIND.polygon) {
     element.setAttribute("points", at.map(thousandths).join(" "));
   } else {
@@ -208,8 +209,9 @@ class Picture {
     if (element.look !== style) element.setAttribute("class", `s${style}${halo ? " halo" : ""}`);
     if (outline && element.outline !== outline) element.setAttribute("d", outline);
     const stays = element.halo === halo && element.at?.length === at.length && at.every((n, i) => n === element.at[i]);
+    const before = element.at;
     Object.assign(element, { row, outline, halo, at, look: style });
-    if (!stays) place(element, kind, at);
+    if (!stays) place(element, kind, at, before);
     return element;
   }
 

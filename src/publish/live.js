@@ -74,8 +74,8 @@ class Live {
   }
 
   // `drawn`: the lesson's own frames, if they are there.
-  begin({ name, text }, drawn = null) {
-    Object.assign(this, { name, text, good: text, own: { text, drawn }, past: [], future: [], cause: null });
+  begin({ name, text, title = document.title }, drawn = null) {
+    Object.assign(this, { name, text, title, good: text, own: { text, drawn }, past: [], future: [], cause: null });
   }
 
   listen() {
@@ -163,9 +163,11 @@ class Live {
   }
 
   // The world is the reader's own, or the lesson's.
-  mark() {
-    $("own").hidden = this.text === this.own.text && !this.past.length && !this.future.length;
-    $("own").firstElementChild.hidden = $("again").hidden = this.text === this.own.text;
+  mark(text = this.text) {
+    const isOwn = text === this.own.text;
+    document.documentElement.classList.toggle("own-world", !isOwn);
+    $("own").hidden = isOwn && !this.past.length && !this.future.length;
+    $("own").firstElementChild.hidden = $("again").hidden = isOwn;
     $("undo").disabled = !this.past.length;
     $("redo").disabled = !this.future.length;
   }
@@ -174,7 +176,7 @@ class Live {
   async run({ index, plays } = {}) {
     const { text, name, page } = this;
     const { refused, warnings, unmet } = await this.engine.ask({ do: "open", text, name });
-    this.editor.tell(refused ?? [...warnings, ...unmet]);
+    this.editor.tell(refused ?? warnings, unmet);
     if (refused) return;
     this.good = text;
     const isOwn = text === this.own.text;
@@ -182,8 +184,9 @@ class Live {
     if (!(drawn.lesson instanceof Lesson)) drawn.lesson = new Lesson(drawn.lesson, page.lesson);
     if (isOwn) this.own.drawn = drawn;
     page.load(drawn.lesson, drawn.facts, index ?? this.near(drawn.lesson));
-    $("title").textContent = document.title = drawn.card.title;
-    fillQuestions(page, drawn.card.questions ?? [], isOwn);
+    const { title, questions } = drawn.card ?? { title: this.title, questions: questionsOf(drawn) };
+    $("title").textContent = document.title = title;
+    fillQuestions(page, questions, isOwn);
     await this.controls.refresh();
     if (plays && this.passes) page.play();
   }
@@ -299,6 +302,9 @@ async function unpackedLink(packed) {
   return text;
 }
 
+const questionsOf = ({ questions = [] }) =>
+  questions.map(([asked, answer, frame, predict]) => ({ asked, answer, frame, predict }));
+
 // --- a page of many scenarios
 
 function fillChoice(live, scenarios) {
@@ -318,7 +324,7 @@ async function startLive(page) {
   document.documentElement.dataset.live = "loading";
   const engine = new Engine(packed, read("worker-script"));
   const scenarios = JSON.parse(read("scenarios") ?? "[]");
-  const scenario = JSON.parse(read("scenario") ?? "null") ?? scenarios[0];
+  const scenario = scenarios[0] ?? JSON.parse(read("scenario"));
   await engine.start();
   const { text, name } = scenario;
   const { frames, refused } = await engine.ask({ do: "open", text, name });

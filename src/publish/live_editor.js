@@ -54,7 +54,7 @@ class Editor {
       const key = JSON.stringify([line, said, said.length && lines[i + 1]]);
       if (this.drawn[i] === key) return;
       this.drawn[i] = key;
-      const made = element(document, "div", { children: [...coloured(line, said), ...saidOf(said, lines[i + 1])] });
+      const made = element(document, "div", { children: [...coloured(line, said), ...saidOf(said, line, lines[i + 1])] });
       box.children[i] ? box.children[i].replaceWith(made) : box.append(made);
     });
     while (box.children.length > lines.length) box.lastChild.remove();
@@ -67,19 +67,21 @@ class Editor {
   // It has been opened: what is wrong is seen.
   reveal() {
     this.draw();
-    $("lines").querySelector(".diagnostic")?.scrollIntoView({ block: "center" });
+    $("lines").querySelector(".diagnostic.error")?.scrollIntoView({ block: "center", inline: "nearest" });
   }
 
-  // What the engine says of the text.
-  tell(diagnostics) {
-    this.diagnostics = diagnostics;
+  // What the engine says of the text. What a lesson expects need not be so in a world of one's own.
+  tell(diagnostics, unmet = []) {
+    this.diagnostics = [...diagnostics, ...unmet.map((one) => ({ ...one, severity: "warning" }))];
+    const are = unmet.length === 1 ? "1 expectation of the text is" : `${unmet.length} expectations of the text are`;
     this.told = diagnostics.map(sentenceOf).join("\n");
-    $("live-said").textContent = diagnostics.length ? this.told : "";
-    this.area.setAttribute("aria-invalid", diagnostics.some(({ severity }) => severity === "error"));
-    $("text").classList.toggle("wrong", diagnostics.length > 0);
+    $("live-said").textContent = [this.told, unmet.length && `${are} not met in this world.`].filter(Boolean).join("\n");
+    const isWrong = diagnostics.some(({ severity }) => severity === "error");
+    this.area.setAttribute("aria-invalid", isWrong);
+    $("text").classList.toggle("wrong", isWrong);
     this.draw();
     if (document.activeElement !== this.area) return;
-    const seen = $("lines").children[this.caret[0] - 1]?.querySelector(".diagnostic");
+    const seen = $("lines").children[this.caret[0] - 1]?.querySelector(".diagnostic.error");
     seen?.scrollIntoView({ block: "nearest", inline: "nearest" });
   }
 
@@ -189,10 +191,11 @@ function coloured(line, said) {
   return pieces;
 }
 
-// Under the line, behind the words of the one that follows if those are few.
-function saidOf(said, following = "") {
+// Under the line, behind the words of the one that follows if those are few. A warning hides none.
+function saidOf(said, line, following = "") {
   if (!said.length) return [];
   const words = said.map(({ message, suggestion }) => [message, suggestion].filter(Boolean).join(" ")).join("\n");
-  const style = `--behind:${following.length < MOST_BEHIND ? following.length + 1 : 0}`;
+  const over = said[0].severity === "error" ? following : line;
+  const style = `--behind:${over === line || over.length < MOST_BEHIND ? over.length + 1 : 0}`;
   return [element(document, "p", { class: `diagnostic ${said[0].severity}`, text: words, style })];
 }

@@ -190,6 +190,7 @@ class Hand {
     held.last = answer;
     page.look(new Lesson(answer.lesson, page.lesson), answer.facts);
     live.editor.show(answer.text);
+    live.mark(answer.text);
     return answer;
   }
 
@@ -218,6 +219,7 @@ class Hand {
     $("stage").dataset.hand = "";
     live.soon("release", () => live.run());
     live.editor.show(live.text);
+    live.mark();
   }
 
   // Where it is now and what is to be tested, for those who do not see it.
