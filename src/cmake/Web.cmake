@@ -33,7 +33,8 @@ foreach(library font lecture_source examples)
 endforeach()
 target_link_libraries(lantern_web_options INTERFACE lantern_version)
 target_compile_definitions(lantern_web_options INTERFACE FMT_HEADER_ONLY TOML_HEADER_ONLY=1)
-target_compile_options(lantern_web_options INTERFACE -include ${src}/web/one_thread.hpp)
+# What is to be warned of is told by the other builds.
+target_compile_options(lantern_web_options INTERFACE -w -include ${src}/web/one_thread.hpp)
 
 set(quick -O2)
 set(small -Os)

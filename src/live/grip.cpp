@@ -25,8 +25,10 @@ constexpr double kGoesOn = 2;   // seconds that a script without any is run afte
 
 // In as many digits as a hand can tell apart, where a page unit is 1/scale.
 std::string number_text(double x, double scale) {
-  const int digits = std::clamp(static_cast<int>(std::ceil(std::log10(scale))), 0, 6);
-  const double tens = std::pow(10.0, digits), whole = std::round(x * tens);
+  int digits = 0;
+  double tens = 1;
+  for (; tens < scale && digits < 6; tens *= 10) ++digits;
+  const double whole = std::round(x * tens);
   std::string text = fmt::format("{:.{}f}", whole == 0 ? 0.0 : whole / tens, digits);
   if (digits > 0) text.erase(text.find_last_not_of('0') + 1);
   if (text.ends_with('.')) text.pop_back();
