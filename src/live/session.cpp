@@ -1,5 +1,6 @@
 #include "live/session.hpp"
 
+#include <cmath>
 #include <optional>
 
 #include <fmt/format.h>
@@ -19,6 +20,8 @@ namespace lantern::live {
 namespace {
 
 using nlohmann::json;
+
+constexpr int kMost = 1'000'000;  // of page units, degrees, lines and frames
 
 void write(JsonWriter& out, const Diagnostic& d) {
   out.begin_object()
@@ -78,7 +81,8 @@ class Session::Engine {
     const std::string what = q.at("do");
     if (what == "open") return open(q.at("text"), q.at("name"));
     if (what == "complete")
-      return complete_json(q.at("text").get<std::string>(), q.at("line"), q.at("column"));
+      return complete_json(q.at("text").get<std::string>(), whole_in(q, "line"),
+                           whole_in(q, "column"));
     if (!play_) throw Refused("nothing is opened yet");
     if (what == "lesson") return lesson();
     if (what == "frame") return "{" + picture(index_in(q, "index")) + "}";
@@ -89,13 +93,28 @@ class Session::Engine {
                                           q.at("value").get<std::string>()));
     if (what == "controls") return controls_json(text_, play_->scenario());
     if (what == "facts") return with_text("facts", to_json(play_->frames()[index_in(q, "index")]));
-    if (what == "svg") return svg(index_in(q, "index"), q.at("width"), q.at("height"));
+    if (what == "svg")
+      return svg(index_in(q, "index"), whole_in(q, "width"), whole_in(q, "height"));
     throw Refused("unknown request '{}'", what);
   }
 
  private:
+  static int whole_in(const json& q, const char* name) {
+    const json& n = q.at(name);
+    if (!n.is_number_integer() || n < 0 || n > kMost)
+      throw Refused("'{}' is a whole number from 0 to {}", name, kMost);
+    return n;
+  }
+  // 0 if it is not there.
+  static double number_in(const json& q, const char* name) {
+    const json n = q.value(name, json(0));
+    if (!n.is_number() || std::abs(n.get<double>()) > kMost)
+      throw Refused("'{}' is a number from -{} to {}", name, kMost, kMost);
+    return n;
+  }
+
   std::size_t index_in(const json& q, const char* name) const {
-    const std::size_t index = q.at(name);
+    const auto index = static_cast<std::size_t>(whole_in(q, name));
     if (index >= play_->frames().size())
       throw Refused("there is no frame {}: {} are there", index, play_->frames().size());
     return index;
@@ -144,20 +163,20 @@ class Session::Engine {
   }
 
   static Vec<2> point_in(const json& q, const char* x, const char* y) {
-    return {q.value(x, 0.0), q.value(y, 0.0)};
+    return {number_in(q, x), number_in(q, y)};
   }
 
   std::string grab(const json& q) {
-    grabbed_ = index_in(q, "frame");
-    grip_ =
-        grip_on(text_, *play_, grabbed_, q.at("entity").get<std::string>(), point_in(q, "x", "y"));
+    const std::size_t index = index_in(q, "frame");
+    grip_ = grip_on(text_, *play_, index, q.at("entity").get<std::string>(), point_in(q, "x", "y"));
+    grabbed_ = index;
     return with_text("grabbed", std::string(grip_->what()));
   }
 
   std::string drag(const json& q) {
     if (!grip_) throw Refused("nothing is grabbed");
     const std::string text =
-        grip_->text({point_in(q, "x", "y"), q.value("turn", 0.0), point_in(q, "vx", "vy")});
+        grip_->text({point_in(q, "x", "y"), number_in(q, "turn"), point_in(q, "vx", "vy")});
     const Play now(language::parse_scenario(text, name_), grip_->moment);
     const std::size_t index = now.index_of(grip_->moment);
     const Frame& frame = now.frames()[index];
