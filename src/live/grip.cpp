@@ -77,19 +77,20 @@ class BodyGrip : public Grip {
     moment = play.moment_of(index);
     const language::BodySpec& spec = play.scenario().bodies.at(body.place);
     const auto& steps = play.scenario().steps;
-    goes_on_ =
-        std::any_of(steps.begin() + moment.step + 1, steps.end(),
-                    [](const language::Step& step) { return traits_of(step.verb).passes_time; });
-    table_ = live::index_of(text, "body", body.name);
-    if (table_ && body.position == spec.position) return;  // it still stands where it was put
-    table_.reset();
-    // Of the step that put it there, the place is changed, not a step added.
     const auto* put = std::get_if<language::Move>(&steps.at(moment.step).verb);
-    if (put && put->body == body.place && put->to) {
-      moved_by_ = moment.step;
-    } else {
-      moment = {moment.step + 1, 0, true};
+    const auto table = live::index_of(text, "body", body.name);
+    std::uint32_t next = moment.step + 1;
+    if (table && body.position == spec.position) {  // it still stands where it was put
+      table_ = table;
+      body_.angle = spec.angle;  // it may have turned
+      if (!moment.is_last) next = moment.step;
+    } else if (!put || put->body != body.place || !put->to) {  // else that step's place changes
+      adds_step_ = true;
+      moment = {next, 0, true};
     }
+    goes_on_ = std::any_of(steps.begin() + next, steps.end(), [](const language::Step& step) {
+      return traits_of(step.verb).passes_time;
+    });
   }
 
   std::string_view what() const override { return table_ ? "position" : "move"; }
@@ -98,35 +99,36 @@ class BodyGrip : public Grip {
     Vec<3> to = body_.position + ways_.of(hand.at - at_);
     for (int i = 0; i < dimension_; ++i)
       if (bounds_.lo[i] < bounds_.hi[i]) to[i] = std::clamp(to[i], bounds_.lo[i], bounds_.hi[i]);
-    const std::string place = point_text(to, dimension_, ways_.scale);
-    const std::string way = glm::length(hand.velocity) > kThrown
+    const std::string place =
+        hand.at != at_ || adds_step_ ? point_text(to, dimension_, ways_.scale) : "";
+    const std::string way = glm::length(hand.velocity) > kThrown && !body_.is_static
                                 ? point_text(ways_.of(hand.velocity), dimension_, ways_.scale)
                                 : "";
     const std::string turned = hand.turn != 0 && dimension_ == 2
                                    ? number_text(glm::degrees(body_.angle) + hand.turn, 10)
                                    : "";
-    if (table_)
-      return with_keys(text_, fmt::format("body[{}]", *table_), "position", place, way, turned);
-    if (moved_by_)
-      return with_keys(text_, fmt::format("step[{}]", *moved_by_), "to", place, way, turned);
-    std::string lines =
-        fmt::format("do = \"move\"\nbody = {}\nto = {}\n", json_string(body_.name), place);
-    if (!way.empty()) lines += "velocity = " + way + "\n";
-    if (!turned.empty()) lines += "turned = " + turned + "\n";
-    std::string text = with_step(text_, moment.step - 1, lines);
+    std::string text = text_;
+    if (adds_step_)
+      text = behind(text, moment.step - 1,
+                    fmt::format("do = \"move\"\nbody = {}", json_string(body_.name)));
+    const std::string table =
+        table_ ? fmt::format("body[{}].", *table_) : fmt::format("step[{}].", moment.step);
+    const auto say = [&](const char* key, const std::string& value) {
+      if (!value.empty()) text = with_value(text, table + key, value);
+    };
+    say(table_ ? "position" : "to", place);
+    say("velocity", way);
+    if (!turned.empty()) text = with_value(text, table + "heading", "");  // instead of it
+    say("turned", turned);
     if (!way.empty() && !goes_on_)
-      text = with_step(text, moment.step, fmt::format("do = \"run\"\nseconds = {}\n", kGoesOn));
+      text = behind(text, moment.step, fmt::format("do = \"run\"\nseconds = {}\n", kGoesOn));
     return text;
   }
 
  private:
-  static std::string with_keys(const std::string& text, const std::string& table,
-                               std::string_view place_key, const std::string& place,
-                               const std::string& way, const std::string& turned) {
-    std::string changed = with_value(text, fmt::format("{}.{}", table, place_key), place);
-    if (!way.empty()) changed = with_value(changed, table + ".velocity", way);
-    if (!turned.empty()) changed = with_value(changed, table + ".turned", turned);
-    return changed;
+  // One more step; an ending that has it behind itself is none any more.
+  static std::string behind(const std::string& text, std::size_t step, const std::string& lines) {
+    return with_step(with_value(text, fmt::format("step[{}].ending", step), ""), step, lines);
   }
 
   std::string text_;
@@ -135,8 +137,9 @@ class BodyGrip : public Grip {
   Vec<2> at_;
   Box<3> bounds_;
   int dimension_;
-  bool goes_on_ = false;  // time passes later in the script
-  std::optional<std::size_t> table_, moved_by_;
+  bool goes_on_ = false;              // time passes later in the script
+  std::optional<std::size_t> table_;  // whose position changes; else a step's `to`
+  bool adds_step_ = false;
 };
 
 // Its lower right corner follows the hand.
@@ -149,7 +152,7 @@ class TextureGrip : public Grip {
   std::string_view what() const override { return "size"; }
   std::string text(const Hand& hand) const override {
     const Vec<2> more = (hand.at - at_) / per_pixel_;
-    const auto length = [](double pixels) { return std::max(1L, std::lround(pixels)); };
+    const auto length = [](double pixels) { return std::lround(std::clamp(pixels, 1.0, 1e6)); };
     return with_value(
         text_, fmt::format("texture[{}].size", table_),
         fmt::format("[{}, {}]", length(texture_.width + more.x), length(texture_.height + more.y)));
@@ -184,17 +187,21 @@ class CornerGrip : public Grip {
 std::unique_ptr<Grip> on_corner(std::string_view text, const Play& play, const DrawList& list,
                                 const Vec<2>& at) {
   const auto& loops = play.scenario().level->loops;
+  std::unique_ptr<Grip> nearest;
+  double least = kNear;
   for (const WorldMap& map : list.maps)
     for (std::size_t i = 0; i < loops.size(); ++i)
       for (std::size_t k = 0; k < loops[i].size(); ++k) {
         const Vec<2>& corner = loops[i][k];
-        if (glm::length(map.origin + Vec<2>(corner.x, -corner.y) * map.scale - at) > kNear)
-          continue;
-        return std::make_unique<CornerGrip>(
+        const double way = glm::length(map.origin + Vec<2>(corner.x, -corner.y) * map.scale - at);
+        if (way > least) continue;
+        least = way;
+        nearest = std::make_unique<CornerGrip>(
             text, fmt::format("level.loops[{}][{}]", i, k), corner,
             Ways{Vec<3>(1, 0, 0) / map.scale, Vec<3>(0, -1, 0) / map.scale, map.scale}, at);
       }
-  throw Refused("there is no corner of a wall here");
+  if (!nearest) throw Refused("there is no corner of a wall here");
+  return nearest;
 }
 
 // Page units of a pixel, as the texture's largest rectangle on the page has them.
@@ -224,7 +231,8 @@ std::unique_ptr<Grip> grip_on(std::string_view text, Play& play, std::size_t ind
     return grip;
   };
   if (entity.empty() && play.scenario().level) return placed(on_corner(text, play, list, at));
-  const std::size_t slash = entity.find("body/");
+  // Names have no slash: a side may be called "body".
+  const std::size_t slash = ("/" + std::string(entity)).rfind("/body/");
   if (slash == entity.npos)
     throw Refused("only bodies, textures and corners of walls can be moved");
   const std::string prefix(entity.substr(0, slash)), name(entity.substr(slash + 5));
