@@ -1,0 +1,552 @@
+// The engine of a page behind its one function: what it answers is held against a run of its own
+// and against the text that a hand has left.
+#include "live/session.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "base/file.hpp"
+#include "draw/page.hpp"
+#include "language/scenario.hpp"
+#include "live/edit.hpp"
+#include "publish/lesson_frames.hpp"
+#include "run/director.hpp"
+
+namespace lantern::live {
+namespace {
+
+using nlohmann::json;
+
+// Keys of the lesson's shapes and where each row stands, as a page decodes one frame alone.
+struct Looked {
+  explicit Looked(const json& answer) {
+    const json& lesson = answer.at("lesson");
+    const json& frame = lesson.at("frames").at(0);
+    std::size_t known = 0;
+    for (std::size_t i = 0; i < frame.at("rows").size(); i += 2) {
+      const int from = frame["rows"][i], count = frame["rows"][i + 1];
+      for (int k = 0; from == -1 && k < count; ++k) rows.push_back(lesson["rows"][known++]);
+      if (from == -2) rows.push_back(lesson["rows"][static_cast<std::size_t>(count)]);
+    }
+    for (const json& row : rows) keys.push_back(lesson["keys"][row[1].get<std::size_t>()][0]);
+  }
+
+  // Without the numbers of tables, which are those of one answer.
+  std::vector<std::string> shapes_of(const std::string& key) const {
+    std::vector<std::string> shapes;
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (keys[i] == key) {
+        json shape = rows[i];
+        shape[1] = shape[2] = 0;
+        if (shape[0] == 3) shape.back() = 0;
+        shapes.push_back(shape.dump());
+      }
+    return shapes;
+  }
+
+  // The middle of what is drawn of a body, in page units.
+  Vec<2> middle(const std::string& key) const {
+    Vec<2> lo(1e9), hi(-1e9);
+    const auto see = [&](const Vec<2>& p) {
+      lo = glm::min(lo, p);
+      hi = glm::max(hi, p);
+    };
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (keys[i] != key) continue;
+      const json& row = rows[i];
+      Vec<2> at(row[3], row[4]);
+      see(at);
+      if (row[0] == 0) see(at + Vec<2>(row[5], row[6]));
+      if (row[0] == 1 || row[0] == 2)
+        for (std::size_t k = 5; k + 1 < row.size(); k += 2) {
+          at += Vec<2>(row[k], row[k + 1]);
+          see(at);
+        }
+    }
+    return (lo + hi) / 200.0;
+  }
+
+  std::vector<json> rows;
+  std::vector<std::string> keys;
+};
+
+class Page {
+ public:
+  json ask(const json& question) { return json::parse(session_.ask(question.dump())); }
+  json ask_text(std::string_view question) { return json::parse(session_.ask(question)); }
+
+  json open(const std::string& text) {
+    return ask({{"do", "open"}, {"text", text}, {"name", "page.toml"}});
+  }
+  json frame(int index) { return ask({{"do", "frame"}, {"index", index}}); }
+  json grab(int frame, const std::string& entity, const Vec<2>& at = Vec<2>(0.0)) {
+    return ask({{"do", "grab"}, {"frame", frame}, {"entity", entity}, {"x", at.x}, {"y", at.y}});
+  }
+  // Whatever a hand leaves is a scenario.
+  json drag(json way) {
+    way["do"] = "drag";
+    const json answer = ask(way);
+    EXPECT_FALSE(answer.contains("refused")) << answer.dump();
+    if (answer.contains("text"))
+      language::parse_scenario(answer["text"].get<std::string>(), "left");
+    return answer;
+  }
+
+ private:
+  Session session_;
+};
+
+std::string said(const json& answer) { return answer.value("said", "(not refused)"); }
+
+std::string shipped(const std::string& name) {
+  return read_file(std::filesystem::path(LANTERN_ROOT) / "scenarios" / name, 1 << 20);
+}
+
+std::string with(std::string text, std::string_view old, std::string_view now) {
+  const std::size_t at = text.find(old);
+  EXPECT_NE(at, text.npos) << old;
+  return text.replace(at, old.size(), now);
+}
+
+// A point of a text, as "body[0].position".
+std::vector<double> point_at(const std::string& text, const std::string& path) {
+  return json::parse(value_at(text, path)).get<std::vector<double>>();
+}
+
+Vec<2> middle_of_red(const json& answer) { return Looked(answer).middle("world/body/red"); }
+
+constexpr const char* kTwo = R"(title = "Two and a crowd"  # of dots
+[world]
+size = [64, 32]
+[structure]
+kind = "quadtree"
+[[body]]  # it is held
+name = "red"
+radius = 3
+position = [20, 12]  # here
+[[body]]
+name = "blue"
+half_size = [2, 2]
+oriented = true
+position = [44, 20]
+velocity = [4, 0]
+[[body]]
+name = "rock"
+radius = 1
+static = true
+position = [60, 4]
+[[pattern]]
+name = "dot"
+count = 3
+radius = 0.6
+seed = 3
+[[step]]
+do = "insert"
+name = "in"
+bodies = ["red", "blue", "rock", "dot"]
+[[step]]
+do = "run"
+seconds = 1
+[[step]]
+do = "show"
+ending = true
+)";
+constexpr int kRunEnds = 60;  // the frame at which its run does
+
+TEST(Session, OpensARunAndKeepsItWhereTheNextIsRefused) {
+  Page page;
+  EXPECT_EQ(said(page.ask({{"do", "lesson"}})), "nothing is opened yet");
+  const std::string ghosts = shipped("ghost_quadtree.toml");
+  const json opened = page.open(ghosts);
+  ASSERT_FALSE(opened.contains("refused")) << opened.dump();
+  EXPECT_EQ(opened["frames"], 9);
+  EXPECT_EQ(opened["warnings"], json::array());
+  EXPECT_EQ(opened["unmet"], json::array());
+
+  const json refused = page.open(with(kTwo, "size = [64, 32]", "size = [64, 32]\n  sise = 3"));
+  const json& first = refused.at("refused").at(0);
+  EXPECT_EQ(first["line"], 4);
+  EXPECT_EQ(first["column"], 3);
+  EXPECT_EQ(first["severity"], "error");
+  EXPECT_EQ(first["suggestion"], "did you mean 'size'?");
+  EXPECT_EQ(said(refused).find("page.toml:4:3: error: "), 0u) << said(refused);
+  // What only the run finds stands at its step.
+  const json late =
+      page.open(with(shipped("ui_atlas.toml"), "size = [100, 32]", "size = [128, 96]"));
+  ASSERT_TRUE(late.contains("refused"));
+  EXPECT_GT(late["refused"][0]["line"].get<int>(), 60) << late.dump();
+  EXPECT_EQ(page.ask({{"do", "lesson"}})["hashes"].size(), 9u);
+  EXPECT_EQ(page.ask({{"do", "set"}, {"path", "structure.capacity"}, {"value", "3"}})["text"],
+            with(ghosts, "capacity = 2", "capacity = 3"));
+
+  const json unmet = page.open(with(ghosts, "pairs = 1", "pairs = 4"));
+  ASSERT_EQ(unmet["unmet"].size(), 1u) << unmet.dump();
+  EXPECT_GT(unmet["unmet"][0]["line"].get<int>(), 0);
+}
+
+// As `lantern render` draws a lesson page, from the first frame to the last.
+TEST(Session, TheLessonIsThatOfARunOfItsOwn) {
+  for (const char* name : {"ghost_quadtree.toml", "octree_split.toml", "ui_atlas.toml"}) {
+    const std::string text = shipped(name);
+    const language::Scenario scenario = language::parse_scenario(text, name);
+    Work work;
+    std::vector<Frame> frames;
+    run::direct(scenario, scenario.pace, work, [&](const Frame& frame) {
+      frames.push_back(frame);
+      return true;
+    });
+    draw::AxisRanges axes;
+    for (const Frame& frame : frames) axes.see(frame);
+    publish::LessonFrames lesson;
+    std::string facts;
+    json hashes = json::array();
+    for (std::size_t first = 0, end = 0; first < frames.size(); first = end) {
+      for (end = first + 1; end < frames.size(); ++end)
+        if (!draw::Staging::is_one_group(frames[end - 1], frames[end])) break;
+      const draw::Staging staging(std::span<const Frame>(frames).subspan(first, end - first), axes);
+      for (std::size_t i = first; i < end; ++i) {
+        Frame bare = frames[i];
+        bare.display.title = bare.display.caption = bare.display.counters = false;
+        const auto list = draw::draw_frame(bare, staging, publish::lesson_page(), work);
+        lesson.add(frames[i], list,
+                   publish::words_of(i > 0 ? frames[i - 1] : Frame(), frames[i], scenario));
+        facts += (i > 0 ? "," : "") + publish::facts_for_page(frames[i], list);
+        hashes.push_back(fmt::format("{:016x}", frames[i].hash));
+      }
+    }
+    Page page;
+    page.open(text);
+    const json answer = page.ask({{"do", "lesson"}});
+    EXPECT_EQ(answer["lesson"], json::parse(lesson.json())) << name;
+    EXPECT_EQ(answer["facts"], json::parse("[" + facts + "]")) << name;
+    EXPECT_EQ(answer["hashes"], hashes) << name;
+
+    const json one = page.frame(2);
+    EXPECT_EQ(one["facts"], json::array({answer["facts"][2]}));
+    EXPECT_EQ(one["hashes"], json::array({hashes[2]}));
+    EXPECT_EQ(one["lesson"]["frames"][0]["caption"], answer["lesson"]["frames"][2]["caption"]);
+  }
+}
+
+TEST(Session, ABodyThatStandsWhereItWasPutIsPutElsewhere) {
+  const std::string text = shipped("ghost_quadtree.toml");
+  Page page;
+  page.open(text);
+  const Vec<2> before = middle_of_red(page.frame(1));
+  EXPECT_EQ(page.grab(1, "body/red", before)["grabbed"], "position");
+  const json first = page.drag({{"x", before.x + 30}, {"y", before.y + 10}});
+  const json second = page.drag({{"x", before.x + 60}, {"y", before.y + 40}});
+  for (const auto& [answer, way] : {std::pair{first, Vec<2>(30, 10)}, {second, Vec<2>(60, 40)}}) {
+    const std::string now = answer["text"];
+    EXPECT_EQ(now, with(text, "[24, 56]", value_at(now, "body[0].position")));
+    EXPECT_EQ(answer["index"], 1);
+    EXPECT_LE(glm::length(middle_of_red(answer) - before - way), 1);
+  }
+  // What has not moved is drawn as it was.
+  const Looked was(page.frame(1)), is(second);
+  int still = 0;
+  for (const std::string& key : std::set(was.keys.begin(), was.keys.end()))
+    if (key == "world/body/pink" || key.starts_with("world/cell/") ||
+        key.starts_with("tree/node/")) {
+      EXPECT_EQ(was.shapes_of(key), is.shapes_of(key)) << key;
+      ++still;
+    }
+  EXPECT_GE(still, 3);
+  // Back at the place of the grab, nothing is changed; and the run that was opened never was.
+  EXPECT_EQ(page.drag({{"x", before.x}, {"y", before.y}})["text"], text);
+  EXPECT_EQ(middle_of_red(page.frame(1)), before);
+  EXPECT_FALSE(page.open(second["text"]).contains("refused"));
+  EXPECT_TRUE(
+      page.ask({{"do", "drag"}, {"x", 1}}).contains("refused"));  // nothing is held any more
+}
+
+TEST(Session, ABodyStaysWithinTheWorld) {
+  Page page;
+  page.open(kTwo);
+  page.grab(0, "body/red", {500, 300});
+  EXPECT_EQ(page.drag({{"x", -1e6}, {"y", -1e6}})["text"], with(kTwo, "[20, 12]", "[0, 32]"));
+  EXPECT_EQ(page.drag({{"x", 1e6}, {"y", 1e6}})["text"], with(kTwo, "[20, 12]", "[64, 0]"));
+}
+
+TEST(Session, WhatHasMovedGetsAStepOfItsOwn) {
+  Page page;
+  page.open(kTwo);
+  EXPECT_EQ(page.grab(kRunEnds, "body/blue", {800, 300})["grabbed"], "move");
+  const json moved = page.drag({{"x", 780}, {"y", 280}});
+  const std::string text = moved["text"];
+  const std::string step = "[[step]]\ndo = \"move\"\nbody = \"blue\"\nto = ";
+  const std::string to = value_at(text, "step[2].to");
+  EXPECT_EQ(text, with(kTwo, "seconds = 1\n", "seconds = 1\n\n" + step + to + "\n"));
+  EXPECT_EQ(moved["index"], kRunEnds + 1);
+
+  // Then that step's place changes.
+  page.open(text);
+  EXPECT_EQ(page.grab(kRunEnds + 1, "body/blue", {780, 280})["grabbed"], "move");
+  const json again = page.drag({{"x", 790}, {"y", 270}});
+  const std::string now = value_at(again["text"].get<std::string>(), "step[2].to");
+  EXPECT_NE(now, to);
+  EXPECT_EQ(again["text"], with(text, to, now));
+  EXPECT_EQ(again["index"], kRunEnds + 1);
+
+  // So does a member of a pattern; behind an ending, which is none then.
+  page.open(kTwo);
+  EXPECT_EQ(page.grab(kRunEnds + 1, "body/dot2", {0, 0})["grabbed"], "move");
+  const std::string last = page.drag({{"x", 10}, {"y", 10}})["text"];
+  EXPECT_EQ(value_at(last, "step[3].body"), "\"dot2\"");
+  EXPECT_EQ(value_at(last, "step[2].ending"), "");
+}
+
+TEST(Session, AHandTurnsAndThrows) {
+  Page page;
+  page.open(kTwo);
+  page.grab(0, "body/blue", {800, 300});
+  EXPECT_EQ(page.drag({{"x", 800}, {"y", 300}, {"turn", 30}})["text"],
+            with(kTwo, "velocity = [4, 0]\n", "velocity = [4, 0]\nturned = 30\n"));
+  const json thrown = page.drag({{"x", 800}, {"y", 300}, {"vx", 1000}, {"vy", -500}});
+  const auto way = point_at(thrown["text"], "body[1].velocity");
+  EXPECT_GT(way[0], 0);
+  EXPECT_NEAR(way[1], way[0] / 2, 0.1);  // y points upwards in a world
+  EXPECT_EQ(thrown["text"],
+            with(kTwo, "[4, 0]", value_at(thrown["text"].get<std::string>(), "body[1].velocity")));
+  EXPECT_EQ(page.drag({{"x", 800}, {"y", 300}, {"vx", 10}})["text"], kTwo);  // it is put down
+
+  // Turned from where it stood when the hand came, however it was told.
+  const std::string heading = with(kTwo, "oriented = true", "heading = [-1, 0]");
+  page.open(heading);
+  page.grab(0, "body/blue", {800, 300});
+  const std::string turned = page.drag({{"x", 800}, {"y", 300}, {"turn", 15}})["text"];
+  EXPECT_EQ(value_at(turned, "body[1].turned"), "105");
+  EXPECT_EQ(value_at(turned, "body[1].heading"), "");
+  page.open(with(kTwo, "velocity = [4, 0]", "spin = 90"));  // it turns on the spot
+  page.grab(kRunEnds, "body/blue", {800, 300});
+  const std::string spun = page.drag({{"x", 800}, {"y", 300}, {"turn", 15}})["text"];
+  EXPECT_EQ(value_at(spun, "body[1].turned"), "15");
+
+  // Where no time passes any more, it does for a throw.
+  for (const char* body : {"body/red", "body/blue"}) {
+    page.open(kTwo);
+    page.grab(kRunEnds + 1, body, {800, 300});
+    const json far = page.drag({{"x", 800}, {"y", 300}, {"vx", 1000}});
+    const auto steps = language::parse_scenario(far["text"].get<std::string>(), "far").steps;
+    EXPECT_TRUE(traits_of(steps.back().verb).passes_time) << far["text"];
+    EXPECT_EQ(value_at(far["text"].get<std::string>(), "step[2].ending"), "");
+  }
+  // Within a run it does.
+  page.open(with(kTwo, "[[step]]\ndo = \"show\"\nending = true\n", ""));
+  page.grab(5, "body/red", {800, 300});
+  EXPECT_EQ(value_at(page.drag({{"x", 800}, {"y", 300}, {"vx", 1000}})["text"].get<std::string>(),
+                     "step[2].do"),
+            "");
+  // What never moves is put down, however fast the hand is.
+  page.open(kTwo);
+  page.grab(0, "body/rock", {800, 300});
+  const std::string put = page.drag({{"x", 700}, {"y", 300}, {"vx", 1000}})["text"];
+  EXPECT_EQ(put, with(kTwo, "[60, 4]", value_at(put, "body[2].position")));
+}
+
+TEST(Session, InASolidWorldABodyFollowsInThePlaneOfThePicture) {
+  Page page;
+  page.open(R"(title = "Solid"
+world = { size = [8, 8, 8], camera_eye = [-5.5, 6.5, -9], camera_target = [4, 3.8, 4] }
+structure = { kind = "octree" }
+body = [{ name = "red", radius = 0.05, position = [3, 4, 5] }]
+step = [{ do = "insert", bodies = ["red"] }]
+)");
+  const Vec<2> before = middle_of_red(page.frame(0));
+  EXPECT_EQ(page.grab(0, "body/red", before)["grabbed"], "position");
+  for (const Vec<2> way : {Vec<2>(40, 0), Vec<2>(0, -35), Vec<2>(-60, 50)}) {
+    const json answer = page.drag({{"x", before.x + way.x}, {"y", before.y + way.y}});
+    EXPECT_LE(glm::length(middle_of_red(answer) - before - way), 1) << answer["text"];
+    EXPECT_EQ(point_at(answer["text"], "body[0].position").size(), 3u);
+  }
+}
+
+TEST(Session, OnASideABodyMovesOnAll) {
+  const std::string text = R"(title = "Sides"
+world = { size = [32, 32] }
+structure = { kind = "quadtree" }
+side = [{ name = "somebody", structure = { capacity = 1 } }, { name = "body" }]
+body = [{ name = "red", radius = 3, position = [12, 12] }]
+step = [{ do = "insert", bodies = ["red"] }]
+)";
+  Page page;
+  const json opened = page.open(text);
+  ASSERT_FALSE(opened.contains("refused")) << opened.dump();
+  for (const std::string side : {"somebody", "body"}) {
+    const std::string key = side + "/world/body/red";
+    const Vec<2> before = Looked(page.frame(0)).middle(key);
+    ASSERT_EQ(page.grab(0, side + "/body/red", before)["grabbed"], "position");
+    const json answer = page.drag({{"x", before.x - 40}, {"y", before.y + 20}});
+    EXPECT_LE(glm::length(Looked(answer).middle(key) - before - Vec<2>(-40, 20)), 1);
+    const std::string now = answer["text"];
+    EXPECT_EQ(now, with(text, "[12, 12]", value_at(now, "body[0].position")));
+    EXPECT_EQ(answer["facts"][0][0]["bodies"], answer["facts"][0][1]["bodies"]);
+  }
+  EXPECT_TRUE(page.grab(0, "nobody/body/red").contains("refused"));
+  EXPECT_TRUE(page.grab(0, "body/red").contains("refused"));
+}
+
+TEST(Session, ATextureGrowsWithItsCorner) {
+  const std::string text = shipped("kdtree_atlas.toml");
+  Page page;
+  page.open(text);
+  EXPECT_EQ(page.grab(0, "body/A", {300, 300})["grabbed"], "size");
+  const std::string larger = page.drag({{"x", 340}, {"y", 300}})["text"];
+  const std::string size = value_at(larger, "texture[0].size");
+  EXPECT_EQ(larger, with(text, value_at(text, "texture[0].size"), size));
+  EXPECT_GT(point_at(larger, "texture[0].size")[0], point_at(text, "texture[0].size")[0]);
+  EXPECT_EQ(point_at(larger, "texture[0].size")[1], point_at(text, "texture[0].size")[1]);
+  EXPECT_EQ(value_at(page.drag({{"x", -9000}, {"y", -9000}})["text"].get<std::string>(),
+                     "texture[0].size"),
+            "[1, 1]");
+  EXPECT_TRUE(page.ask({{"do", "drag"}, {"x", 1e6}, {"y", 1e6}}).contains("refused"));
+}
+
+TEST(Session, TheNearestCornerOfAWallIsHeld) {
+  const std::string text = R"(title = "Walls"
+[world]
+size = [24, 18]
+[level]
+loops = [
+  [[1, 1], [1.4, 1], [10, 1], [10, 10], [1, 10]],  # a room
+]
+[[step]]
+do = "show"
+)";
+  Page page;
+  page.open(text);
+  const Looked look(page.frame(0));
+  const json& wall = *std::ranges::find_if(look.rows, [](const json& row) { return row[0] == 1; });
+  const Vec<2> first = Vec<2>(wall[3], wall[4]) / 100.0;
+  const Vec<2> second = first + Vec<2>(wall[5], wall[6]) / 100.0;
+  ASSERT_LT(glm::length(second - first), 24);  // both are near
+  for (const auto& [at, path] :
+       {std::pair{first, "level.loops[0][0]"}, {second, "level.loops[0][1]"}}) {
+    EXPECT_EQ(page.grab(0, "", at + Vec<2>(1, 1))["grabbed"], "corner");
+    const json answer = page.drag({{"x", at.x + 1}, {"y", at.y + 31}});
+    const std::string now = answer["text"];
+    EXPECT_NE(value_at(now, path), value_at(text, path));
+    EXPECT_EQ(now, with_value(text, path, value_at(now, path)));
+    const Looked moved(answer);
+    EXPECT_TRUE(std::ranges::any_of(moved.rows, [&](const json& row) {
+      return row[0] == 1 && glm::length(Vec<2>(row[3], row[4]) / 100.0 - at - Vec<2>(0, 30)) < 1;
+    }));
+  }
+  EXPECT_TRUE(page.grab(0, "", {800, 30}).contains("refused"));
+}
+
+TEST(Session, WhatCannotBeHeldIsRefused) {
+  Page page;
+  page.open(kTwo);
+  for (const char* entity :
+       {"", "node/root", "body/", "body/green", "side/body/red", "pair/red|blue"})
+    EXPECT_TRUE(page.grab(0, entity).contains("refused")) << entity;
+  EXPECT_TRUE(page.ask({{"do", "drag"}, {"x", 1}, {"y", 1}}).contains("refused"));
+  // What was held before still is, in the frame of then.
+  page.grab(0, "body/red", {500, 300});
+  const json before = page.drag({{"x", 520}, {"y", 300}});
+  EXPECT_TRUE(page.grab(kRunEnds, "body/green").contains("refused"));
+  EXPECT_EQ(page.drag({{"x", 520}, {"y", 300}}), before);
+  // A place that the language refuses changes nothing either.
+  const std::string bounded = with(kTwo, "radius = 3", "radius = 3\nfollow = \"blue\"");
+  EXPECT_TRUE(page.open(bounded).contains("refused"));
+  EXPECT_EQ(page.drag({{"x", 520}, {"y", 300}}), before);
+}
+
+TEST(Session, WhereAFrameIsGoneTheNearestIsShown) {
+  const std::string text = R"(title = "Events"
+world = { size = [64, 32] }
+structure = { kind = "quadtree", capacity = 1, max_depth = 2 }
+body = [
+  { name = "red", radius = 1, position = [5, 5] },
+  { name = "blue", radius = 1, position = [6, 6] },
+]
+[[step]]
+do = "insert"
+bodies = ["red", "blue"]
+pace = "event"
+events = ["split", "depth_limit"]
+)";
+  Page page;
+  const json opened = page.open(text);
+  ASSERT_EQ(opened["frames"], 4) << opened.dump();
+  for (int frame = 0; frame < 4; ++frame) {
+    ASSERT_EQ(page.grab(frame, "body/blue", {200, 500})["grabbed"], "position") << frame;
+    const json far = page.drag({{"x", 1200}, {"y", 100}});
+    EXPECT_EQ(far["index"], std::min(frame, 1)) << frame;
+    EXPECT_EQ(far["lesson"]["frames"].size(), 1u);
+  }
+}
+
+TEST(Session, RequestsThatAreNoneAreRefused) {
+  Page page;
+  page.open(kTwo);
+  page.grab(0, "body/red", {500, 300});
+  for (const std::string_view question :
+       {"",
+        "{",
+        "[]",
+        "3",
+        "null",
+        "\"open\"",
+        "{}",
+        R"({"do":3})",
+        R"({"do":"fly"})",
+        R"({"do":"open"})",
+        R"({"do":"open","text":3,"name":"n"})",
+        R"({"do":"open","text":"","name":"n"})",
+        R"({"do":"open","text":"a = [","name":"n"})",
+        "{\"do\":\"open\",\"text\":\"\xff\",\"name\":\"n\"}",
+        R"({"do":"frame"})",
+        R"({"do":"frame","index":-1})",
+        R"({"do":"frame","index":62})",
+        R"({"do":"frame","index":"0"})",
+        R"({"do":"frame","index":0.5})",
+        R"({"do":"frame","index":true})",
+        R"({"do":"frame","index":-1e300})",
+        R"({"do":"frame","index":18446744073709551616})",
+        R"({"do":"facts","index":99999999999})",
+        R"({"do":"svg","index":0,"width":0,"height":9})",
+        R"({"do":"svg","index":0,"width":16,"height":-9})",
+        R"({"do":"svg","index":0,"width":16})",
+        R"({"do":"grab","frame":0})",
+        R"({"do":"grab","frame":0,"entity":3,"x":0,"y":0})",
+        R"({"do":"grab","frame":62,"entity":"body/red","x":0,"y":0})",
+        R"({"do":"drag","x":"1","y":0})",
+        R"({"do":"drag","x":null,"y":0})",
+        R"({"do":"drag","x":NaN,"y":0})",
+        R"({"do":"drag","x":1e999,"y":0})",
+        R"({"do":"drag","x":1e308,"y":-1e308})",
+        R"({"do":"drag","x":1,"y":1,"turn":1e308})",
+        R"({"do":"drag","x":1,"y":1,"vx":-1e308})",
+        R"({"do":"drag","x":true,"y":0})",
+        R"({"do":"drag","x":[1],"y":0})",
+        R"({"do":"set","path":"structure.capacity"})",
+        R"({"do":"set","path":"","value":"3"})",
+        R"({"do":"set","path":"title[0]","value":"3"})",
+        R"({"do":"set","path":"title.a","value":"3"})",
+        R"({"do":"set","path":"body[9].mass","value":"3"})",
+        R"({"do":"set","path":"a","value":"3 4"})",
+        R"({"do":"complete","text":"","line":1})",
+        R"({"do":"complete","text":"","line":1,"column":-1})",
+        R"({"do":"complete","text":"","line":1e300,"column":1})"}) {
+    const json answer = page.ask_text(question);
+    ASSERT_TRUE(answer.contains("refused")) << question << ": " << answer.dump();
+    EXPECT_FALSE(answer["refused"].empty()) << question;
+    EXPECT_NE(said(answer), "") << question;
+  }
+  EXPECT_TRUE(page.ask_text(std::string(1 << 20, '[')).contains("refused"));
+  EXPECT_FALSE(page.drag({{"x", 510}, {"y", 300}}).contains("refused"));  // all is as before
+}
+
+}  // namespace
+}  // namespace lantern::live
