@@ -21,12 +21,14 @@ using language::KeyType;
 using language::TableDoc;
 
 constexpr std::size_t kNone = std::string_view::npos;
+constexpr int kDeepest = 64;  // lists and tables within each other: the stack has an end
 
 // One that is written: [x], { … }, or what dotted keys name.
 struct WrittenTable {
   std::size_t parent = kNone;
   std::string key;                                         // in the parent
   std::map<std::string, std::string, std::less<>> keys{};  // with their texts, where they are some
+  int depth = 0;
 };
 
 struct Cursor {
@@ -118,13 +120,15 @@ class LooseReader {
     return end != kNone && line[end] == '=';
   }
 
-  // The latest of its name in the parent, or a new one.
+  // The latest of its name in the parent, or a new one; far too deep it is the parent.
   std::size_t child(std::size_t parent, const std::string& key, bool is_new) {
+    const int depth = tables_[parent].depth + 1;
+    if (depth > kDeepest) return parent;
     tables_[parent].keys.try_emplace(key);
     const auto [latest, is_first] = latest_.try_emplace({parent, key}, tables_.size());
     if (!is_first && !is_new) return latest->second;
     latest->second = tables_.size();
-    tables_.push_back({parent, key});
+    tables_.push_back({parent, key, {}, depth});
     return latest->second;
   }
 
@@ -173,6 +177,14 @@ class LooseReader {
     const Cursor if_here{Cursor::In::value, 0, table, key};
     skip(" \t\r", if_here);
     const std::size_t begin = at_;
+    const bool is_nested = now() == '[' || now() == '{';
+    if (is_nested && depth_ == kDeepest) return void(++at_);
+    depth_ += is_nested;
+    read_one_value(table, key, begin);
+    depth_ -= is_nested;
+  }
+
+  void read_one_value(std::size_t table, const std::string& key, std::size_t begin) {
     switch (now()) {
       case '"':
       case '\'':
@@ -233,6 +245,7 @@ class LooseReader {
   std::size_t cursor_at_;
   std::size_t at_ = 0;
   std::size_t here_ = 0;  // whose heading stands above
+  int depth_ = 0;         // of the value that is read
   std::vector<WrittenTable> tables_;
   std::map<std::pair<std::size_t, std::string>, std::size_t> latest_;
   Cursor cursor_;

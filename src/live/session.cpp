@@ -1,5 +1,6 @@
 #include "live/session.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -21,7 +22,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kMost = 1'000'000;  // of page units, degrees, lines and frames
+constexpr int kMost = 1'000'000;   // of page units, degrees, lines and frames
+constexpr int kMostPixels = 8192;  // of a side of a picture, as on the command line
 
 void write(JsonWriter& out, const Diagnostic& d) {
   out.begin_object()
@@ -156,6 +158,8 @@ class Session::Engine {
   }
 
   std::string svg(std::size_t index, int width, int height) {
+    if (std::min(width, height) < 1 || std::max(width, height) > kMostPixels)
+      throw Refused("a picture is 1 to {} pixels wide and high", kMostPixels);
     const Frame& frame = play_->frames()[index];
     return with_text(
         "svg", render::to_svg(play_->page(index, width, height), *draw::theme_named("light"), false,

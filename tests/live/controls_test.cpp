@@ -208,6 +208,12 @@ TEST(Completion, BearsATextThatIsBrokenElsewhere) {
 // Whatever is there and wherever one asks, it answers.
 TEST(Completion, AnswersEverywhere) {
   EXPECT_TRUE(json::accept(complete_json("[[body]]\nname = \"\xff\"\n[[step]]\nlit = [", 4, 8)));
+  for (const auto& [begin, open] :
+       {std::pair("x = ", "["), std::pair("x = ", "{ x = "), std::pair("", "x.")}) {
+    std::string deep = begin;
+    for (int i = 0; i < 100'000; ++i) deep += open;
+    EXPECT_TRUE(json::accept(complete_json(deep, 1, 1 << 20)));
+  }
   const std::string text = lesson_text("children_on_demand");
   for (std::size_t cut = 0; cut < text.size(); cut += 37)
     for (const int column : {0, 1, 7, 1000}) {
