@@ -22,6 +22,7 @@ constexpr std::string_view kBareKey =
 
 using PathPart = std::variant<std::string, std::size_t>;  // a key, or an index in a list
 using TomlPath = std::vector<PathPart>;
+constexpr std::size_t kMostParts = 64;  // of a path: each is a call within the one before
 
 TomlTable tree_of(std::string_view text, std::string_view what) {
   Problems problems;
@@ -105,7 +106,7 @@ class SpotScanner {
         if (scanner.at_ == before) return {};
       }
     }
-    if (path.empty()) return {};
+    if (path.empty() || path.size() > kMostParts) return {};
     return path;
   }
 

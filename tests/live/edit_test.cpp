@@ -156,6 +156,9 @@ TEST(Edit, RefusesWhatLeadsNowhereAndWhatIsNoValue) {
         "d[0]",           "",     ".a",     "a.", "a..b", "a[", "a[]",  "a[x]",  "a[-1]", "[0]",
         "a[99999999999]", "a[0]x"})
     EXPECT_THROW(with_value(text, path, "1"), Refused) << path;
+  std::string deep = "a";
+  for (int i = 0; i < 100'000; ++i) deep += ".a";
+  EXPECT_THROW(with_value("", deep, "1"), Refused);
   for (const char* value :
        {"1\nb = 2", "1 # c", "1 ", "x", "[1", "\"", "1, 2", "{ a = 1 ", " ", "\n", "\xff", "#"})
     EXPECT_THROW(with_value(text, "a[0]", value), Refused) << value;
