@@ -97,8 +97,10 @@ class BodyGrip : public Grip {
 
   std::string text(const Hand& hand) const override {
     Vec<3> to = body_.position + ways_.of(hand.at - at_);
+    const Vec<3> half = 0.5 * body_.box.size();  // the whole of it stays in the world
     for (int i = 0; i < dimension_; ++i)
-      if (bounds_.lo[i] < bounds_.hi[i]) to[i] = std::clamp(to[i], bounds_.lo[i], bounds_.hi[i]);
+      if (const double lo = bounds_.lo[i] + half[i], hi = bounds_.hi[i] - half[i]; lo < hi)
+        to[i] = std::clamp(to[i], lo, hi);
     const std::string place =
         hand.at != at_ || adds_step_ ? point_text(to, dimension_, ways_.scale) : "";
     const std::string way = glm::length(hand.velocity) > kThrown && !body_.is_static
