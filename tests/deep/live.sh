@@ -1,0 +1,11 @@
+#!/bin/sh
+# The engine of live pages under 10,000 hostile texts and hands, and how long its answers take. It is
+# built first, by ./run web.
+set -eu
+cd "$(dirname "$0")/../.."
+./run web >/dev/null
+count=${COUNT:-10000}
+hostile=$(node tests/live/hostile.cjs build/lantern.wasm scenarios "$count" "${SEED:-1}")
+echo "$hostile"
+node tests/live/speed.cjs build/lantern.wasm scenarios
+echo "$hostile" | tail -n 1
