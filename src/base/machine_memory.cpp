@@ -1,5 +1,3 @@
-#include "base/memory.hpp"
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -10,6 +8,8 @@
 #include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
+
+#include "base/memory.hpp"
 
 namespace lantern {
 namespace {

@@ -144,7 +144,7 @@ struct Compare {
   std::vector<std::size_t> bodies;
   std::string row;
   std::vector<StructureKind> kinds;
-  std::string verdict;  // with {count}; may be empty
+  std::string verdict;                               // with {count}; may be empty
   std::vector<std::pair<StructureKind, int>> times;  // microseconds a step; may be empty
   std::string machine;                               // on which they were measured
 };

@@ -46,9 +46,13 @@ std::string_view type_name(KeyType type) {
   }
 }
 
-// 1, 2 or 5 of some power of ten, no more than `x`.
+// 1, 2 or 5 of some power of ten, no more than `x`, which is above 0 and finite.
 double round_number(double x) {
-  const double ten = std::pow(10, std::floor(std::log10(x)));
+  double ten = 1;
+  for (; ten * 10 <= x; ten *= 10) {
+  }
+  for (; ten > x; ten /= 10) {
+  }
   return ten * (x >= 5 * ten ? 5 : x >= 2 * ten ? 2 : 1);
 }
 

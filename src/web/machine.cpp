@@ -1,7 +1,6 @@
 // The machine that a page is: no files, no standard streams but what the page logs, and as much
 // memory as its module may take.
 #include <cstdio>
-
 #include <cstdlib>
 #include <string>
 

@@ -140,7 +140,7 @@ class LessonFramesTest : public testing::Test {
  protected:
   void SetUp() override {
     for (std::uint32_t i = 0; i < lists_.size(); ++i) frames_.add(frame_of(i), lists_[i], {});
-    lesson_ = json::parse("{" + frames_.json() + "}");
+    lesson_ = json::parse(frames_.json());
   }
 
   std::array<DrawList, 3> lists_{picture(200, false), picture(260.5, true), picture(260.5, true)};
