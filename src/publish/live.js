@@ -183,12 +183,30 @@ class Live {
     const drawn = (isOwn && this.own.drawn) || (await this.engine.ask({ do: "lesson" }));
     if (!(drawn.lesson instanceof Lesson)) drawn.lesson = new Lesson(drawn.lesson, page.lesson);
     if (isOwn) this.own.drawn = drawn;
+    else this.retold(drawn.lesson);
     page.load(drawn.lesson, drawn.facts, index ?? this.near(drawn.lesson));
     const { title, questions } = drawn.card ?? { title: this.title, questions: questionsOf(drawn) };
     $("title").textContent = document.title = title;
     fillQuestions(page, questions, isOwn);
     await this.controls.refresh();
     if (plays && this.passes) page.play();
+  }
+
+  // Captions were written for the lesson's world: those of another one's frames are the lesson's own, as
+  // it told them, of the same place in the same step; none where the steps are others.
+  retold(lesson) {
+    const told = this.own.drawn?.lesson.frames ?? [];
+    const of = (frames, step) => frames.filter((frame) => frame.step === step);
+    const alone = lesson.frames.length === 1;
+    const same = told.length && (alone || told.at(-1).step === lesson.frames.at(-1).step);
+    for (const frame of lesson.frames) {
+      const [mine, its] = [of(lesson.frames, frame.step), of(told, frame.step)];
+      const shown = this.page.lesson.frames[this.page.index];
+      const at = mine.length === its.length ? mine.indexOf(frame) : its.length - 1;
+      if (alone) frame.caption = shown.step === frame.step ? shown.caption : "";
+      else frame.caption = (same && its[at]?.caption) || "";
+    }
+    return lesson;
   }
 
   get hasLevel() {

@@ -11,6 +11,7 @@ class Editor {
     this.area.addEventListener("input", () => this.typed());
     this.area.addEventListener("keydown", (event) => this.key(event));
     this.area.addEventListener("blur", () => this.closeList());
+    this.area.addEventListener("focus", () => requestAnimationFrame(() => ($("editor").scrollLeft = 0)));
     this.list.addEventListener("pointerdown", (event) => {
       event.preventDefault(); // the text keeps the focus
       const option = event.target.closest("[role=option]");
@@ -67,22 +68,29 @@ class Editor {
   // It has been opened: what is wrong is seen.
   reveal() {
     this.draw();
-    $("lines").querySelector(".diagnostic.error")?.scrollIntoView({ block: "center", inline: "nearest" });
+    this.see($("lines").querySelector(".diagnostic.error"), "center");
   }
 
   // What the engine says of the text. What a lesson expects need not be so in a world of one's own.
   tell(diagnostics, unmet = []) {
     this.diagnostics = [...diagnostics, ...unmet.map((one) => ({ ...one, severity: "warning" }))];
-    const are = unmet.length === 1 ? "1 expectation of the text is" : `${unmet.length} expectations of the text are`;
+    const counts = unmet.length === 1 ? "a count" : `${unmet.length} counts`;
     this.told = diagnostics.map(sentenceOf).join("\n");
-    $("live-said").textContent = [this.told, unmet.length && `${are} not met in this world.`].filter(Boolean).join("\n");
+    $("live-said").textContent = [this.told, unmet.length && `The lesson tells ${counts} that your world has otherwise.`].filter(Boolean).join("\n");
     const isWrong = diagnostics.some(({ severity }) => severity === "error");
     this.area.setAttribute("aria-invalid", isWrong);
     $("text").classList.toggle("wrong", isWrong);
     this.draw();
     if (document.activeElement !== this.area) return;
     const seen = $("lines").children[this.caret[0] - 1]?.querySelector(".diagnostic.error");
-    seen?.scrollIntoView({ block: "nearest", inline: "nearest" });
+    this.see(seen, "nearest");
+  }
+
+  // Up and down only: the numbers of lines stay in sight.
+  see(element, block) {
+    const { scrollLeft } = $("editor");
+    element?.scrollIntoView({ block });
+    $("editor").scrollLeft = scrollLeft;
   }
 
   typed() {
@@ -172,7 +180,7 @@ class Editor {
 }
 
 const sentenceOf = ({ line, message, suggestion }) =>
-  `${line ? `Line ${line}: ` : ""}${message}${suggestion ? ` ${suggestion}` : ""}`;
+  `${line ? `Line ${line}: ` : ""}${message}${suggestion ? `; ${suggestion}` : ""}`;
 
 // A line's pieces by what they are; what is said of it is underlined from its column on.
 function coloured(line, said) {
@@ -194,7 +202,7 @@ function coloured(line, said) {
 // Under the line, behind the words of the one that follows if those are few. A warning hides none.
 function saidOf(said, line, following = "") {
   if (!said.length) return [];
-  const words = said.map(({ message, suggestion }) => [message, suggestion].filter(Boolean).join(" ")).join("\n");
+  const words = said.map(({ message, suggestion }) => [message, suggestion].filter(Boolean).join("\n")).join("\n");
   const over = said[0].severity === "error" ? following : line;
   const style = `--behind:${over === line || over.length < MOST_BEHIND ? over.length + 1 : 0}`;
   return [element(document, "p", { class: `diagnostic ${said[0].severity}`, text: words, style })];

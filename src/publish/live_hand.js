@@ -20,7 +20,8 @@ class Hand {
     listen("pointerup", (event) => this.up(event));
     listen("pointercancel", (event) => this.up(event));
     listen("click", (event) => {
-      if (this.dragged) event.stopImmediatePropagation();
+      const way = this.pressed && Math.hypot(event.clientX - this.pressed.clientX, event.clientY - this.pressed.clientY);
+      if (this.dragged || (event.pointerType === "mouse" && way > 8)) event.stopImmediatePropagation();
       this.dragged = false;
     });
     listen("touchmove", (event) => this.held && event.preventDefault(), { passive: false });
@@ -99,6 +100,7 @@ class Hand {
 
   down(event) {
     this.dragged = false;
+    this.pressed = event;
     if (event.button || this.held) return;
     const one = this.at(event);
     if (one === null) return;
@@ -188,7 +190,7 @@ class Hand {
       .catch((error) => { held.refused = true; throw error; });
     if (answer.refused) return live.say(answer.refused[0].message);
     held.last = answer;
-    page.look(new Lesson(answer.lesson, page.lesson), answer.facts);
+    page.look(live.retold(new Lesson(answer.lesson, page.lesson)), answer.facts);
     live.editor.show(answer.text);
     live.mark(answer.text);
     return answer;
