@@ -49,12 +49,15 @@ struct Ways {
   Vec<3> of(const Vec<2>& page) const { return right * page.x + down * page.y; }
 };
 
+Ways ways_of(const WorldMap& map) {
+  return {Vec<3>(1, 0, 0) / map.scale, Vec<3>(0, -1, 0) / map.scale, map.scale};
+}
+
 // Nothing where that world is not on the page.
 std::optional<Ways> ways_at(const Vec<3>& p, const Frame& frame, const Frame& whole,
                             const DrawList& list, const std::string& prefix) {
   for (const WorldMap& map : list.maps)
-    if (map.prefix == prefix)
-      return Ways{Vec<3>(1, 0, 0) / map.scale, Vec<3>(0, -1, 0) / map.scale, map.scale};
+    if (map.prefix == prefix) return ways_of(map);
   for (const draw::SolidPanel& solid : list.solids) {
     if (solid.prefix != prefix) continue;
     const draw::View3D view(whole.bounds, frame.camera, solid.panel);
@@ -198,9 +201,8 @@ std::unique_ptr<Grip> on_corner(std::string_view text, const Play& play, const D
         const double way = glm::length(map.origin + Vec<2>(corner.x, -corner.y) * map.scale - at);
         if (way > least) continue;
         least = way;
-        nearest = std::make_unique<CornerGrip>(
-            text, fmt::format("level.loops[{}][{}]", i, k), corner,
-            Ways{Vec<3>(1, 0, 0) / map.scale, Vec<3>(0, -1, 0) / map.scale, map.scale}, at);
+        nearest = std::make_unique<CornerGrip>(text, fmt::format("level.loops[{}][{}]", i, k),
+                                               corner, ways_of(map), at);
       }
   if (!nearest) throw Refused("there is no corner of a wall here");
   return nearest;

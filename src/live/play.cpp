@@ -20,7 +20,8 @@ constexpr std::size_t kMostBytes = std::size_t{96} << 20;  // of what frames lis
 }  // namespace
 
 Play::Play(Scenario scenario, const std::optional<Moment>& until) : scenario_(std::move(scenario)) {
-  RunWatch watch(scenario_, draw::shows_a_body);
+  std::optional<RunWatch> watch;
+  if (!until) watch.emplace(scenario_, draw::shows_a_body);
   std::size_t bytes = 0;
   std::uint32_t place = 0;  // of the frame among those of its step
   const auto keep = [&](const Frame& frame) {
@@ -35,10 +36,11 @@ Play::Play(Scenario scenario, const std::optional<Moment>& until) : scenario_(st
     return !(until && !until->is_last && frame.step == until->step && place == until->place);
   };
   const DirectorReport report =
-      direct(scenario_, scenario_.pace, work_, keep, until ? nullptr : &watch);
+      direct(scenario_, scenario_.pace, work_, keep, watch ? &*watch : nullptr);
+  if (!watch) return;  // that moment's frame alone is asked for
   unmet_ = report.unmet.list("that do not hold");
   warnings_ = warnings_of_file(scenario_);
-  std::ranges::move(watch.warnings(), std::back_inserter(warnings_));
+  std::ranges::move(watch->warnings(), std::back_inserter(warnings_));
   for (const Frame& frame : frames_) axes_.see(frame);
   for (std::size_t i = 0; i < frames_.size(); ++i)
     if (i > 0 && draw::Staging::is_one_group(frames_[i - 1], frames_[i]))

@@ -22,7 +22,8 @@ struct Moment {
 
 class Play {
  public:
-  // Runs it, up to a moment if one is given. Throws ScenarioError, and Refused for too many frames.
+  // Runs it, up to a moment if one is given: then it has scenario and frames, but neither warnings
+  // nor pictures. Throws ScenarioError, and Refused for too many frames.
   Play(language::Scenario scenario, const std::optional<Moment>& until);
 
   const language::Scenario& scenario() const { return scenario_; }

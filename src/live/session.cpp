@@ -123,8 +123,7 @@ class Session::Engine {
   }
 
   std::string open(const std::string& text, const std::string& name) {
-    auto play = std::make_unique<Play>(language::parse_scenario(text, name), std::nullopt);
-    play_ = std::move(play);
+    play_ = std::make_unique<Play>(language::parse_scenario(text, name), std::nullopt);
     text_ = text;
     name_ = name;
     grip_.reset();

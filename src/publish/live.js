@@ -196,16 +196,21 @@ class Live {
   // it told them, of the same place in the same step; none where the steps are others.
   retold(lesson) {
     const told = this.own.drawn?.lesson.frames ?? [];
-    const of = (frames, step) => frames.filter((frame) => frame.step === step);
-    const alone = lesson.frames.length === 1;
-    const same = told.length && (alone || told.at(-1).step === lesson.frames.at(-1).step);
-    for (const frame of lesson.frames) {
-      const [mine, its] = [of(lesson.frames, frame.step), of(told, frame.step)];
-      const shown = this.page.lesson.frames[this.page.index];
-      const at = mine.length === its.length ? mine.indexOf(frame) : its.length - 1;
-      if (alone) frame.caption = shown.step === frame.step ? shown.caption : "";
-      else frame.caption = (same && its[at]?.caption) || "";
+    if (told.at(-1)?.step !== lesson.frames.at(-1).step) {
+      for (const frame of lesson.frames) frame.caption = "";
+      return;
     }
+    const [mine, its] = [lesson.frames, told].map(byStep);
+    for (const [step, frames] of mine) {
+      const own = its.get(step) ?? [];
+      frames.forEach((frame, i) => (frame.caption = own[frames.length === own.length ? i : own.length - 1]?.caption ?? ""));
+    }
+  }
+
+  // The same of one frame that is looked at in the place of the one shown.
+  retoldAlone(lesson) {
+    const [{ step, caption }, [frame]] = [this.page.lesson.frames[this.page.index], lesson.frames];
+    frame.caption = frame.step === step ? caption : "";
     return lesson;
   }
 
@@ -318,6 +323,12 @@ async function unpackedLink(packed) {
   for (let part = await reader.read(); !part.done; part = await reader.read())
     if ((text += part.value).length > MOST_LETTERS) throw new Error("too long");
   return text;
+}
+
+function byStep(frames) {
+  const steps = new Map();
+  for (const frame of frames) steps.has(frame.step) ? steps.get(frame.step).push(frame) : steps.set(frame.step, [frame]);
+  return steps;
 }
 
 const questionsOf = ({ questions = [] }) =>

@@ -190,7 +190,7 @@ class Hand {
       .catch((error) => { held.refused = true; throw error; });
     if (answer.refused) return live.say(answer.refused[0].message);
     held.last = answer;
-    page.look(live.retold(new Lesson(answer.lesson, page.lesson)), answer.facts);
+    page.look(live.retoldAlone(new Lesson(answer.lesson, page.lesson)), answer.facts);
     live.editor.show(answer.text);
     live.mark(answer.text);
     return answer;
