@@ -72,6 +72,7 @@ TEST(Edit, PutsAKeyBehindTheLastOfItsTable) {
   EXPECT_EQ(with_value("# All.\n\n# World.\n[a]\n", "b", "1"),
             "# All.\n\nb = 1\n\n# World.\n[a]\n");
   EXPECT_EQ(with_value("", "b", "1"), "b = 1\n");
+  EXPECT_EQ(with_value("", "\"b\\n\\\\\"", "1"), "\"b\\n\\\\\" = 1\n");
   // In braces, and behind keys with dots.
   EXPECT_EQ(with_value("world = { size = [16, 6] }\n", "world.gravity", "[0, 1]"),
             "world = { size = [16, 6], gravity = [0, 1] }\n");
@@ -130,6 +131,8 @@ TEST(Edit, InsertsAStepBehindAnother) {
   EXPECT_EQ(with_step(first + second, 0, "do = 'move'\nby = [1, 2]"), first + added + second);
   EXPECT_EQ(with_step(first + second, 1, "[[step]]\ndo = 'move'\nby = [1, 2]\n"),
             first + second + added);
+  EXPECT_EQ(with_step("[[step]]\nlit = [\n  1,\n]\n", 0, "do = 'move'\nby = [1, 2]"),
+            "[[step]]\nlit = [\n  1,\n]\n" + added);
   EXPECT_EQ(with_step("step = [{ do = 'a' }, { do = 'b' }]", 0, "do = 'c'  # c\nby = [1,\n2]\n"),
             "step = [{ do = 'a' }, { do = 'c', by = [1,\n2] }, { do = 'b' }]");
   EXPECT_EQ(with_step("step = [\n  { do = 'a' },\n]\n", 0, "do = 'c'\n"),
@@ -146,7 +149,7 @@ TEST(Edit, FindsATableByItsName) {
   EXPECT_EQ(index_of(text, "body", "blue"), 2u);
   EXPECT_EQ(index_of(text, "body", "green"), std::nullopt);
   EXPECT_EQ(index_of(text, "texture", "red"), std::nullopt);
-  EXPECT_EQ(index_of("[[side]]\nbody = [{ name = 'a' }, { name = 'b' }]", "side[0].body", "b"), 1u);
+  EXPECT_EQ(index_of("body = [{ name = 'a' }, { name = 'b' }]", "body", "b"), 1u);
 }
 
 TEST(Edit, RefusesWhatLeadsNowhereAndWhatIsNoValue) {
@@ -274,15 +277,40 @@ TEST(Edit, ChangesNothingElseOfAScenario) {
       const auto& [old_path, old] = scenario.values[at];
       const auto number = random.whole(-1000, 1000);
       std::string path = old_path, value = fmt::format("{}", number), now = value;
-      if (random.whole(0, 1) == 0)  // a key beside it
+      const auto kind = random.whole(0, 3);
+      if (kind < 2)  // a key beside it
         path = fmt::format("{}\"new {}\"", path.substr(0, path.rfind('"', path.rfind('"') - 1)), i);
       else if (std::holds_alternative<TomlArray>(old->data))
         value = fmt::format("[{0}, {0}]", number), now = fmt::format("{0}, {0}", number);
       else if (std::holds_alternative<std::string>(old->data))
         value = fmt::format("'{}'", number), now = fmt::format("text {}", number);
+      if (kind == 2 && path.ends_with('"')) value.clear();  // a key is taken out
       text = with_value(text, path, value);
-      said[path] = now;
+      value.empty() ? void(said.erase(path)) : void(said[path] = now);
       ASSERT_EQ(said_by(text), said) << scenario.file << " " << path;
+    }
+  }
+}
+
+TEST(Edit, InsertsAStepAnywhereInAScenario) {
+  using Said = std::map<std::string, std::string>;  // by the paths within a step
+  const auto steps_of = [](const std::string& text) {
+    std::vector<Said> steps;
+    for (const auto& [path, value] : said_by(text))
+      if (std::size_t end = 0; path.starts_with("\"step\"[")) {
+        const std::size_t step = std::stoul(path.substr(7), &end);
+        steps.resize(std::max(steps.size(), step + 1));
+        steps[step][path.substr(7 + end)] = value;
+      }
+    return steps;
+  };
+  for (const ScenarioText& scenario : scenario_texts()) {
+    const std::vector<Said> steps = steps_of(scenario.text);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+      std::vector<Said> more = steps;
+      more.insert(more.begin() + static_cast<std::ptrdiff_t>(i) + 1,
+                  Said{{"].\"do\"", "text move"}});
+      ASSERT_EQ(steps_of(with_step(scenario.text, i, "do = 'move'")), more) << scenario.file << i;
     }
   }
 }
