@@ -29,22 +29,12 @@ constexpr std::string_view kTables[] = {
     "structure", "side",      "level",   "atlas", "texture_pattern",
     "world",     "prototype", "pattern", "body"};
 
-std::string_view type_name(KeyType type) {
-  switch (type) {
-    case KeyType::whole:
-      return "whole";
-    case KeyType::number:
-      return "number";
-    case KeyType::truth:
-      return "truth";
-    case KeyType::choice:
-      return "choice";
-    case KeyType::point:
-      return "point";
-    default:
-      return {};
-  }
-}
+// What a page calls the types of which a hand turns keys.
+constexpr std::pair<KeyType, std::string_view> kTypes[] = {{KeyType::whole, "whole"},
+                                                           {KeyType::number, "number"},
+                                                           {KeyType::truth, "truth"},
+                                                           {KeyType::choice, "choice"},
+                                                           {KeyType::point, "point"}};
 
 // 1, 2 or 5 of some power of ten, no more than `x`, which is above 0 and finite.
 double round_number(double x) {
@@ -149,12 +139,15 @@ class Controls {
     if (value.empty() && key.type == KeyType::point)
       value = scenario_.world.dimension == 3 ? "[0, 0, 0]" : "[0, 0]";
     if (value.empty() || !fits(path, key, value)) return std::nullopt;
+    const auto type =
+        std::ranges::find(kTypes, key.type, &std::pair<KeyType, std::string_view>::first);
     Json control{{"path", path},     {"table", table},       {"key", key.key},
-                 {"means", key.doc}, {"unit", key.unit},     {"type", type_name(key.type)},
+                 {"means", key.doc}, {"unit", key.unit},     {"type", type->second},
                  {"value", value},   {"written", is_written}};
-    const bool has_room = key.type == KeyType::choice  ? add_choices(path, key, control)
-                          : key.type == KeyType::truth ? fits_both(path, key)
-                                                       : add_ends(path, key, value, control);
+    const bool has_room = key.type == KeyType::choice ? add_choices(path, key, control)
+                          : key.type == KeyType::truth
+                              ? fits(path, key, "true") && fits(path, key, "false")
+                              : add_ends(path, key, value, control);
     return has_room ? std::optional(std::move(control)) : std::nullopt;
   }
 
@@ -163,10 +156,6 @@ class Controls {
     for (const std::string_view choice : key.choices)
       if (fits(path, key, fmt::format("\"{}\"", choice))) choices.push_back(choice);
     return choices.size() > 1;
-  }
-
-  bool fits_both(const std::string& path, const KeyDoc& key) const {
-    return fits(path, key, "true") && fits(path, key, "false");
   }
 
   bool add_ends(const std::string& path, const KeyDoc& key, const std::string& value,
