@@ -169,6 +169,7 @@ class SidesReader {
     });
     check_parts();
     const std::vector<std::string> names = mapped(sides, &SideFile::name);
+    if (sides.size() > kMostSides) sides.resize(kMostSides);  // each is the whole file once more
     for (SideFile& side : sides)
       side.file = SideWriter(file_, names, side.name).written(side.table);
     return sides;

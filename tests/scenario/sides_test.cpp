@@ -4,9 +4,11 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "counted_memory.hpp"
 #include "frame/parts/level.hpp"
 #include "frame/parts/panels.hpp"
 #include "run/tally.hpp"
@@ -472,6 +474,19 @@ TEST(Sides, AMistakeOfOneSideSaysOfWhich) {
       "name = \"tree\"\nstructure = { kind = \"quadtree\" }\n" +
           kSideBodies + kShow + "caption = \"@{pairs}\"\n",
       {"there is no structure at this step, on the side 'none'"});
+}
+
+// Each side that is read is the whole file once more.
+TEST(Sides, FarTooManyAreRefusedInLinearWork) {
+  const auto bytes_for = [](int count) {
+    std::string sides;
+    for (int i = 0; i < count; ++i) sides += fmt::format("[[side]]\nname = \"s{}\"\n", i);
+    const std::string text = sided("", sides);
+    const std::uint64_t before = counted_memory::bytes;
+    EXPECT_EQ(mistakes(text).size(), 1u);
+    return static_cast<double>(counted_memory::bytes - before);
+  };
+  EXPECT_LT(bytes_for(400), 2.3 * bytes_for(200));
 }
 
 }  // namespace
