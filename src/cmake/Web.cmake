@@ -16,8 +16,8 @@ include(Rooms)
 
 set(src ${PROJECT_SOURCE_DIR}/src)
 # world.cpp instantiates its class again, which clang refuses within one source.
-set_source_files_properties(${src}/physics/world.cpp ${src}/spatial/broad_phase_pairs.cpp
-  ${src}/spatial/near_pairs.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+set_source_files_properties(${src}/physics/world.cpp ${src}/spatial/near_pairs.cpp
+  PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 set_source_files_properties(${src}/language/text/problems.cpp PROPERTIES
   COMPILE_OPTIONS -I${src}/web/config SKIP_UNITY_BUILD_INCLUSION ON
   SKIP_PRECOMPILE_HEADERS ON)

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "base/check.hpp"
-#include "spatial/pair_search.hpp"
+#include "spatial/broad_phase_pairs.hpp"
 
 namespace lantern::spatial {
 namespace {

@@ -1,5 +1,7 @@
 // How a broad phase finds its pairs: all, those of the few that stir, or where little moves from
-// those that were near each other before.
+// those that were near each other before. Members of BroadPhase, for its one source.
+#pragma once
+
 #include "base/memory.hpp"
 #include "spatial/broad_phase.hpp"
 #include "spatial/pair_search.hpp"
@@ -263,27 +265,5 @@ void BroadPhase<D>::refuse_more(BodyId number) const {
   throw Refused("body {}: with it more than {} pairs overlap; take fewer bodies, or part them",
                 id_at(found_names_, number), config_.most_pairs);
 }
-
-#define LANTERN_INSTANTIATE(D)                                                                     \
-  template void BroadPhase<D>::find_pairs();                                                       \
-  template bool BroadPhase<D>::each_asks_alone() const;                                            \
-  template void BroadPhase<D>::find_pairs_of_few();                                                \
-  template bool BroadPhase<D>::mends_pairs() const;                                                \
-  template void BroadPhase<D>::begin_search(std::span<const Box<D>>, std::span<const ProxyState>,  \
-                                            std::span<const std::uint32_t>);                       \
-  template void BroadPhase<D>::pair_static();                                                      \
-  template void BroadPhase<D>::require_room(BodyId, std::size_t) const;                            \
-  template void BroadPhase<D>::refuse_more(BodyId) const;                                          \
-  template void BroadPhase<D>::search();                                                           \
-  template Structure<D>& BroadPhase<D>::few();                                                     \
-  template void BroadPhase<D>::ask(const Structure<D>&, const Store&, const Box<D>&, std::size_t); \
-  template void BroadPhase<D>::order_pairs(std::vector<Pair>&);                                    \
-  template bool BroadPhase<D>::find_near();                                                        \
-  template void BroadPhase<D>::mend_near();                                                        \
-  template void BroadPhase<D>::pair_near();                                                        \
-  template void BroadPhase<D>::mend_pairs();
-LANTERN_INSTANTIATE(2)
-LANTERN_INSTANTIATE(3)
-#undef LANTERN_INSTANTIATE
 
 }  // namespace lantern::spatial
