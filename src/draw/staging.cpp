@@ -140,6 +140,11 @@ bool Staging::is_one_group(const Frame& before, const Frame& next) {
          before.structure == next.structure && !other_part;
 }
 
+std::span<const Frame> Staging::first_group(std::span<const Frame> frames) {
+  const auto last = std::ranges::adjacent_find(frames, std::not_fn(is_one_group));
+  return last == frames.end() ? frames : std::span(frames.begin(), last + 1);
+}
+
 const Staging& Staging::of_side(std::string_view side) const {
   const auto found = structure_of_.find(side);
   return found == structure_of_.end() ? *this : sides_.find(found->second)->second;

@@ -83,6 +83,8 @@ class Staging {
   // Belongs `next` to the group of `before`? It does while panels, structure and world stay; a new
   // part begins a group if its settings are others, or packs an atlas on.
   static bool is_one_group(const Frame& before, const Frame& next);
+  // The group that the first of them begins.
+  static std::span<const Frame> first_group(std::span<const Frame> frames);
 
   const std::vector<const Frame*>& frames() const { return frames_; }
   // At most so many of them, here and there.

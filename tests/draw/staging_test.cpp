@@ -23,10 +23,11 @@ const Box<2> kTreePanel{{0, 0}, {700, 560}};
 // The frames of a run, cut into the groups that share a layout.
 std::vector<std::vector<Frame>> groups_of(const std::string& scenario) {
   std::vector<std::vector<Frame>> groups;
-  for (Frame& frame : run::frames_of(scenario)) {
-    if (groups.empty() || !Staging::is_one_group(groups.back().back(), frame))
-      groups.emplace_back();
-    groups.back().push_back(std::move(frame));
+  const std::vector<Frame> frames = run::frames_of(scenario);
+  for (std::span<const Frame> rest = frames; !rest.empty();) {
+    const std::span<const Frame> group = Staging::first_group(rest);
+    groups.emplace_back(group.begin(), group.end());
+    rest = rest.subspan(group.size());
   }
   return groups;
 }
@@ -137,6 +138,9 @@ TEST(Staging, AGroupEndsWhereItsPanelsOrSettingsChange) {
   b = a;
   b.panels = {panel_named("world")};
   EXPECT_FALSE(Staging::is_one_group(a, b));
+  const std::vector<Frame> frames{a, a, b};
+  EXPECT_EQ(Staging::first_group(frames).size(), 2u);
+  EXPECT_EQ(Staging::first_group(std::span(frames).subspan(2)).size(), 1u);
 }
 
 TEST(Staging, KnowsWhatAnyFrameHas) {

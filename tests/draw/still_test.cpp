@@ -104,10 +104,8 @@ class EveryPageTurned : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryPageTurned, LeavesWhatHasNotChangedWhereItIs) {
   const std::vector<Frame> frames = run::frames_of(GetParam());
-  std::size_t first = 0;
-  for (std::size_t next = 1; next <= frames.size(); ++next) {
-    if (next < frames.size() && Staging::is_one_group(frames[next - 1], frames[next])) continue;
-    const std::span<const Frame> group = std::span(frames).subspan(first, next - first);
+  for (std::span<const Frame> rest = frames; !rest.empty();) {
+    const std::span<const Frame> group = Staging::first_group(rest);
     const Staging staging{group};
     DrawList before;
     for (std::size_t i = 0; i < std::min<std::size_t>(group.size(), 12); ++i) {
@@ -116,7 +114,7 @@ TEST_P(EveryPageTurned, LeavesWhatHasNotChangedWhereItIs) {
       if (i > 0) expect_still(group[i - 1], group[i], before, now);
       before = std::move(now);
     }
-    first = next;
+    rest = rest.subspan(group.size());
   }
 }
 

@@ -57,9 +57,9 @@ std::vector<std::string> faults_of(const std::vector<Frame>& frames) {
   std::vector<DrawShape> before;
   for (std::size_t i = 0; i < frames.size(); ++i) {
     if (i == next) {  // a group begins
-      for (++next; next < frames.size() && Staging::is_one_group(frames[next - 1], frames[next]);)
-        ++next;
-      staging.emplace(std::span(frames).subspan(i, next - i));
+      const auto group = Staging::first_group(std::span(frames).subspan(i));
+      next += group.size();
+      staging.emplace(group);
     }
     Work work;
     std::vector<DrawShape> now =

@@ -31,18 +31,15 @@ void StagedSink::finish(const DirectorReport& report) {
 void StagedSink::flush() {
   draw::AxisRanges axes;
   for (const Frame& frame : waiting_) axes.see(frame);
-  std::size_t first = 0;
-  for (std::size_t next = 1; next <= waiting_.size(); ++next) {
-    if (next < waiting_.size() && Staging::is_one_group(waiting_[next - 1], waiting_[next]))
-      continue;
-    const std::span<const Frame> group = std::span(waiting_).subspan(first, next - first);
+  for (std::span<const Frame> rest = waiting_; !rest.empty();) {
+    const std::span<const Frame> group = Staging::first_group(rest);
     const Staging staging(group, axes);
     for (const Frame& frame : group) {
       stop_if_asked();
       draw(frame, staging);
       --undrawn_;
     }
-    first = next;
+    rest = rest.subspan(group.size());
   }
   waiting_.clear();
   bytes_ = 0;
