@@ -15,6 +15,7 @@
 #include "live/grip.hpp"
 #include "live/play.hpp"
 #include "publish/lesson_frames.hpp"
+#include "render/image.hpp"
 #include "render/svg.hpp"
 
 namespace lantern::live {
@@ -22,8 +23,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kMost = 1'000'000;   // of page units, degrees, lines and frames
-constexpr int kMostPixels = 8192;  // of a side of a picture, as on the command line
+constexpr int kMost = 1'000'000;  // of page units, degrees, lines and frames
 
 void write(JsonWriter& out, const Diagnostic& d) {
   out.begin_object()
@@ -157,8 +157,8 @@ class Session::Engine {
   }
 
   std::string svg(std::size_t index, int width, int height) {
-    if (std::min(width, height) < 1 || std::max(width, height) > kMostPixels)
-      throw Refused("a picture is 1 to {} pixels wide and high", kMostPixels);
+    if (std::min(width, height) < 1 || std::max(width, height) > render::kMostSide)
+      throw Refused("a picture is 1 to {} pixels wide and high", render::kMostSide);
     const Frame& frame = play_->frames()[index];
     return with_text(
         "svg", render::to_svg(play_->page(index, width, height), *draw::theme_named("light"), false,

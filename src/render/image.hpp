@@ -6,6 +6,9 @@
 
 namespace lantern::render {
 
+// The largest width and height of a picture, pixels.
+inline constexpr int kMostSide = 8192;
+
 // Rows from the top, 4 bytes a pixel: red, green, blue, alpha (not premultiplied).
 struct Image {
   int width = 0;

@@ -295,9 +295,9 @@ struct Renderer::State {
 };
 
 Renderer::Renderer(std::unique_ptr<Context> context, int width, int height) {
-  if (width < 1 || height < 1 || width > kMostPixels || height > kMostPixels)
+  if (width < 1 || height < 1 || width > kMostSide || height > kMostSide)
     throw Refused("an image of {} x {} pixels: each side must be 1 ... {}", width, height,
-                  kMostPixels);
+                  kMostSide);
   // What the driver draws to, what it is read into, and the picture.
   require_memory(std::uint64_t{12} * width * height,
                  fmt::format("the pixels of a picture of {} x {}", width, height),

@@ -22,9 +22,6 @@ struct Drawn {
 
 class Renderer {
  public:
-  // Largest width and height, pixels.
-  static constexpr int kMostPixels = 8192;
-
   // Takes the context, compiles the shaders. Belongs to the calling thread.
   Renderer(std::unique_ptr<Context> context, int width, int height);
   ~Renderer();

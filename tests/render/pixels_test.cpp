@@ -186,8 +186,7 @@ TEST(Text, StaysTheSameWhenMovedByWholePixels) {
 
 TEST(Renderer, RefusesBadSizesAndNumbers) {
   EXPECT_THROW(Renderer(Context::create(Backend::automatic), 0, 10), Refused);
-  EXPECT_THROW(Renderer(Context::create(Backend::automatic), 10, Renderer::kMostPixels + 1),
-               Refused);
+  EXPECT_THROW(Renderer(Context::create(Backend::automatic), 10, kMostSide + 1), Refused);
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(drawn(page_of(40, 30, {rect(nan, 0, 1, 1, Role::ink)}), 40, 30), Refused);
   EXPECT_THROW(drawn(page_of(40, 30, {line(0, 0, 1e300, 1, kInk2)}), 40, 30), Refused);
@@ -213,7 +212,7 @@ TEST(Renderer, TakesDegenerateShapes) {
 }
 
 TEST(Renderer, DrawsTheLargestImage) {
-  constexpr int kMost = Renderer::kMostPixels;
+  constexpr int kMost = kMostSide;
   const Image image = drawn(page_of(kMost, kMost,
                                     {rect(kMost - 3, kMost - 2, 2, 1, Role::ink),
                                      text("far", kMost - 300, kMost - 100, 100)}),

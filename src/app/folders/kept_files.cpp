@@ -188,7 +188,7 @@ ScenarioName JsonMembers::scenario_name(const char* member) const {
 std::string JsonMembers::picture_size(const char* member) const {
   const std::string size = text(member);
   try {
-    const auto [width, height] = parse_size(size, Renderer::kMostPixels);
+    const auto [width, height] = parse_size(size, render::kMostSide);
     if (fmt::format("{}x{}", width, height) == size) return size;
   } catch (const UsageError&) {
     // refused below

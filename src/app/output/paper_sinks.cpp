@@ -143,11 +143,11 @@ class SheetSink : public FileSink {
     const Vec<2> pixels = paper_ * (of_.job.options.dpi / kMillimetres);
     const int width = static_cast<int>(std::lround(pixels.x));
     const int height = static_cast<int>(std::lround(pixels.y));
-    if (std::max(width, height) > Renderer::kMostPixels)
+    if (std::max(width, height) > render::kMostSide)
       throw UsageError(
           "a sheet of {} x {} pixels is more than {}; ask for fewer dots "
           "(--dpi), or make it a .pdf",
-          width, height, Renderer::kMostPixels);
+          width, height, render::kMostSide);
     renderer_ = &of_.job.renderer(width, height, of_.work);
   }
   // The panels alone: what is said of them stands on the sheet.

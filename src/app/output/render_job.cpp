@@ -129,7 +129,7 @@ RenderJob::RenderJob(const RenderOptions& o)
       format(o.format == "svg" ? FileKind::svg : FileKind::png),
       in_betweens(o.tween, o.fps) {
   std::tie(picture.width, picture.height) =
-      parse_size(o.size.empty() ? kUsualSize : o.size, Renderer::kMostPixels);
+      parse_size(o.size.empty() ? kUsualSize : o.size, render::kMostSide);
   picture.theme = *theme_named(o.theme);
   picture.transparent = o.transparent;
   picture.effort = o.png == "small" ? PngEffort::small : PngEffort::fast;
