@@ -83,7 +83,7 @@ class BodyGrip : public Grip {
     const auto* put = std::get_if<language::Move>(&steps.at(moment.step).verb);
     const auto table = live::index_of(text, "body", body.name);
     std::uint32_t next = moment.step + 1;
-    if (table && body.position == spec.position) {  // it still stands where it was put
+    if (table && body.position == spec.position && !time_has_passed(steps)) {
       table_ = table;
       body_.angle = spec.angle;  // it may have turned
       if (!moment.is_last) next = moment.step;
@@ -91,6 +91,7 @@ class BodyGrip : public Grip {
       adds_step_ = true;
       moment = {next, 0, true};
     }
+    only_from_there = !table_;
     goes_on_ = std::any_of(steps.begin() + next, steps.end(), [](const language::Step& step) {
       return traits_of(step.verb).passes_time;
     });
@@ -131,6 +132,16 @@ class BodyGrip : public Grip {
   }
 
  private:
+  // Whether any has since the body entered the world.
+  bool time_has_passed(const std::vector<language::Step>& steps) const {
+    bool passed = false;
+    for (std::size_t i = 0; i <= moment.step; ++i) {
+      const auto* insert = std::get_if<language::Insert>(&steps[i].verb);
+      if (insert && std::ranges::count(insert->bodies, body_.place) > 0) passed = false;
+      passed |= traits_of(steps[i].verb).passes_time;
+    }
+    return passed;
+  }
   // One more step; an ending that has it behind itself is none any more.
   static std::string behind(const std::string& text, std::size_t step, const std::string& lines) {
     return with_step(with_value(text, fmt::format("step[{}].ending", step), ""), step, lines);

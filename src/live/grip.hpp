@@ -31,6 +31,8 @@ class Grip {
   virtual std::string text(const Hand& hand) const = 0;
   // The moment to be looked at in that text.
   Moment moment;
+  // Nothing before that moment's step changes, wherever the hand goes.
+  bool only_from_there = false;
 };
 
 // On a body or texture, as a page names it: "body/red", behind its side's prefix; or, if it is

@@ -19,28 +19,33 @@ constexpr std::size_t kMostBytes = std::size_t{96} << 20;  // of what frames lis
 
 }  // namespace
 
-Play::Play(Scenario scenario, const std::optional<Moment>& until) : scenario_(std::move(scenario)) {
-  std::optional<RunWatch> watch;
-  if (!until) watch.emplace(scenario_, draw::shows_a_body);
-  std::size_t bytes = 0;
-  std::uint32_t place = 0;  // of the frame among those of its step
-  const auto keep = [&](const Frame& frame) {
-    if (until && frame.step > until->step) return false;
-    place = frames_.empty() || frames_.back().step != frame.step ? 0 : place + 1;
-    frames_.push_back(frame);
-    bytes += estimated_bytes(frame);
-    if (frames_.size() > kMostFrames || bytes > kMostBytes)
-      throw Refused(
-          "a page has room for {} frames and {} MB of what they list: 'every' makes fewer",
-          kMostFrames, kMostBytes >> 20);
-    return !(until && !until->is_last && frame.step == until->step && place == until->place);
-  };
-  const DirectorReport report =
-      direct(scenario_, scenario_.pace, work_, keep, watch ? &*watch : nullptr);
-  if (!watch) return;  // that moment's frame alone is asked for
+bool Play::keep(const Frame& frame) {
+  place_ = frames_.empty() || frames_.back().step != frame.step ? 0 : place_ + 1;
+  frames_.push_back(frame);
+  bytes_ += estimated_bytes(frame);
+  if (frames_.size() > kMostFrames || bytes_ > kMostBytes)
+    throw Refused("a page has room for {} frames and {} MB of what they list: 'every' makes fewer",
+                  kMostFrames, kMostBytes >> 20);
+  return !(last_ && !last_->is_last && frame.step == last_->step && place_ == last_->place);
+}
+
+Play::Play(Scenario scenario, const Moment& before)
+    : scenario_(std::move(scenario)), begun_(perform(scenario_, scenario_.pace, work_, sink_)) {
+  const std::size_t steps = std::min<std::size_t>(before.step, scenario_.steps.size());
+  for (std::size_t i = 0; i < steps; ++i) begun_->play(scenario_, i);
+}
+
+void Play::go_on(const Scenario& as, const Moment& until) {
+  last_ = until;
+  if (until.step < as.steps.size()) begun_->play(as, until.step);
+}
+
+Play::Play(Scenario scenario) : scenario_(std::move(scenario)) {
+  RunWatch watch(scenario_, draw::shows_a_body);
+  const DirectorReport report = direct(scenario_, scenario_.pace, work_, sink_, &watch);
   unmet_ = report.unmet.list("that do not hold");
   warnings_ = warnings_of_file(scenario_);
-  std::ranges::move(watch->warnings(), std::back_inserter(warnings_));
+  std::ranges::move(watch.warnings(), std::back_inserter(warnings_));
   for (const Frame& frame : frames_) axes_.see(frame);
   for (std::size_t i = 0; i < frames_.size(); ++i)
     if (i > 0 && draw::Staging::is_one_group(frames_[i - 1], frames_[i]))

@@ -1,6 +1,7 @@
 // A scenario that is run whole, and its frames as pictures of a lesson page.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include "draw/staging.hpp"
 #include "language/scenario.hpp"
 #include "rooms.hpp"
+#include "run/director.hpp"
 
 namespace lantern::live {
 
@@ -22,9 +24,17 @@ struct Moment {
 
 class Play {
  public:
-  // Runs it, up to a moment if one is given: then it has scenario and frames, but neither warnings
-  // nor pictures. Throws ScenarioError, and Refused for too many frames.
-  Play(language::Scenario scenario, const std::optional<Moment>& until);
+  // Runs it whole. Throws ScenarioError, and Refused for too many frames.
+  explicit Play(language::Scenario scenario);
+  // Runs what is before the moment's step: it has scenario and frames, but neither warnings nor
+  // pictures.
+  Play(language::Scenario scenario, const Moment& before);
+  // And that step up to the moment, once, as this scenario has it: the one that was begun, or one
+  // that differs from it only in that step and those behind it, of as many.
+  void go_on(const language::Scenario& as, const Moment& until);
+
+  // To run so much again would take longer than to copy an engine's memory.
+  bool is_long() const { return work_.world_steps * scenario_.bodies.size() > 2000; }
 
   const language::Scenario& scenario() const { return scenario_; }
   const std::vector<frame::Frame>& frames() const { return frames_; }
@@ -52,8 +62,18 @@ class Play {
   };
   Group& group_of(std::size_t index);
 
+  // False if no more are wanted.
+  bool keep(const frame::Frame& frame);
+
   language::Scenario scenario_;
   std::vector<frame::Frame> frames_;
+  std::size_t bytes_ = 0;       // of what they list
+  std::uint32_t place_ = 0;     // of the last one among those of its step
+  std::optional<Moment> last_;  // of those wanted
+  const std::function<bool(const frame::Frame&)> sink_ = [this](const frame::Frame& frame) {
+    return keep(frame);
+  };
+  std::unique_ptr<run::Performance> begun_;
   std::vector<Diagnostic> warnings_, unmet_;
   draw::AxisRanges axes_;
   std::vector<Group> groups_;

@@ -123,10 +123,11 @@ class Session::Engine {
   }
 
   std::string open(const std::string& text, const std::string& name) {
-    play_ = std::make_unique<Play>(language::parse_scenario(text, name), std::nullopt);
+    play_ = std::make_unique<Play>(language::parse_scenario(text, name));
     text_ = text;
     name_ = name;
     grip_.reset();
+    begun_.reset();
     return fmt::format("{{\"frames\": {}, \"warnings\": {}, \"unmet\": {}}}",
                        play_->frames().size(), list_of_diagnostics(play_->warnings()),
                        list_of_diagnostics(play_->unmet()));
@@ -171,24 +172,36 @@ class Session::Engine {
 
   std::string grab(const json& q) {
     const std::size_t index = index_in(q, "frame");
-    grip_ = grip_on(text_, *play_, index, q.at("entity").get<std::string>(), point_in(q, "x", "y"));
+    const Vec<2> at = point_in(q, "x", "y");
+    grip_ = grip_on(text_, *play_, index, q.at("entity").get<std::string>(), at);
     grabbed_ = index;
-    return with_text("grabbed", std::string(grip_->what()));
+    begun_.reset();
+    if (grip_->only_from_there) begun_ = begun(grip_->text({at}));
+    if (begun_ && !begun_->is_long()) begun_.reset();
+    return fmt::format("{{\"grabbed\": \"{}\", \"kept\": {}}}", grip_->what(), bool(begun_));
   }
 
   std::string drag(const json& q) {
     if (!grip_) throw Refused("nothing is grabbed");
     const std::string text =
         grip_->text({point_in(q, "x", "y"), number_in(q, "turn"), point_in(q, "vx", "vy")});
-    const Play now(language::parse_scenario(text, name_), grip_->moment);
-    const std::size_t index = now.index_of(grip_->moment);
-    const Frame& frame = now.frames()[index];
+    const language::Scenario scenario = language::parse_scenario(text, name_);
+    auto now = std::exchange(begun_, nullptr);
+    if (!now || now->scenario().steps.size() != scenario.steps.size()) now = begun(text);
+    now->go_on(scenario, grip_->moment);
+    const std::size_t index = now->index_of(grip_->moment);
+    const Frame& frame = now->frames()[index];
     Pictures one;
-    one.add(frame, nullptr, play_->picture(frame, grabbed_), now.scenario());
+    one.add(frame, nullptr, play_->picture(frame, grabbed_), scenario);
     return fmt::format("{{\"text\": {}, \"index\": {}, {}}}", json_string(text), index, one.json());
   }
 
-  std::unique_ptr<Play> play_;  // of what was opened last
+  std::unique_ptr<Play> begun(const std::string& text) const {
+    return std::make_unique<Play>(language::parse_scenario(text, name_), grip_->moment);
+  }
+
+  std::unique_ptr<Play> play_;   // of what was opened last
+  std::unique_ptr<Play> begun_;  // what stays the same of a hand's texts, until it has gone on
   std::string text_, name_;
   std::unique_ptr<Grip> grip_;
   std::size_t grabbed_ = 0;  // the frame that was looked at then

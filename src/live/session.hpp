@@ -20,8 +20,10 @@ namespace lantern::live {
 //
 // frame: index. The picture of one.
 //
-// grab: frame, entity, x, y. {"grabbed": "position", "move", "size" or "corner"}; a hand goes down
-// on a "body/red", in page units, or on a level's corner where `entity` is empty.
+// grab: frame, entity, x, y. {"grabbed": "position", "move", "size" or "corner", "kept": b}; a hand
+// goes down on a "body/red", in page units, or on a level's corner where `entity` is empty. Kept:
+// all before what it changes has been run, which the next drag uses up; whoever copies the memory
+// here, and begins each drag with it, spares that run.
 //
 // drag: x, y, turn, vx, vy. {"text", "index"} and the picture of that frame, with what was grabbed
 // at another place, turned by so many degrees, and thrown as fast, in page units a second. It

@@ -50,13 +50,29 @@ function unpacked(packed) {
 async function start({ packed, module }) {
   module ??= await WebAssembly.compile(await unpacked(packed));
   const engine = await instanceOf(module);
-  answer = (request) => {
+  const memory = () => new Uint8Array(engine.memory.buffer);
+  const ask = (request) => {
     const bytes = new TextEncoder().encode(request);
     const room = engine.room(bytes.length);
-    new Uint8Array(engine.memory.buffer, room, bytes.length).set(bytes);
+    memory().set(bytes, room);
     const length = engine.ask(room, bytes.length);
     engine.leave(room);
-    return new TextDecoder().decode(new Uint8Array(engine.memory.buffer, engine.answer_at(), length));
+    return new TextDecoder().decode(memory().subarray(engine.answer_at(), engine.answer_at() + length));
+  };
+  // A drag goes on with the run that its grab has begun, and uses it up: the next one finds the memory
+  // as it was, or has all begun again if there is more of it now.
+  let kept = null;
+  const keep = (grab) => {
+    const said = ask(grab);
+    kept = said.endsWith('"kept": true}') ? { grab, memory: memory().slice(), used: false } : null;
+    return said;
+  };
+  answer = (request) => {
+    if (!request.startsWith('{"do":"drag"')) return keep(request);
+    if (kept?.used && kept.memory.length < memory().length) keep(kept.grab);
+    else if (kept?.used) memory().set(kept.memory);
+    if (kept) kept.used = true;
+    return ask(request);
   };
   return { module };
 }

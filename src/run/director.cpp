@@ -91,9 +91,10 @@ void carry(const V& verb, ScriptRun& run) {
 
 }  // namespace
 
-void ScriptRun::play(const Step& step, std::uint32_t index) {
+void ScriptRun::play(const Scenario& as, std::size_t index) {
+  const Step& step = as.steps[index];
   stop_if_asked();
-  frames.begin(step, index);
+  frames.begin(step, static_cast<std::uint32_t>(index));
   if (watch) watch->begin(step);
   if (stage.engine) engine().forget_events();
   if (const VerbTraits& verb = traits_of(step.verb);
@@ -109,21 +110,20 @@ void ScriptRun::play(const Step& step, std::uint32_t index) {
   }
 }
 
+std::unique_ptr<Performance> perform(const Scenario& scenario, Pace pace, Work& work,
+                                     const std::function<bool(const Frame&)>& sink, RunWatch* watch,
+                                     Wanted wants) {
+  if (!scenario.sides.empty()) return perform_sides(scenario, pace, work, sink, watch);
+  return std::make_unique<ScriptRun>(scenario, pace, work, sink, watch, wants);
+}
+
 DirectorReport direct(const Scenario& scenario, Pace pace, Work& work,
                       const std::function<bool(const Frame&)>& sink, RunWatch* watch,
                       Wanted wants) {
-  if (!scenario.sides.empty()) return direct_sides(scenario, pace, work, sink, watch);
-  const std::function<bool(const Frame&)> watched = [&](const Frame& frame) {
-    watch->see(frame);
-    return sink(frame);
-  };
-  ScriptRun run(scenario, pace, work, watch ? watched : sink, watch, wants);
-  std::uint32_t index = 0;
-  for (const Step& step : scenario.steps) {
-    run.play(step, index++);
-    if (run.frames.stopped()) break;
-  }
-  return run.report();
+  const auto performance = perform(scenario, pace, work, sink, watch, wants);
+  for (std::size_t i = 0; i < scenario.steps.size() && !performance->stopped(); ++i)
+    performance->play(scenario, i);
+  return performance->report();
 }
 
 }  // namespace lantern::run

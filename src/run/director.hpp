@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "base/error.hpp"
 #include "base/work.hpp"
@@ -26,9 +27,28 @@ class RunWatch;
 // ever, but what an outcome lights as new is new since the last one. Of sides all are made.
 enum class Wanted { all, outcomes };
 
+// A script on the stage, step after step.
+class Performance {
+ public:
+  virtual ~Performance() = default;
+  // The step of that number, each once and in order. `as` is the scenario that is performed, or one
+  // that differs from it only in steps, of as many, that have not been played. Throws
+  // ScenarioError, at the step's place, when the engine refuses what the step asks for.
+  virtual void play(const Scenario& as, std::size_t step) = 0;
+  // The sink has seen enough.
+  virtual bool stopped() const = 0;
+  // Of all that was played; taken once.
+  virtual DirectorReport report() = 0;
+};
+
 // Calls `sink` with each frame in order; it returns false to end the run early. The frames depend
-// on the scenario and the pace only, whether or not somebody watches. Throws ScenarioError, at the
-// step's place, when the engine refuses what the step asks for.
+// on the scenario and the pace only, whether or not somebody watches. What is given must outlive
+// the performance.
+std::unique_ptr<Performance> perform(const Scenario& scenario, Pace pace, Work& work,
+                                     const std::function<bool(const Frame&)>& sink,
+                                     RunWatch* watch = nullptr, Wanted wants = Wanted::all);
+
+// All of its steps. Throws as they do.
 DirectorReport direct(const Scenario& scenario, Pace pace, Work& work,
                       const std::function<bool(const Frame&)>& sink, RunWatch* watch = nullptr,
                       Wanted wants = Wanted::all);

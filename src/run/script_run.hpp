@@ -6,16 +6,25 @@
 
 namespace lantern::run {
 
-struct ScriptRun {
+struct ScriptRun : Performance {
   ScriptRun(const Scenario& of, Pace pace, Work& work,
             const std::function<bool(const Frame&)>& sink, RunWatch* watched_by,
             Wanted wants = Wanted::all)
-      : scenario(of), stage(of, work), frames(of, pace, stage, sink, wants), watch(watched_by) {}
+      : scenario(of),
+        stage(of, work),
+        watch(watched_by),
+        given([this, &sink](const Frame& frame) {
+          if (watch) watch->see(frame);
+          return sink(frame);
+        }),
+        frames(of, pace, stage, given, wants) {}
+  ScriptRun& operator=(ScriptRun&&) = delete;  // nor any other copy or move
 
   const Scenario& scenario;
   Stage stage;
-  FrameMaker frames;
   RunWatch* watch;  // null if nobody looks for warnings
+  const std::function<bool(const Frame&)> given;
+  FrameMaker frames;
 
   // Of the bodies, which the scenario must have.
   Engine& engine() { return *stage.engine; }
@@ -35,11 +44,9 @@ struct ScriptRun {
   EventWatch watch_of_insertion();
   std::string name_of(BodyId body) const;
 
-  // One step of the script, the `index`-th. Throws ScenarioError, at its place, when the engine
-  // refuses what it asks for.
-  void play(const Step& step, std::uint32_t index);
-  // Of all that were played; taken once.
-  DirectorReport report();
+  void play(const Scenario& as, std::size_t index) override;
+  bool stopped() const override { return frames.stopped(); }
+  DirectorReport report() override;
 };
 
 // What a verb does, with its frames. One that is not here is one change, shown when it is done.
@@ -67,10 +74,11 @@ void act(const Pack& pack, ScriptRun& run);
 void act(const AskRoom& ask, ScriptRun& run);
 void act(const DrawScreen& draw, ScriptRun& run);
 
-// As `direct`, of a scenario with sides: the k-th frame of a step has the k-th of each side. A side
-// that has fewer holds its last. Throws ScenarioError, at the step's place, too, when the frames of
-// one step need more memory than there is.
-DirectorReport direct_sides(const Scenario& scenario, Pace pace, Work& work,
-                            const std::function<bool(const Frame&)>& sink, RunWatch* watch);
+// Of a scenario with sides: the k-th frame of a step has the k-th of each side. A side that has
+// fewer holds its last. A step throws ScenarioError, at its place, too, when its frames need more
+// memory than there is.
+std::unique_ptr<Performance> perform_sides(const Scenario& scenario, Pace pace, Work& work,
+                                           const std::function<bool(const Frame&)>& sink,
+                                           RunWatch* watch);
 
 }  // namespace lantern::run

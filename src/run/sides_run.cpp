@@ -30,15 +30,15 @@ struct Quote {
 class Side {
  public:
   Side(const Scenario& scenario, Pace pace, Work& work, RunWatch* watch)
-      : scenario_(scenario), watch_(watch), run_(scenario, pace, work, sink_, watch) {}
+      : scenario_(scenario), run_(scenario, pace, work, sink_, watch) {}
   Side& operator=(Side&&) = delete;  // nor any other copy or move
 
   // Its frames of the step; the first has number `frame`. Adds their bytes.
-  void play(std::size_t step, std::uint32_t frame, std::uint64_t& bytes) {
+  void play(const Scenario& as, std::size_t step, std::uint32_t frame, std::uint64_t& bytes) {
     shown_.clear();
     bytes_ = &bytes;
     run_.frames.go_on_at(frame);
-    run_.play(scenario_.steps[step], static_cast<std::uint32_t>(step));
+    run_.play(as, step);
   }
 
   const std::string& name() const { return scenario_.side; }
@@ -59,7 +59,6 @@ class Side {
 
  private:
   bool take(const Frame& frame) {
-    if (watch_) watch_->see(frame);
     *bytes_ += estimated_bytes(frame);
     require_memory(*bytes_, "the frames of this step on all sides",
                    "cut it in two steps, or show fewer frames with a larger 'every'");
@@ -71,7 +70,6 @@ class Side {
   }
 
   const Scenario& scenario_;
-  RunWatch* watch_;
   std::function<bool(const Frame&)> sink_ = [this](const Frame& frame) { return take(frame); };
   ScriptRun run_;
   std::vector<Shown> shown_;  // of the step
@@ -89,7 +87,7 @@ bool has_code_by_side(const Scenario& scenario) {
   });
 }
 
-class SidesRun {
+class SidesRun : public Performance {
  public:
   SidesRun(const Scenario& scenario, Pace pace, Work& work,
            const std::function<bool(const Frame&)>& sink, RunWatch* watch)
@@ -99,19 +97,19 @@ class SidesRun {
     if (scenario.chart) plotter_.emplace(scenario);
   }
 
-  DirectorReport run() {
-    for (std::size_t step = 0; step < scenario_.steps.size() && !stopped_; ++step) play(step);
+  DirectorReport report() override {
     for (Side& side : sides_) add(side.report());
     return std::move(report_);
   }
+  bool stopped() const override { return stopped_; }
 
- private:
-  void play(std::size_t index) {
-    const Step& step = scenario_.steps[index];
+  void play(const Scenario& as, std::size_t index) override {
+    const Step& step = as.steps[index];
     std::uint64_t bytes = 0;
     std::size_t frames = 0;
-    for (Side& side : sides_) {
-      side.play(index, report_.frames, bytes);
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+      Side& side = sides_[i];
+      side.play(*as.sides[i], index, report_.frames, bytes);
       LANTERN_CHECK(side.frames(), >, std::size_t{0});  // a step ends with one
       frames = std::max(frames, side.frames());
     }
@@ -130,6 +128,7 @@ class SidesRun {
     }
   }
 
+ private:
   // What the sides share, and the frame of each.
   Frame together(std::size_t k) {
     Frame frame;
@@ -239,9 +238,10 @@ class SidesRun {
 
 }  // namespace
 
-DirectorReport direct_sides(const Scenario& scenario, Pace pace, Work& work,
-                            const std::function<bool(const Frame&)>& sink, RunWatch* watch) {
-  return SidesRun(scenario, pace, work, sink, watch).run();
+std::unique_ptr<Performance> perform_sides(const Scenario& scenario, Pace pace, Work& work,
+                                           const std::function<bool(const Frame&)>& sink,
+                                           RunWatch* watch) {
+  return std::make_unique<SidesRun>(scenario, pace, work, sink, watch);
 }
 
 }  // namespace lantern::run

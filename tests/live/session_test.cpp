@@ -305,6 +305,37 @@ TEST(Session, WhatHasMovedGetsAStepOfItsOwn) {
   EXPECT_EQ(value_at(last, "step[2].ending"), "");
 }
 
+// What has been run at the grab is gone on with once, and run again for what follows.
+TEST(Session, ADragThatGoesOnShowsWhatItsTextDoes) {
+  const std::string sides =
+      "\n[[side]]\nname = \"a\"\n[[side]]\nname = \"b\"\nstructure.kind = \"grid\"\n";
+  const std::string many = with(kTwo, "count = 3", "count = 60");
+  for (const std::string& text : {many, many + sides}) {
+    const std::string prefix = text == many ? "" : "a/";
+    Page page;
+    page.open(text);
+    for (const char* body : {"body/blue", "body/rock", "body/dot2"}) {
+      const json grabbed = page.grab(kRunEnds, prefix + body, {800, 300});
+      EXPECT_EQ(grabbed["grabbed"], "move") << body;
+      EXPECT_EQ(grabbed["kept"], true) << body;
+      for (const json& way : {json{{"x", 780}, {"y", 280}},
+                              {{"x", 700}, {"y", 300}},
+                              {{"x", 790}, {"y", 280}, {"vx", 900}}}) {
+        const json drawn = page.drag(way);
+        Page fresh;
+        fresh.open(drawn["text"]);
+        const json whole = fresh.frame(drawn["index"]);
+        EXPECT_EQ(drawn["hashes"], whole["hashes"]) << drawn["text"];
+        EXPECT_EQ(drawn["facts"], whole["facts"]) << drawn["text"];
+      }
+    }
+    EXPECT_EQ(page.grab(0, prefix + "body/blue", {800, 300})["kept"], false);  // nothing is before
+  }
+  Page page;
+  page.open(kTwo);
+  EXPECT_EQ(page.grab(kRunEnds, "body/blue", {800, 300})["kept"], false);  // it takes no time
+}
+
 TEST(Session, AHandTurnsAndThrows) {
   Page page;
   page.open(kTwo);
@@ -329,7 +360,7 @@ TEST(Session, AHandTurnsAndThrows) {
   page.open(with(kTwo, "velocity = [4, 0]", "spin = 90"));  // it turns on the spot
   page.grab(kRunEnds, "body/blue", {800, 300});
   const std::string spun = page.drag({{"x", 800}, {"y", 300}, {"turn", 15}})["text"];
-  EXPECT_EQ(value_at(spun, "body[1].turned"), "15");
+  EXPECT_EQ(value_at(spun, "step[2].turned"), "105");
 
   // Where no time passes any more, it does for a throw.
   for (const char* body : {"body/red", "body/blue"}) {
@@ -344,8 +375,8 @@ TEST(Session, AHandTurnsAndThrows) {
   page.open(with(kTwo, "[[step]]\ndo = \"show\"\nending = true\n", ""));
   page.grab(5, "body/red", {800, 300});
   EXPECT_EQ(value_at(page.drag({{"x", 800}, {"y", 300}, {"vx", 1000}})["text"].get<std::string>(),
-                     "step[2].do"),
-            "");
+                     "step[3].do"),
+            "\"run\"");
   // What never moves is put down, however fast the hand is.
   page.open(kTwo);
   page.grab(0, "body/rock", {800, 300});
