@@ -47,11 +47,11 @@ Play::Play(Scenario scenario) : scenario_(std::move(scenario)) {
   warnings_ = warnings_of_file(scenario_);
   std::ranges::move(watch.warnings(), std::back_inserter(warnings_));
   for (const Frame& frame : frames_) axes_.see(frame);
-  for (std::size_t i = 0; i < frames_.size(); ++i)
-    if (i > 0 && draw::Staging::is_one_group(frames_[i - 1], frames_[i]))
-      ++groups_.back().count;
-    else
-      groups_.push_back({i, 1, nullptr});
+  for (std::span<const Frame> rest = frames_; !rest.empty();) {
+    const std::span<const Frame> group = draw::Staging::first_group(rest);
+    groups_.push_back({group, nullptr});
+    rest = rest.subspan(group.size());
+  }
 }
 
 Moment Play::moment_of(std::size_t index) const {
@@ -73,14 +73,14 @@ std::size_t Play::index_of(const Moment& moment) const {
 }
 
 Play::Group& Play::group_of(std::size_t index) {
-  return *std::prev(std::ranges::upper_bound(groups_, index, {}, &Group::first));
+  const Frame* frame = &frames_.at(index);
+  const auto first = [](const Group& group) { return group.frames.data(); };
+  return *std::prev(std::ranges::upper_bound(groups_, frame, {}, first));
 }
 
 const draw::Staging& Play::staging_of(std::size_t index) {
   Group& group = group_of(index);
-  if (!group.staging)
-    group.staging = std::make_unique<draw::Staging>(
-        std::span<const Frame>(frames_).subspan(group.first, group.count), axes_);
+  if (!group.staging) group.staging = std::make_unique<draw::Staging>(group.frames, axes_);
   return *group.staging;
 }
 
@@ -96,7 +96,7 @@ draw::DrawList Play::picture(const Frame& frame, std::size_t beside) {
   const Group& group = group_of(beside);
   std::vector<const Frame*> all;
   if (draw::Staging::is_one_group(frames_.at(beside), frame))
-    for (std::size_t i = 0; i < group.count; ++i) all.push_back(&frames_[group.first + i]);
+    for (const Frame& other : group.frames) all.push_back(&other);
   all.push_back(&frame);
   return drawn(frame, draw::Staging(std::move(all), axes_));
 }

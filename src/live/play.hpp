@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -57,7 +58,7 @@ class Play {
   const draw::Staging& staging_of(std::size_t index);
 
   struct Group {
-    std::size_t first = 0, count = 0;
+    std::span<const frame::Frame> frames;
     std::unique_ptr<draw::Staging> staging;  // made when it is first asked for
   };
   Group& group_of(std::size_t index);
