@@ -69,7 +69,7 @@ class Page {
     this.index = index;
     this.picture.show(index);
     this.tell();
-    this.pointing?.light(null);
+    this.pointing?.light(this.playing ? null : undefined);
     if (!$("facts-panel").hidden) this.fillFacts();
     this.speaker?.show(index, this.following);
     if (!this.playing) this.prepareNext();
@@ -155,6 +155,7 @@ class Page {
     this.playing = 0;
     $("play").setAttribute("aria-pressed", "false");
     this.picture.show(this.index);
+    this.pointing?.light();
   }
 
   togglePlay() {
@@ -218,7 +219,7 @@ class Page {
       $("said").textContent = words;
       $("told").textContent = words;
       $("told").hidden = !words;
-    });
+    }, this.watched);
   }
 
   // Where an event is, in the picture's own units.
@@ -229,7 +230,7 @@ class Page {
   pointAt(event) {
     if (this.playing || !this.pointing) return;
     const { x, y } = this.placeOf(event);
-    this.pointing.light(this.pointing.at(event.target.parentNode === this.picture.layer ? event.target : null, x, y));
+    this.pointing.light(this.pointing.at(event.target.parentNode === this.picture.layer ? event.target : null, x, y) ?? undefined);
   }
 
   // Buttons for all that can be pointed at, for those who have no pointer. Made when they are asked
@@ -309,7 +310,7 @@ function listenToPointer(page) {
   const stage = $("stage");
   let touch = null;
   stage.addEventListener("pointermove", (event) => event.pointerType === "mouse" && page.pointAt(event));
-  stage.addEventListener("pointerleave", () => page.pointing?.light(null));
+  stage.addEventListener("pointerleave", () => page.pointing?.light());
   stage.addEventListener("pointerdown", (event) => (touch = event.pointerType === "touch" ? event : null));
   stage.addEventListener("click", (event) => {
     if (event.pointerType !== "touch") return event.shiftKey ? page.back() : page.next();
@@ -326,7 +327,7 @@ function listenToThings(page) {
     const one = event.target.closest("[data-entity]")?.dataset.entity;
     if (one && page.pointing && !page.playing) page.pointing.light(one);
   };
-  const dark = () => page.pointing?.light(null);
+  const dark = () => page.pointing?.light();
   for (const list of [$("facts-panel"), $("things")]) {
     list.addEventListener("pointerover", light);
     list.addEventListener("pointerleave", dark);

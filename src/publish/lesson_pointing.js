@@ -59,8 +59,9 @@ function holds(outline, x, y) {
 }
 
 class Pointing {
-  constructor(lesson, picture, facts, say) {
-    Object.assign(this, { lesson, picture, facts, say, entity: null });
+  // `watched`: what is lit where nothing else is pointed at.
+  constructor(lesson, picture, facts, say, watched = null) {
+    Object.assign(this, { lesson, picture, facts, say, watched, entity: null });
   }
 
   get sides() {
@@ -145,13 +146,14 @@ class Pointing {
   }
 
   // Lights up an entity and what belongs to it; null: nothing.
-  light(one) {
+  light(one = this.watched) {
     if (one === this.entity && this.lit === this.picture.index) return;
     this.entity = one;
     this.lit = this.picture.index;
     const { layer, over, svg } = this.picture;
     over.replaceChildren();
     svg.classList.toggle("pointing", one !== null);
+    svg.classList.toggle("watching", one !== null && one === this.watched);
     if (!one) {
       for (const element of layer.querySelectorAll(".lit")) element.classList.remove("lit");
       return this.say("");
@@ -159,12 +161,13 @@ class Pointing {
     const related = this.related(one);
     for (const element of layer.children) this.mark(element, related);
     this.outline(related);
-    this.say(this.words(one));
+    this.say(one === this.watched ? "" : this.words(one));
   }
 
   mark(element, related) {
     const entities = this.lesson.entitiesOf(element.thing);
     element.classList.toggle("thing", entities.length > 0);
+    element.classList.toggle("link", entities.length > 0 && kindOf(entities[0]) === "pair");
     element.classList.toggle("lit", entities.length > 0 && entities.every((e) => related.has(e)));
   }
 

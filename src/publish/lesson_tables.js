@@ -47,9 +47,11 @@ class Words {
       }));
   }
 
-  show({ step, caption, part, counters, ending }) {
+  // `lesson`: what was told of this frame before the reader made a world of their own.
+  show({ step, caption, told: lesson, part, counters, ending }) {
     const [told, numbers] = ["caption", "counters"].map((id) => document.getElementById(id));
     if (told.textContent !== caption) told.textContent = caption;
+    lesson === undefined ? delete told.dataset.lesson : (told.dataset.lesson = lesson);
     numbers.replaceChildren(...counterList(document, counters));
     told.parentNode.classList.toggle("ending", Boolean(ending));
     document.getElementById("part").textContent = part ?? "";

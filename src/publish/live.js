@@ -173,7 +173,7 @@ class Live {
   }
 
   // Refused text leaves the picture of the last good one.
-  async run({ index, plays } = {}) {
+  async run({ index, time } = {}) {
     const { text, name, page } = this;
     const { refused, warnings, unmet } = await this.engine.ask({ do: "open", text, name });
     this.editor.tell(refused ?? warnings, unmet);
@@ -183,34 +183,41 @@ class Live {
     const drawn = (isOwn && this.own.drawn) || (await this.engine.ask({ do: "lesson" }));
     if (!(drawn.lesson instanceof Lesson)) drawn.lesson = new Lesson(drawn.lesson, page.lesson);
     if (isOwn) this.own.drawn = drawn;
-    else this.retold(drawn.lesson);
+    else this.retold(drawn.lesson, drawn.facts);
+    if (isOwn) this.hand.watch(null);
+    if (time !== undefined) index = drawn.lesson.frames.findLastIndex((frame) => frame.time <= time + 1e-6);
     page.load(drawn.lesson, drawn.facts, index ?? this.near(drawn.lesson));
     const { title, questions } = drawn.card ?? { title: this.title, questions: questionsOf(drawn) };
     $("title").textContent = document.title = title;
     fillQuestions(page, questions, isOwn);
     await this.controls.refresh();
-    if (plays && this.passes) page.play();
   }
 
   // Captions were written for the lesson's world: those of another one's frames are the lesson's own, as
-  // it told them, of the same place in the same step; none where the steps are others.
-  retold(lesson) {
+  // it told them, of the same place in the same step; none where the steps are others. Before them goes
+  // what this world's facts say of the body that was moved.
+  retold(lesson, facts) {
     const told = this.own.drawn?.lesson.frames ?? [];
-    if (told.at(-1)?.step !== lesson.frames.at(-1).step) {
-      for (const frame of lesson.frames) frame.caption = "";
-      return;
-    }
-    const [mine, its] = [lesson.frames, told].map(byStep);
-    for (const [step, frames] of mine) {
+    const isSame = told.at(-1)?.step === lesson.frames.at(-1).step;
+    const its = byStep(isSame ? told : []);
+    for (const [step, frames] of byStep(lesson.frames)) {
       const own = its.get(step) ?? [];
       frames.forEach((frame, i) => (frame.caption = own[frames.length === own.length ? i : own.length - 1]?.caption ?? ""));
     }
+    lesson.frames.forEach((_, index) => this.tellOf(lesson, index, facts[index]));
   }
 
   // The same of one frame that is looked at in the place of the one shown.
-  retoldAlone(lesson) {
-    const [{ step, caption }, [frame]] = [this.page.lesson.frames[this.page.index], lesson.frames];
-    frame.caption = frame.step === step ? caption : "";
+  retoldAlone(lesson, [facts]) {
+    const [now, [frame]] = [this.page.lesson.frames[this.page.index], lesson.frames];
+    frame.caption = frame.step === now.step ? now.told ?? now.caption : "";
+    return this.tellOf(lesson, 0, facts);
+  }
+
+  tellOf(lesson, index, facts) {
+    const frame = lesson.frames[index];
+    const own = this.hand.sentence(lesson, index, facts);
+    if (own) Object.assign(frame, { caption: own, told: frame.caption, ending: false });
     return lesson;
   }
 

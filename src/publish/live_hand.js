@@ -7,6 +7,8 @@ const WALL = ""; // what the engine calls the corner of a wall that is near
 const DRAG_SECONDS = 2;
 const REACH = 16; // page units to a texture's corner, or beside a body for a finger
 const THROWN = 250; // page units a second: slower is let go
+const FRAME = 1 / 30; // s of a world's time from one picture of a flight to the next
+const FEW = 4; // names that a sentence has room for
 const STEPS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 const TURNS = { ",": 15, ".": -15 }; // degrees, counter-clockwise
 
@@ -28,7 +30,11 @@ class Hand {
     $("things").addEventListener("keydown", (event) => this.key(event));
     const giveUp = (event) => event.key === "Escape" && this.held?.begun && this.giveUp(event);
     document.addEventListener("keydown", giveUp, true);
-    this.page.shown = () => this.handle.remove();
+    this.page.shown = () => {
+      this.handle.remove();
+      this.beckon();
+      this.unlight(this.live.good, this.page.lesson.frames[this.page.index].step);
+    };
     this.handle = this.page.picture.make("circle");
     this.handle.setAttribute("class", "handle");
     this.handle.setAttribute("r", 9);
@@ -46,8 +52,7 @@ class Hand {
         if (found === this.handle) return this.handled;
         const [key, one] = (found.parentNode === this.page.picture.layer && this.lesson.keys[found.thing]) || [];
         if (!one || !MOVED.test(key)) continue;
-        if (!ATLAS.test(key)) return one;
-        if (this.isCorner(one, this.page.placeOf({ clientX, clientY }))) return one;
+        return one;
       }
     return this.live.hasLevel && this.isVertex(this.page.placeOf({ clientX, clientY })) ? WALL : null;
   }
@@ -61,34 +66,27 @@ class Hand {
 
   sizes(one) {
     const [drawn] = this.drawnOf(one);
-    return drawn && ATLAS.test(this.lesson.keys[drawn.thing][0]);
+    return drawn && ATLAS.test(this.lesson.keys[drawn.key][0]);
   }
 
-  // Of a texture it is the lower right corner, and its size is what moves.
+  // Of a texture it is the lower right corner that moves, and with it its size.
   isCorner(one, { x, y }) {
     const [left, upper, right, lower] = this.boxOf(one);
-    return Math.hypot(right - x, lower - y) < Math.min(REACH, 0.4 * (right - left), 0.4 * (lower - upper));
+    return Math.hypot(right - x, lower - y) < Math.max(REACH, Math.min(3 * REACH, 0.4 * (right - left), 0.4 * (lower - upper)));
   }
 
   // What is drawn of a body, without its name.
-  drawnOf(one) {
-    return [...this.page.picture.layer.children].filter(({ thing, kind }) => {
-      const [key, first] = this.lesson.keys[thing];
-      return kind !== KIND.text && first === one && MOVED.test(key);
+  drawnOf(one, lesson = this.lesson, index = this.page.picture.index) {
+    return lesson.lists[index].map((row) => lesson.shape(row)).filter(({ key, kind }) => {
+      const [name, first] = lesson.keys[key];
+      return kind !== KIND.text && first === one && MOVED.test(name);
     });
   }
 
   // The box around that, [x, y, x, y].
-  boxOf(one) {
-    const box = [Infinity, Infinity, -Infinity, -Infinity];
-    for (const { kind, at } of this.drawnOf(one)) {
-      const points = kind === KIND.rect ? [at[0], at[1], at[0] + at[2], at[1] + at[3]] : at;
-      points.forEach((n, i) => {
-        box[i % 2] = Math.min(box[i % 2], n);
-        box[2 + (i % 2)] = Math.max(box[2 + (i % 2)], n);
-      });
-    }
-    return box;
+  boxOf(one, lesson, index) {
+    return boxAround(this.drawnOf(one, lesson, index).flatMap(({ kind, at }) =>
+      kind === KIND.rect ? [at[0], at[1], at[0] + at[2], at[1] + at[3]] : at));
   }
 
   middleOf(one) {
@@ -99,19 +97,23 @@ class Hand {
   // --- by pointer
 
   down(event) {
-    this.dragged = false;
+    this.dragged = this.flies;
     this.pressed = event;
+    this.beside = false;
     if (event.button || this.held) return;
     const one = this.at(event);
     if (one === null) return;
     const { x, y } = this.page.placeOf(event);
-    const turns = event.altKey || event.target === this.handle;
+    const sizes = this.sizes(one);
+    if (sizes && !this.isCorner(one, { x, y })) return (this.beside = true);
+    const turns = !sizes && (event.altKey || event.target === this.handle);
     const place = { from: { x, y }, at: { x, y }, turn: 0 };
     this.held = { one, ...place, pointer: event.pointerId, turns, start: event, track: [] };
   }
 
   move(event) {
     const { held } = this;
+    if (!held && this.beside && event.buttons) this.live.say("A texture’s size is what can be changed: drag its corner.");
     if (!held) return this.hover(event);
     if (event.pointerId !== held.pointer) return;
     event.stopImmediatePropagation();
@@ -139,18 +141,20 @@ class Hand {
 
   hover(event) {
     const one = event.pointerType === "touch" || event.buttons ? null : this.at(event);
-    $("stage").dataset.hand = one === null ? "" : this.sizes(one) ? "size" : "grab";
-    if (one) this.offerTurn(one);
+    const sizes = one && this.sizes(one);
+    const isCorner = sizes && this.isCorner(one, this.page.placeOf(event));
+    $("stage").dataset.hand = one === null ? "" : isCorner ? "size" : sizes ? "texture" : one && this.live.passes ? "throw" : "grab";
+    if (one) this.offer(one, sizes);
     else if (event.target.parentNode === this.page.picture.layer) this.handle.remove();
   }
 
-  // A handle beside a body of a world in which things turn.
-  offerTurn(one) {
-    if (!this.live.passes || this.sizes(one) || this.held) return this.handle.remove();
-    const [, upper, right] = this.boxOf(one);
+  // A handle: at a texture's corner, or beside a body of a world in which things turn.
+  offer(one, sizes) {
+    if (this.held || !(sizes || this.live.passes)) return this.handle.remove();
+    const [, upper, right, lower] = this.boxOf(one);
     this.handled = one;
-    this.handle.setAttribute("cx", right + 8);
-    this.handle.setAttribute("cy", upper - 8);
+    this.handle.setAttribute("cx", sizes ? right : right + 8);
+    this.handle.setAttribute("cy", sizes ? lower : upper - 8);
     this.page.picture.svg.append(this.handle);
   }
 
@@ -164,7 +168,8 @@ class Hand {
     this.handle.remove();
     live.say("");
     page.pause();
-    page.pointing?.light(null);
+    this.welcome();
+    this.watch(kindOf(held.one) === "body" ? held.one : null);
     $("stage").dataset.hand = "grabbing";
     live.editor.flush();
     live.soon("grab", async () => {
@@ -173,6 +178,7 @@ class Hand {
         : await live.engine.ask({ do: "grab", frame: page.index, entity, ...from });
       if (!refused) return;
       held.refused = true;
+      this.watch(null);
       if (entity !== WALL) live.say(refused[0].message);
     });
   }
@@ -190,13 +196,21 @@ class Hand {
       .catch((error) => { held.refused = true; throw error; });
     if (answer.refused) return live.say(answer.refused[0].message);
     held.last = answer;
-    page.look(live.retoldAlone(new Lesson(answer.lesson, page.lesson)), answer.facts);
+    this.look(answer, answer.text);
     live.editor.show(answer.text);
     live.mark(answer.text);
     return answer;
   }
 
-  // The hand lets go: the whole is run from the text that came of it, and what was thrown flies on.
+  // One frame that the engine has drawn.
+  look({ lesson, facts }, text) {
+    const { live, page } = this;
+    this.unlight(text, lesson.frames[0].step);
+    page.look(live.retoldAlone(new Lesson(lesson, page.lesson), facts), facts);
+    page.pointing.light();
+  }
+
+  // The hand lets go: the whole is run from the text that came of it, and what was thrown flies first.
   release(held, speed) {
     const { live } = this;
     this.held = null;
@@ -207,9 +221,80 @@ class Hand {
       if (!last) return;
       live.take(last.text, "hand");
       live.cause = null;
-      await live.run({ index: last.index, plays: Boolean(speed) });
+      const time = speed && (await this.fly(last));
+      await live.run(time ? { time } : { index: last.index });
       this.tell(held.one);
     });
+  }
+
+  // A run of its own, whose steps stop every few moments, is seen in its world's own time until it ends
+  // or the reader does something else. Tells the time that it has come to.
+  async fly({ text, index, lesson: { frames: [{ step, time: start }] } }) {
+    const { engine, name } = this.live;
+    const dense = stopping(text, step, Math.max(1, Math.round(FRAME / timeStepOf(text))));
+    const { frames } = await engine.ask({ do: "open", text: dense, name });
+    this.flies = true;
+    const stop = () => (this.flies = false);
+    for (const kind of ["pointerdown", "keydown"]) document.addEventListener(kind, stop, { capture: true, once: true });
+    const began = performance.now();
+    let time = start;
+    const gone = () => ((performance.now() - began) / 1000) * Number($("speed").value);
+    for (let i = index + 1; this.flies && i < frames; i += Math.max(1, Math.floor((gone() + start - time) / FRAME))) {
+      const drawn = await engine.ask({ do: "frame", index: i });
+      [{ time }] = drawn.lesson.frames;
+      await new Promise((then) => setTimeout(then, 1000 * (time - start - gone())));
+      this.look(drawn, dense);
+    }
+    this.flies = false;
+    return time;
+  }
+
+  // --- what is told of a body
+
+  // Its nodes and pairs stay lit, and a sentence says them, until another one is held.
+  watch(one) {
+    const { pointing } = this.page;
+    this.page.watched = one;
+    if (!pointing) return;
+    pointing.watched = one;
+    pointing.light();
+  }
+
+  // What a step asks of the world stays lit; what the lesson points out in it, or puts there, does not.
+  unlight(text, step) {
+    this.page.picture.svg.classList.toggle("unlit", Boolean(this.page.watched) && PLAIN.test(stepsOf(text)[step + 1]));
+  }
+
+  // What a frame's facts say of the body that is watched: where it is stored, and its pairs.
+  sentence(lesson, index, sides) {
+    const { watched } = this.page;
+    const facts = watched && sides.find(({ name }) => name === sideOf(watched));
+    const name = watched && nameOf(watched);
+    if (!facts?.bodies.some(([, known]) => known === name)) return "";
+    const side = new Relations(facts);
+    const isDrawn = lesson.lists[index].some((row) => kindOf(lesson.keys[lesson.shape(row).key][1] ?? "") === "node");
+    const stored = isDrawn ? this.stored(side.leavesWith(name), this.boxOf(watched, lesson, index)) : "";
+    const all = new Map(facts.counts).get("pairs");
+    const others = side.pairs.flatMap((pair) => (pair.includes(name) ? pair.filter((one) => one !== name) : []));
+    const tested = all === undefined || all !== side.pairs.length ? ""
+      : !all ? "there are no candidate pairs"
+      : !others.length ? `it is in ${all === 1 ? "no candidate pair" : `none of the ${all} candidate pairs`}`
+      : `it is in ${others.length === all ? (all === 1 ? "the only candidate pair" : `all ${all} candidate pairs`)
+        : `${others.length} of ${all} candidate pairs`}, with ${listed(others)}`;
+    const told = [stored && `${name} ${stored}`, tested && (stored ? tested : tested.replace("it is", `${name} is`))].filter(Boolean);
+    return told.map((part) => `${part.replace(/^[a-z](?=[a-z]+\b)/, (letter) => letter.toUpperCase())}.`).join(" ");
+  }
+
+  stored(leaves, box) {
+    const word = /^\s*kind\s*=\s*"grid"/m.test(this.live.text) ? ["cell", "cells"] : ["leaf", "leaves"];
+    const labels = leaves.map(({ label }) => label).filter(Boolean);
+    const named = labels.length === leaves.length && labels.length <= FEW ? ` ${listed(labels)}` : "";
+    if (!leaves.length) return "";
+    if (leaves.length === 1) return named === " root" ? "is stored in the root" : `is stored in ${named ? `${word[0]}${named}` : `one ${word[0]}`}`;
+    const lies = leaves.every(({ outline }) => isBox(outline) && meets(boxAround(outline), box));
+    const how = leaves.length === 2 ? "both" : `all ${leaves.length}`;
+    return lies ? `lies across ${named ? "" : `${leaves.length} `}${word[1]}${named} and is stored in ${how}`
+      : `is stored in ${leaves.length} ${word[1]}${named && `,${named}`}`;
   }
 
   // All is as it was.
@@ -230,9 +315,7 @@ class Hand {
     const { facts, index } = this.page;
     const side = facts[index].find(({ name }) => name === sideOf(one)) ?? facts[index][0];
     const body = side.bodies.find(([, name]) => name === nameOf(one));
-    const pairs = new Map(side.counts).get("pairs");
-    const told = pairs === undefined ? "" : `; ${pairs} candidate pair${pairs === 1 ? "" : "s"}`;
-    $("said").textContent = `${nameOf(one)}${body ? ` at ${body[2].join(", ")}` : ""}${told}`;
+    $("said").textContent = `${nameOf(one)}${body ? ` at ${body[2].join(", ")}` : ""}. ${this.sentence(this.page.lesson, index, facts[index])}`;
   }
 
   // --- by keys, of the body that has the focus among the frame's things
@@ -258,19 +341,81 @@ class Hand {
     this.resting = setTimeout(() => this.release(held, null), 400);
   }
 
-  // Told once.
+  // --- that it can be done
+
+  // What can be moved pulses, and words say so, until somebody has done it.
   invite() {
-    const first = [...this.page.picture.layer.children].find(({ thing }) => MOVED.test(this.lesson.keys[thing][0]));
-    if (!first && !this.live.hasLevel) return;
     try {
       if (localStorage.getItem("lantern-hand")) return;
-      localStorage.setItem("lantern-hand", "1");
     } catch {} // a page may be kept from remembering
-    const isAtlas = first && ATLAS.test(this.lesson.keys[first.thing][0]);
-    const what = isAtlas ? "texture’s corner" : first ? "body" : "corner of a wall";
-    this.live.say(`Drag a ${what}: the engine answers.`);
+    const first = this.inviting;
+    if (!first && !this.live.hasLevel) return;
+    const what = first && this.sizes(first) ? "Drag the corner of a texture" : !first ? "Drag the corner of a wall"
+      : this.live.passes ? "Drag a body, or throw it" : "Drag a body";
+    $("invitation").textContent = `${what}: the engine answers.`;
+    $("invitation").hidden = false;
+    this.beckon();
+  }
+
+  // The first thing of the frame that can be moved.
+  get inviting() {
+    const fixed = new Set(this.page.facts[this.page.index].flatMap(({ bodies, name: side }) =>
+      bodies.flatMap(([, name, , , state]) => (state === "static" ? [entity(side, "body", name)] : []))));
+    const shape = this.lesson.lists[this.page.picture.index].map((row) => this.lesson.keys[this.lesson.shape(row).key])
+      .find(([key, one]) => one && MOVED.test(key) && !fixed.has(one));
+    return shape?.[1];
+  }
+
+  beckon() {
+    this.mark?.remove();
+    const one = !$("invitation").hidden && this.inviting;
+    if (!one) return;
+    const [left, upper, right, lower] = this.boxOf(one);
+    this.mark = this.page.picture.make("g");
+    this.mark.setAttribute("class", "beckon");
+    this.mark.innerHTML = `<rect x="${left - 8}" y="${upper - 8}" width="${right - left + 16}" height="${lower - upper + 16}" rx="10"/>
+<path transform="translate(${right - 8} ${lower - 8}) scale(1.7)" d="M9 14V5a2 2 0 0 1 4 0v7l5 1a2.5 2.5 0 0 1 2 3l-1 4a4 4 0 0 1-4 3h-2a5 5 0 0 1-4-2l-4-5a1.7 1.7 0 0 1 2.5-2.2z"/>`;
+    this.page.picture.svg.append(this.mark);
+  }
+
+  // It has been done.
+  welcome() {
+    $("invitation").hidden = true;
+    this.mark?.remove();
+    try {
+      localStorage.setItem("lantern-hand", "1");
+    } catch {}
   }
 }
+
+const listed = (names) => names.length > FEW ? `${names.slice(0, FEW - 1).join(", ")} and ${names.length - FEW + 1} more`
+  : names.length > 1 ? `${names.slice(0, -1).join(", ")} and ${names.at(-1)}` : names[0];
+
+// The box around points, [x, y, x, y].
+function boxAround(points) {
+  const box = [Infinity, Infinity, -Infinity, -Infinity];
+  points.forEach((n, i) => {
+    box[i % 2] = Math.min(box[i % 2], n);
+    box[2 + (i % 2)] = Math.max(box[2 + (i % 2)], n);
+  });
+  return box;
+}
+
+const meets = (a, b) => a[0] <= b[2] && b[0] <= a[2] && a[1] <= b[3] && b[1] <= a[3];
+const isBox = (outline) => outline.length === 8 && new Set(outline.filter((_, i) => i % 2)).size === 2 &&
+  new Set(outline.filter((_, i) => !(i % 2))).size === 2;
+
+const timeStepOf = (text) => Number(text.match(/^\s*time_step\s*=\s*([\d.e+-]+)/m)?.[1]) || 1 / 60;
+
+// A script whose steps behind one in which time passes stop every so many steps of the world.
+function stopping(text, step, every) {
+  const [head, ...steps] = stepsOf(text);
+  return [head, ...steps.map((lines, i) => i < step || !PASSES.test(lines) ? lines
+    : lines.replace(/^\s*every\s*=.*$/m, "").replace(PASSES, `$&\nevery = ${every}`))].join("");
+}
+const stepsOf = (text) => text.split(/^(?=[ \t]*\[\[step\]\])/m);
+const PLAIN = /^\s*do\s*=\s*["'](show|insert|emit|remove|move|run|wait|rebuild|sleep|wake)["']/m;
+const PASSES = /^\s*do\s*=\s*["'](run|wait)["'].*$/m;
 
 // How far a hand has gone around a middle, counter-clockwise.
 function degrees(middle, from, to) {

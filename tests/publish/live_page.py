@@ -57,7 +57,7 @@ return { index: window.lantern.index, own: live.text === live.own.text, past: li
 document.getElementById('source').value, marked: !document.getElementById('own').firstElementChild.hidden }"""
 
 
-SHAPES = "return [...window.lantern.picture.layer.children].map((e) => e.outerHTML.replace(' thing', '')).join('')"
+SHAPES = "return [...window.lantern.picture.layer.children].map((e) => e.outerHTML.replace(/ thing| link/g, '')).join('')"
 
 
 def check_hand(page):
@@ -69,6 +69,11 @@ def check_hand(page):
     expect("the body is where the hand has put it", abs(moved[0] - x - 90) < 3 and abs(moved[1] - y - 20) < 3)
     expect("so is the text", page.run(STATE), {"index": STEP, "own": False, "past": 1, "shown": True, "marked": True})
     expect("what was done is said", page.run("return document.getElementById('said').textContent").startswith("red at "))
+    expect("what its facts are", page.run("return document.getElementById('caption').textContent"),
+           "Red lies across leaves 1 and 2 and is stored in both. It is in 2 of 3 candidate pairs, with pink and blue.")
+    expect("and where it is stored is lit", page.run(
+        "return [...new Set([...document.querySelectorAll('#picture .lit')].map((e) => window.lantern.lesson.keys[e.thing][0]))]"
+        ".filter((key) => key.startsWith('tree/node/'))"), ["tree/node/root.0", "tree/node/root.1"])
     page.run("window.lantern.live.undo()")
     at_rest(page)
     expect("undone", page.run(STATE), {"index": STEP, "own": True, "past": 0, "shown": True, "marked": False})
