@@ -343,9 +343,19 @@ const questionsOf = ({ questions = [] }) =>
 
 // --- a page of many scenarios
 
+// The course's parts, each from one place in the lecture on.
+const PARTS = [[1, "Why a broad phase"], [4, "Binary space partitioning and quadtrees"], [8, "Nodes and their memory"],
+  [13, "What stands still, what sleeps"], [16, "Octrees and kD-trees"], [20, "Levels and views"],
+  [26, "The narrow phase"], [30, "The lecture’s code"], [33, "Physics"], [41, "Other structures"]];
+const partOf = ({ lecture }) => (lecture === null ? "More" : PARTS.findLast(([first]) => lecture >= first)[1]);
+const inOrder = (scenarios) => scenarios.sort((a, b) => (a.lecture ?? Infinity) - (b.lecture ?? Infinity) || 0);
+
 function fillChoice(live, scenarios) {
   const list = $("scenario-list");
-  list.replaceChildren(...scenarios.map(({ title, name }, i) => element(document, "option", { value: i, text: title || name })));
+  const groups = new Map();
+  scenarios.forEach((scenario, i) => listIn(groups, partOf(scenario)).push(i));
+  const option = (i) => element(document, "option", { value: i, text: [scenarios[i].lecture, scenarios[i].title || scenarios[i].name].filter(Boolean).join(" ") });
+  list.replaceChildren(...[...groups].map(([label, members]) => element(document, "optgroup", { label, children: members.map(option) })));
   list.hidden = false;
   list.addEventListener("change", () => {
     live.begin(scenarios[list.value]);
@@ -359,7 +369,7 @@ async function startLive(page) {
   const packed = read("engine-packed") ?? window.lanternEngine;
   document.documentElement.dataset.live = "loading";
   const engine = new Engine(packed, read("worker-script"));
-  const scenarios = JSON.parse(read("scenarios") ?? "[]");
+  const scenarios = inOrder(JSON.parse(read("scenarios") ?? "[]"));
   const scenario = scenarios[0] ?? JSON.parse(read("scenario"));
   await engine.start();
   const { text, name } = scenario;

@@ -9,6 +9,38 @@ class Controls {
       if (field) this.set(field.dataset.path, valueIn(field));
     });
     $("change-part").addEventListener("submit", (event) => event.preventDefault());
+    $("add").addEventListener("click", () => this.add());
+    $("remove").addEventListener("click", () => this.remove());
+  }
+
+  // A body where there is most room, and a step in which it enters.
+  add() {
+    const { text, page } = this.live;
+    const [least, most] = boundsOf(text);
+    if (!least) return this.live.say("This world’s bounds are not written: add a body in the text.");
+    const { name: side, bodies } = page.facts[page.index][0];
+    const name = Array.from({ length: 1000 }, (_, i) => `new${i + 1}`).find((one) => !text.includes(`"${one}"`));
+    const radius = Math.min(...most.map((n, i) => n - least[i])) / 20;
+    const place = roomiest(least, most, bodies.map(([, , at]) => at));
+    const body = `[[body]]\nname = "${name}"\nradius = ${+radius.toPrecision(2)}\nposition = [${place.join(", ")}]\n\n`;
+    this.insertStep(`do = "insert"\nbodies = ["${name}"]`, body, entity(side, "body", name));
+  }
+
+  remove() {
+    const { watched } = this.live.page;
+    if (!watched) return this.live.say("Move the body that is to go: then it is the one that is meant.");
+    this.insertStep(`do = "remove"\nbodies = ["${nameOf(watched)}"]`, "", null);
+  }
+
+  // A step behind the one that is seen, with tables before the first of all; it is then the one that is seen.
+  insertStep(lines, tables, watched) {
+    const { live } = this, { page } = live;
+    const [head, ...steps] = stepsOf(live.text);
+    const { step } = page.lesson.frames[page.index];
+    steps[step] = `${steps[step].trimEnd()}\n\n[[step]]\n${lines}\n${step === steps.length - 1 ? "" : "\n"}`;
+    page.watched = watched;
+    live.editor.flush();
+    live.change(head + tables + steps.join(""), "body", { index: page.lesson.frames.findLastIndex((frame) => frame.step === step) + 1 });
   }
 
   set(path, value) {
@@ -26,13 +58,30 @@ class Controls {
   async refresh() {
     if ($("change-part").hidden) return;
     const { controls } = await this.live.engine.ask({ do: "controls" });
+    $("add").parentNode.hidden = !/^\s*\[world\]/m.test(this.live.good);
     const paths = controls.map(({ path }) => path).join();
-    if (paths !== this.paths) $("change-part").replaceChildren(...fieldsOf(controls));
+    if (paths !== this.paths) $("fields").replaceChildren(...fieldsOf(controls));
     this.paths = paths;
-    if (!controls.length) $("change-part").textContent = "Nothing here can be set by hand. The text can be changed.";
+    if (!controls.length) $("fields").textContent = "Nothing here can be set by hand. The text can be changed.";
     for (const field of document.querySelectorAll("#change-part [data-path]"))
       putIn(field, controls.find(({ path }) => path === field.dataset.path));
   }
+}
+
+// The least and the most of a world, as its table has them.
+function boundsOf(text) {
+  const world = text.match(/^\s*\[world\]([^]*?)(?=^\s*\[|$(?![^]))/m)?.[1] ?? "";
+  const point = (key) => world.match(new RegExp(`^\\s*${key}\\s*=\\s*\\[([^\\]]*)\\]`, "m"))?.[1].split(",").map(Number);
+  const [size, least, most] = ["size", "min", "max"].map(point);
+  return size ? [size.map(() => 0), size] : least && most ? [least, most] : [];
+}
+
+// Of the places in a coarse grid the one that is farthest from walls and bodies.
+function roomiest(least, most, bodies) {
+  const shares = [7, 3, 13, 5, 11, 9].map((n) => n / 16); // not where trees cut
+  const places = least.reduce((all, low, i) => all.flatMap((at) => shares.map((share) => [...at, low + share * (most[i] - low)])), [[]]);
+  const room = (at) => Math.min(...at.flatMap((n, i) => [n - least[i], most[i] - n]).map((n) => 2 * n), ...bodies.map((one) => Math.hypot(...at.map((n, i) => n - one[i]))));
+  return places.reduce((a, b) => (room(b) > room(a) ? b : a)).map((n) => +n.toPrecision(3));
 }
 
 // Each under its table's name.

@@ -5,7 +5,7 @@ const MOVED = /(^|\/)(world\/(body|box|name|over|corner)|atlas\/(texture|plate))
 const ATLAS = /(^|\/)atlas\//;
 const WALL = ""; // what the engine calls the corner of a wall that is near
 const DRAG_SECONDS = 2;
-const REACH = 16; // page units to a texture's corner, or beside a body for a finger
+const REACH = 16; // pixels to a corner, or beside a body for a finger
 const THROWN = 250; // page units a second: slower is let go
 const FRAME = 1 / 30; // s of a world's time from one picture of a flight to the next
 const FEW = 4; // names that a sentence has room for
@@ -44,6 +44,11 @@ class Hand {
     return this.page.picture.lesson;
   }
 
+  // Pixels of a page unit.
+  get scale() {
+    return $("picture").getScreenCTM().a;
+  }
+
   // What can be moved at a place of the window.
   at({ clientX, clientY, pointerType }) {
     const ways = pointerType === "touch" ? [[0, 0], [-REACH, 0], [REACH, 0], [0, -REACH], [0, REACH]] : [[0, 0]];
@@ -61,7 +66,7 @@ class Hand {
   isVertex({ x, y }) {
     return [...this.page.picture.layer.children].some(({ thing, kind, at }) =>
       (kind === KIND.line || kind === KIND.polygon) && /^$|(^|\/)world\//.test(this.lesson.keys[thing][0]) &&
-      at.some((n, i) => i % 2 === 0 && Math.hypot(n - x, at[i + 1] - y) < REACH));
+      at.some((n, i) => i % 2 === 0 && Math.hypot(n - x, at[i + 1] - y) < REACH / this.scale));
   }
 
   sizes(one) {
@@ -72,7 +77,7 @@ class Hand {
   // Of a texture it is the lower right corner that moves, and with it its size.
   isCorner(one, { x, y }) {
     const [left, upper, right, lower] = this.boxOf(one);
-    return Math.hypot(right - x, lower - y) < Math.max(REACH, Math.min(3 * REACH, 0.4 * (right - left), 0.4 * (lower - upper)));
+    return Math.hypot(right - x, lower - y) < Math.max(REACH / this.scale, Math.min(3 * REACH, 0.4 * (right - left), 0.4 * (lower - upper)));
   }
 
   // What is drawn of a body, without its name.
@@ -348,12 +353,7 @@ class Hand {
     try {
       if (localStorage.getItem("lantern-hand")) return;
     } catch {} // a page may be kept from remembering
-    const first = this.inviting;
-    if (!first && !this.live.hasLevel) return;
-    const what = first && this.sizes(first) ? "Drag the corner of a texture" : !first ? "Drag the corner of a wall"
-      : this.live.passes ? "Drag a body, or throw it" : "Drag a body";
-    $("invitation").textContent = `${what}: the engine answers.`;
-    $("invitation").hidden = false;
+    this.invites = true;
     this.beckon();
   }
 
@@ -368,20 +368,25 @@ class Hand {
 
   beckon() {
     this.mark?.remove();
-    const one = !$("invitation").hidden && this.inviting;
+    const one = this.invites && this.inviting;
+    const isWall = !one && this.live.hasLevel;
+    $("invitation").hidden = !this.invites || !(one || isWall);
+    const what = isWall ? "Drag the corner of a wall" : one && this.sizes(one) ? "Drag the corner of a texture"
+      : this.live.passes ? "Drag a body, or throw it" : "Drag a body";
+    $("invitation").textContent = `${what}: the engine answers.`;
     if (!one) return;
     const [left, upper, right, lower] = this.boxOf(one);
     this.mark = this.page.picture.make("g");
     this.mark.setAttribute("class", "beckon");
     this.mark.innerHTML = `<rect x="${left - 8}" y="${upper - 8}" width="${right - left + 16}" height="${lower - upper + 16}" rx="10"/>
-<path transform="translate(${right - 8} ${lower - 8}) scale(1.7)" d="M9 14V5a2 2 0 0 1 4 0v7l5 1a2.5 2.5 0 0 1 2 3l-1 4a4 4 0 0 1-4 3h-2a5 5 0 0 1-4-2l-4-5a1.7 1.7 0 0 1 2.5-2.2z"/>`;
+<path transform="translate(${right - 8} ${lower - 8}) scale(${1.7 * Math.max(1, 0.7 / this.scale)})" d="M9 14V5a2 2 0 0 1 4 0v7l5 1a2.5 2.5 0 0 1 2 3l-1 4a4 4 0 0 1-4 3h-2a5 5 0 0 1-4-2l-4-5a1.7 1.7 0 0 1 2.5-2.2z"/>`;
     this.page.picture.svg.append(this.mark);
   }
 
   // It has been done.
   welcome() {
-    $("invitation").hidden = true;
-    this.mark?.remove();
+    this.invites = false;
+    this.beckon();
     try {
       localStorage.setItem("lantern-hand", "1");
     } catch {}
@@ -401,7 +406,7 @@ function boxAround(points) {
   return box;
 }
 
-const meets = (a, b) => a[0] <= b[2] && b[0] <= a[2] && a[1] <= b[3] && b[1] <= a[3];
+const meets = (a, b) => [0, 1].every((i) => a[i] <= b[i + 2] + 1 && b[i] <= a[i + 2] + 1); // outlines are whole numbers
 const isBox = (outline) => outline.length === 8 && new Set(outline.filter((_, i) => i % 2)).size === 2 &&
   new Set(outline.filter((_, i) => !(i % 2))).size === 2;
 
