@@ -77,6 +77,17 @@ class Browser:
     def run(self, script, *arguments):
         return self.ask("POST", "/execute/sync", {"script": script, "args": list(arguments)})
 
+    def promise(self, script, *arguments):
+        """What a promise that the script returns comes to."""
+        code = f"const done = arguments[arguments.length - 1]; (function () {{ {script} }}).apply(null, arguments).then(done, (e) => done(String(e)))"
+        return self.ask("POST", "/execute/async", {"script": code, "args": list(arguments)})
+
+    def before_load(self, script):
+        self.cdp("Page.addScriptToEvaluateOnNewDocument", source=script)
+
+    def save_to(self, folder):
+        self.cdp("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(folder))
+
     def wait_for(self, script):
         end = time.monotonic() + PATIENCE
         while not (value := self.run(f"return {script}")):
@@ -94,6 +105,13 @@ class Browser:
         if click:
             actions += [{"type": "pointerDown", "button": 0}, {"type": "pointerUp", "button": 0}]
         self.ask("POST", "/actions", {"actions": [{"type": "pointer", "id": "mouse", "actions": actions}]})
+
+    def mouse(self, kind, x, y):
+        """A move, or the left button down or up, with no rest."""
+        names = {"pointerMove": "mouseMoved", "pointerDown": "mousePressed", "pointerUp": "mouseReleased"}
+        self.down = kind == "pointerDown" or (kind == "pointerMove" and getattr(self, "down", False))
+        self.cdp("Input.dispatchMouseEvent", type=names[kind], x=x, y=y, button="left" if self.down or kind == "pointerUp" else "none",
+                 buttons=int(self.down), clickCount=int(kind != "pointerMove"))
 
     def screenshot(self):
         return base64.b64decode(self.ask("GET", "/screenshot"))

@@ -1,11 +1,13 @@
-"""A live lesson page in a real browser. Usage: live_page.py LANTERN ROOT FOLDER [ENGINE]"""
+"""A live lesson page in a real browser. Usage: live_page.py LANTERN ROOT FOLDER [ENGINE] [--firefox]"""
 
 import json
 import pathlib
+import statistics
 import subprocess
 import sys
 import time
 
+import firefox
 from browser import Browser
 
 SIZE = (1280, 720)
@@ -42,13 +44,11 @@ def drag(page, name, dx, dy, moves=10):
     x, y = middle_of(page, name)
     page.move_to(x, y)
     expect(f"{name} can be held", page.run("return document.getElementById('stage').dataset.hand"), "grab")
-    mouse = lambda kind, x, y, buttons: page.cdp("Input.dispatchMouseEvent", type=kind, x=x, y=y, buttons=buttons,
-                                                 button="left", clickCount=1)
-    mouse("mousePressed", x, y, 1)
+    page.mouse("pointerDown", x, y)
     for i in range(1, moves + 1):
-        mouse("mouseMoved", x + dx * i / moves, y + dy * i / moves, 1)
+        page.mouse("pointerMove", x + dx * i / moves, y + dy * i / moves)
     time.sleep(0.15)  # who rests does not throw
-    mouse("mouseReleased", x + dx, y + dy, 0)
+    page.mouse("pointerUp", x + dx, y + dy)
     at_rest(page)
 
 
@@ -106,11 +106,16 @@ def check_keys(page):
 
 def check_controls(page):
     page.press("c")
-    page.wait_for("document.querySelector('[data-path=\"structure.capacity\"] input')")
+    page.wait_for("document.querySelector('[data-path=\"structure.capacity\"] input') !== null")
     page.run("const i = document.querySelector('[data-path=\"structure.capacity\"] input'); i.value = 4;"
              " i.dispatchEvent(new Event('input', {bubbles: true}))")
     at_rest(page)
     expect("a slider changes the text", page.run("return /capacity = 4/.test(window.lantern.live.text)"))
+    bodies = "return window.lantern.facts[window.lantern.index][0].bodies.map(([, name]) => name)"
+    for button, names in (("add", ["blue", "new1"]), ("remove", ["blue"])):
+        page.run("document.getElementById(arguments[0]).click()", button)
+        at_rest(page)
+        expect(f"{button} a body", page.run(bodies)[3:], names)
     page.press("c")
     page.run("document.getElementById('again').click()")
     at_rest(page)
@@ -150,50 +155,66 @@ def check_link(page):
     expect("and the frame", page.run("return window.lantern.index"), index)
 
 
-# What the program says of the text as the page would save it.
-def check_hashes(page, lantern, folder):
+# What the program says of the file that the page saves.
+def check_download(page, lantern, folder):
     page.run("window.lantern.go(arguments[0])", STEP)
     drag(page, "blue", -60, 30)
     file = folder / "ghost_quadtree.toml"
-    file.write_text(page.run("return window.lantern.live.text"))
+    file.unlink(missing_ok=True)
+    page.save_to(folder)
+    page.press("t")
+    page.run("document.getElementById('download').click()")
+    for _ in range(6000):
+        if file.exists() and not list(folder.glob("*.part")) and not list(folder.glob("*.crdownload")):
+            break
+        time.sleep(0.01)
+    page.press("escape")
+    expect("the file is the text", file.read_bytes().decode(), page.run("return window.lantern.live.text"))
     said = subprocess.run([lantern, "check", "--json", "--hashes", file], capture_output=True, text=True)
     told = json.loads(said.stdout)["scenarios"][0]["hashes"]
-    mine = page.ask("POST", "/execute/async", {"script": "window.lantern.run(window.lantern.live.text)"
-                    ".then((all) => arguments[0](all.map(({ hash }) => hash)))", "args": []})
+    mine = page.promise("return window.lantern.run(window.lantern.live.text).then((all) => all.map(({ hash }) => hash))")
     expect("the program has the same hashes of what was dragged", mine, told)
 
 
-def check(address, lantern, folder):
-    with Browser(SIZE) as page:
+def check(browser, address, lantern, folder):
+    with browser(SIZE) as page:
         open_live(page, address)
+        started = page.run("return performance.now()")
         check_hand(page)
         check_keys(page)
         check_controls(page)
         check_text(page)
         check_link(page)
-        check_hashes(page, lantern, folder)
-        frames = page.ask("POST", "/execute/async", {"script": "window.lantern.run(window.lantern.live.own.text)"
-                          ".then((all) => arguments[0](all.length), (error) => arguments[0](String(error)))", "args": []})
+        check_download(page, lantern, folder)
+        frames = page.promise("return window.lantern.run(window.lantern.live.own.text).then((all) => all.length)")
         expect("run() gives the facts of all frames", frames, page.run("return window.lantern.lesson.frames.length"))
+        times = page.run("return window.lantern.live.hand.times")
         expect("no script fails", page.errors(), [])
-        page.cdp("Page.addScriptToEvaluateOnNewDocument", source="delete window.Worker")
+        page.before_load("delete window.Worker")
         page.open("about:blank")
         page.open(address)
         page.wait_for("document.documentElement.dataset.live === 'off'")
         page.press("right")
         expect("without a Worker the recorded lesson is there", page.run("return window.lantern.index > 0"))
+    return f"{browser.__name__}: ready after {started:.0f} ms, a drag is drawn after {statistics.median(times):.0f} ms"
 
 
 def main():
-    lantern, root, folder = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
-    if len(sys.argv) < 5 and not (lantern.parent / "lantern.wasm").exists():
+    words = [word for word in sys.argv[1:] if word != "--firefox"]
+    lantern, root, folder = (pathlib.Path(word).resolve() for word in words[:3])
+    if len(words) < 4 and not (lantern.parent / "lantern.wasm").exists():
         return 77  # ./run web has not been
     folder.mkdir(parents=True, exist_ok=True)
     file = folder / "live.html"
-    engine = ["--engine", sys.argv[4]] if len(sys.argv) > 4 else []
+    engine = ["--engine", words[3]] if len(words) > 3 else []
     subprocess.run([lantern, "render", root / "scenarios/ghost_quadtree.toml", "-o", file, "--live", *engine],
                    check=True, capture_output=True)
-    check(file.as_uri(), lantern, folder)
+    if len(words) == len(sys.argv) - 1:
+        check(Browser, file.as_uri(), lantern, folder)
+    elif not firefox.BINARY:
+        return 77
+    else:
+        print(check(firefox.Firefox, file.as_uri(), lantern, folder))
     for failure in failures:
         print(failure)
     return 1 if failures else 0
