@@ -17,30 +17,23 @@ constexpr const char* kEmptyWorld = R"(title = "An empty world"
 [world]
 size = [16, 9]
 
-# Without the signs before them, these lines put two bodies and a quadtree into it.
-#
-# [structure]
-# kind = "quadtree"
-# capacity = 1
-#
-# [[body]]
-# name = "ann"
-# radius = 0.5
-# position = [3, 6]
-#
-# [[body]]
-# name = "bob"
-# radius = 0.5
-# position = [12, 3]
-#
-# [[step]]
-# do = "insert"
-# bodies = ["ann", "bob"]
-# caption = "Two bodies, and {pairs} candidate pairs."
+[structure]
+kind = "quadtree"
+capacity = 1
+
+[[body]]
+name = "ann"
+radius = 0.5
+position = [3, 6]
 
 [[step]]
 do = "show"
-caption = "A world of 16 by 9."
+caption = "An empty world and its quadtree. Under “change”, bodies are added; the next step has one."
+
+[[step]]
+do = "insert"
+bodies = ["ann"]
+caption = "One body: {nodes:node} and {pairs:candidate pair}."
 )";
 
 struct PlaygroundOptions {
