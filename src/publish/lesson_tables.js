@@ -23,7 +23,7 @@ class Words {
 
   load(lesson) {
     this.lesson = lesson;
-    for (const spare of document.querySelectorAll("#words .spare")) spare.remove();
+    for (const spare of document.querySelectorAll("#words .spare:not(.kept)")) spare.remove();
     document.getElementById("words").append(...this.spares());
     document.documentElement.style.setProperty("--ratio", lesson.ratio);
   }
@@ -33,7 +33,8 @@ class Words {
   // that differ in their digits alone need the same room.
   spares() {
     const distinct = new Map();
-    for (const { caption, counters = [], ending } of this.lesson.frames) {
+    for (const { caption, told, counters = [], ending } of this.lesson.frames) {
+      if (told !== undefined) continue;
       const words = JSON.stringify([caption, counters, ending]).replace(/\d/g, "0");
       distinct.set(words, JSON.parse(words));
     }

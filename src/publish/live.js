@@ -76,6 +76,14 @@ class Live {
   // `drawn`: the lesson's own frames, if they are there.
   begin({ name, text, title = document.title }, drawn = null) {
     Object.assign(this, { name, text, title, good: text, own: { text, drawn }, past: [], future: [], cause: null });
+    for (const kept of document.querySelectorAll("#words .kept")) kept.remove();
+    if (drawn) this.keepRoom();
+  }
+
+  // The room for the lesson's words stays where a world of one's own has fewer: nothing jumps.
+  keepRoom() {
+    if (document.querySelector("#words .kept")) return;
+    for (const spare of document.querySelectorAll("#words .spare")) spare.classList.add("kept");
   }
 
   listen() {
@@ -187,6 +195,7 @@ class Live {
     if (isOwn) this.hand.watch(null);
     if (time !== undefined) index = drawn.lesson.frames.findLastIndex((frame) => frame.time <= time + 1e-6);
     page.load(drawn.lesson, drawn.facts, index ?? this.near(drawn.lesson));
+    if (isOwn) this.keepRoom();
     const { title, questions } = drawn.card ?? { title: this.title, questions: questionsOf(drawn) };
     $("title").textContent = document.title = title;
     fillQuestions(page, questions, isOwn);

@@ -270,24 +270,30 @@ class Hand {
     this.page.picture.svg.classList.toggle("unlit", Boolean(this.page.watched) && PLAIN.test(stepsOf(text)[step + 1]));
   }
 
-  // What a frame's facts say of the body that is watched: where it is stored, and its pairs.
+  // What a frame's facts say of the body that is watched: where it is stored, and its pairs. Of two
+  // sides, what both say.
   sentence(lesson, index, sides) {
     const { watched } = this.page;
-    const facts = watched && sides.find(({ name }) => name === sideOf(watched));
-    const name = watched && nameOf(watched);
-    if (!facts?.bodies.some(([, known]) => known === name)) return "";
+    if (!watched) return "";
+    const own = sides.filter(({ name }) => sides.length < 3 || name === sideOf(watched));
+    const told = own.map((facts) => this.told(lesson, index, facts, entity(facts.name, "body", nameOf(watched)), own.length > 1));
+    return told.map((words, i) => (words && own.length > 1 ? `${own[i].title.split(":")[0]}: ${words}` : words)).filter(Boolean)
+      .map((words) => words.replace(/^[a-z](?=[a-z]+\b)/, (letter) => letter.toUpperCase())).join(" ");
+  }
+
+  told(lesson, index, facts, one, isShort) {
+    const name = nameOf(one);
+    if (!facts.bodies.some(([, known]) => known === name)) return "";
     const side = new Relations(facts);
     const isDrawn = lesson.lists[index].some((row) => kindOf(lesson.keys[lesson.shape(row).key][1] ?? "") === "node");
-    const stored = isDrawn ? this.stored(side.leavesWith(name), this.boxOf(watched, lesson, index)) : "";
+    const stored = isDrawn ? this.stored(side.leavesWith(name), this.boxOf(one, lesson, index)) : "";
     const all = new Map(facts.counts).get("pairs");
-    const others = side.pairs.flatMap((pair) => (pair.includes(name) ? pair.filter((one) => one !== name) : []));
+    const others = side.pairs.flatMap((pair) => (pair.includes(name) ? pair.filter((other) => other !== name) : []));
     const tested = all === undefined || all !== side.pairs.length ? ""
-      : !all ? "there are no candidate pairs"
-      : !others.length ? `it is in ${all === 1 ? "no candidate pair" : `none of the ${all} candidate pairs`}`
-      : `it is in ${others.length === all ? (all === 1 ? "the only candidate pair" : `all ${all} candidate pairs`)
-        : `${others.length} of ${all} candidate pairs`}, with ${listed(others)}`;
-    const told = [stored && `${name} ${stored}`, tested && (stored ? tested : tested.replace("it is", `${name} is`))].filter(Boolean);
-    return told.map((part) => `${part.replace(/^[a-z](?=[a-z]+\b)/, (letter) => letter.toUpperCase())}.`).join(" ");
+      : !others.length ? `is in ${all ? `none of the ${all} candidate pairs` : "no candidate pair"}`
+      : `is in ${all === 1 ? "the only candidate pair" : `${others.length === all ? "all" : `${others.length} of`} ${all} candidate pairs`}${isShort ? "" : `, with ${listed(others)}`}`;
+    if (isShort && stored) return `${name} ${stored}${tested.replace("is in", ", in")}.`;
+    return [stored && `${name} ${stored}.`, tested && `${stored ? "It" : name} ${tested}.`].filter(Boolean).join(" ");
   }
 
   stored(leaves, box) {
