@@ -168,5 +168,27 @@ function askFirst(page, { predict, frame }, answer) {
     answer.hidden = false;
     page.go(frame);
   });
-  return [form, said];
+  const choose = (word) => {
+    page.live.guess = { predict, word };
+    $("question-dialog").close();
+    page.go(frame);
+    page.live.say(`You say ${word}. Now drag a body.`);
+  };
+  const buttons = CHANGES.map((word) => {
+    const button = element(document, "button", { type: "button", text: word });
+    button.addEventListener("click", () => choose(word));
+    return button;
+  });
+  return [form, said, element(document, "p", { class: "group", children: ["Or say what your next move makes of them:", ...buttons] })];
+}
+
+const CHANGES = ["fewer", "as many", "more"];
+const countOf = (page, name) => page.facts[page.index].reduce((sum, { counts }) => sum + (new Map(counts).get(name) ?? 0), 0);
+
+// What a move was said to make of a count, and what it has made of it.
+function judge(live, { predict, word, before }) {
+  const now = countOf(live.page, predict);
+  const found = CHANGES[Math.sign(now - before) + 1];
+  live.guess = null;
+  live.say(`${found === word ? "Yes" : "No"}, ${found}: ${before} ${predict.replaceAll("_", " ")} before, ${now} now.`);
 }

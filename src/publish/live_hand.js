@@ -174,6 +174,7 @@ class Hand {
     live.say("");
     page.pause();
     this.welcome();
+    if (live.guess) live.guess.before = countOf(page, live.guess.predict);
     this.watch(kindOf(held.one) === "body" ? held.one : null);
     $("stage").dataset.hand = "grabbing";
     live.editor.flush();
@@ -229,6 +230,7 @@ class Hand {
       const time = speed && (await this.fly(last));
       await live.run(time ? { time } : { index: last.index });
       this.tell(held.one);
+      if (live.guess) judge(live, live.guess);
     });
   }
 
@@ -291,7 +293,7 @@ class Hand {
     const others = side.pairs.flatMap((pair) => (pair.includes(name) ? pair.filter((other) => other !== name) : []));
     const tested = all === undefined || all !== side.pairs.length ? ""
       : !others.length ? `is in ${all ? `none of the ${all} candidate pairs` : "no candidate pair"}`
-      : `is in ${all === 1 ? "the only candidate pair" : `${others.length === all ? "all" : `${others.length} of`} ${all} candidate pairs`}${isShort ? "" : `, with ${listed(others)}`}`;
+      : `is in ${all === 1 ? "the only candidate pair" : `${others.length < all ? `${others.length} of ${all}` : all === 2 ? "both" : `all ${all}`} candidate pairs`}${isShort ? "" : `, with ${listed(others)}`}`;
     if (isShort && stored) return `${name} ${stored}${tested.replace("is in", ", in")}.`;
     return [stored && `${name} ${stored}.`, tested && `${stored ? "It" : name} ${tested}.`].filter(Boolean).join(" ");
   }

@@ -42,6 +42,7 @@ def middle_of(page, name):
 
 def drag(page, name, dx, dy, moves=10):
     x, y = middle_of(page, name)
+    page.move_to(x, y + 1)
     page.move_to(x, y)
     expect(f"{name} can be held", page.run("return document.getElementById('stage').dataset.hand"), "grab")
     page.mouse("pointerDown", x, y)
@@ -121,6 +122,16 @@ def check_controls(page):
     at_rest(page)
 
 
+def check_prediction(page):
+    page.press("q")
+    page.run("[...document.querySelectorAll('#question-dialog button')].find((one) => one.textContent === 'more').click()")
+    drag(page, "red", -60, 60)
+    expect("a prediction is judged by the engine's count", page.run("return document.getElementById('hint').textContent"),
+           "Yes, more: 0 pairs before, 2 now.")
+    page.run("document.getElementById('again').click(); window.lantern.go(arguments[0])", STEP)
+    at_rest(page)
+
+
 def check_text(page):
     page.press("t")
     place = "const s = document.getElementById('source'); s.focus(); const i = s.value.indexOf(arguments[0]) + arguments[1]; s.setSelectionRange(i, i)"
@@ -183,6 +194,7 @@ def check(browser, address, lantern, folder):
         check_hand(page)
         check_keys(page)
         check_controls(page)
+        check_prediction(page)
         check_text(page)
         check_link(page)
         check_download(page, lantern, folder)
