@@ -56,10 +56,13 @@ class Hand {
       for (const found of document.elementsFromPoint(clientX + dx, clientY + dy)) {
         if (found === this.handle) return this.handled;
         const [key, one] = (found.parentNode === this.page.picture.layer && this.lesson.keys[found.thing]) || [];
-        if (!one || !MOVED.test(key)) continue;
-        return one;
+        if (one && MOVED.test(key)) return one;
       }
-    return this.live.hasLevel && this.isVertex(this.page.placeOf({ clientX, clientY })) ? WALL : null;
+    const { x, y } = this.page.placeOf({ clientX, clientY });
+    const hollow = [...this.page.picture.layer.children].findLast(({ thing, kind, at }) =>
+      kind === KIND.polygon && MOVED.test(this.lesson.keys[thing][0]) && holds(at, x, y));
+    if (hollow) return this.lesson.keys[hollow.thing][1];
+    return this.live.hasLevel && this.isVertex({ x, y }) ? WALL : null;
   }
 
   // Whether something that is drawn of a world has a corner here. The engine knows which are walls'.
@@ -102,7 +105,7 @@ class Hand {
   // --- by pointer
 
   down(event) {
-    this.dragged = this.flies;
+    [this.dragged, this.landed] = [this.landed, false]; // a press that ends a flight is no click
     this.pressed = event;
     this.beside = false;
     if (event.button || this.held) return;
@@ -241,7 +244,10 @@ class Hand {
     const dense = stopping(text, step, Math.max(1, Math.round(FRAME / timeStepOf(text))));
     const { frames } = await engine.ask({ do: "open", text: dense, name });
     this.flies = true;
-    const stop = () => (this.flies = false);
+    const stop = ({ type, target }) => {
+      this.landed = this.flies && type === "pointerdown" && $("stage").contains(target);
+      this.flies = false;
+    };
     for (const kind of ["pointerdown", "keydown"]) document.addEventListener(kind, stop, { capture: true, once: true });
     const began = performance.now();
     let time = start;
@@ -280,7 +286,7 @@ class Hand {
     const own = sides.filter(({ name }) => sides.length < 3 || name === sideOf(watched));
     const told = own.map((facts) => this.told(lesson, index, facts, entity(facts.name, "body", nameOf(watched)), own.length > 1));
     return told.map((words, i) => (words && own.length > 1 ? `${own[i].title.split(":")[0]}: ${words}` : words)).filter(Boolean)
-      .map((words) => words.replace(/^[a-z](?=[a-z]+\b)/, (letter) => letter.toUpperCase())).join(" ");
+      .map((words) => words.replace(/^[a-z]+\b/, (word) => word[0].toUpperCase() + word.slice(1))).join(" ");
   }
 
   told(lesson, index, facts, one, isShort) {
@@ -291,11 +297,11 @@ class Hand {
     const stored = isDrawn ? this.stored(side.leavesWith(name), this.boxOf(one, lesson, index)) : "";
     const all = new Map(facts.counts).get("pairs");
     const others = side.pairs.flatMap((pair) => (pair.includes(name) ? pair.filter((other) => other !== name) : []));
-    const tested = all === undefined || all !== side.pairs.length ? ""
-      : !others.length ? `is in ${all ? `none of the ${all} candidate pairs` : "no candidate pair"}`
-      : `is in ${all === 1 ? "the only candidate pair" : `${others.length < all ? `${others.length} of ${all}` : all === 2 ? "both" : `all ${all}`} candidate pairs`}${isShort ? "" : `, with ${listed(others)}`}`;
-    if (isShort && stored) return `${name} ${stored}${tested.replace("is in", ", in")}.`;
-    return [stored && `${name} ${stored}.`, tested && `${stored ? "It" : name} ${tested}.`].filter(Boolean).join(" ");
+    const where = all === undefined || all !== side.pairs.length ? ""
+      : !others.length ? (all > 1 ? `in none of the ${all} candidate pairs` : all ? "not in the only candidate pair" : "in no candidate pair")
+      : `in ${all === 1 ? "the only candidate pair" : `${others.length < all ? `${others.length} of ${all}` : all === 2 ? "both" : `all ${all}`} candidate pairs`}${isShort ? "" : `, with ${listed(others)}`}`;
+    if (isShort && stored) return `${name} ${stored}${where && `, ${where}`}.`;
+    return [stored && `${name} ${stored}.`, where && `${stored ? "It" : name} is ${where}.`].filter(Boolean).join(" ");
   }
 
   stored(leaves, box) {
