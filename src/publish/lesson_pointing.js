@@ -49,6 +49,10 @@ class Relations {
   }
 }
 
+// Whether a frame shows nodes at all: else nobody asks for their names and places.
+const showsNodes = (lesson, index) => lesson.lists[index].some((row) =>
+  kindOf(lesson.keys[lesson.shape(row).key][1] ?? "") === "node");
+
 function holds(outline, x, y) {
   let inside = false;
   for (let i = 0, j = outline.length - 2; i < outline.length; j = i, i += 2) {
@@ -136,7 +140,8 @@ class Pointing {
     const name = nameOf(one);
     if (kindOf(one) === "pair") return `pair ${name.split("|").join(", ")}`;
     if (kindOf(one) === "body") {
-      const leaves = side.leavesWith(name).map((leaf) => leaf.label).join(", ");
+      const shown = showsNodes(this.lesson, this.picture.index) ? side.leavesWith(name) : [];
+      const leaves = shown.map((leaf) => leaf.label).join(", ");
       return name + (leaves ? `, in ${leaves}` : "");
     }
     const node = side.nodes.get(name);
@@ -180,6 +185,7 @@ class Pointing {
       if (entities.every((e) => kindOf(e) !== "body") && !boxes.has(key)) boxes.set(key, element);
     }
     for (const box of boxes.values()) this.addOver("rect", RECT_AT, (name) => box.getAttribute(name));
+    if (!showsNodes(this.lesson, this.picture.index)) return;
     for (const one of related) {
       const node = kindOf(one) === "node" && this.side(one).nodes.get(nameOf(one));
       if (node && node.outline.length) this.addOver("polygon", ["points"], () => node.outline.join(" "));

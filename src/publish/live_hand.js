@@ -293,8 +293,7 @@ class Hand {
     const name = nameOf(one);
     if (!facts.bodies.some(([, known]) => known === name)) return "";
     const side = new Relations(facts);
-    const isDrawn = lesson.lists[index].some((row) => kindOf(lesson.keys[lesson.shape(row).key][1] ?? "") === "node");
-    const stored = isDrawn ? this.stored(side.leavesWith(name), this.boxOf(one, lesson, index)) : "";
+    const stored = showsNodes(lesson, index) ? this.stored(side.leavesWith(name), this.boxOf(one, lesson, index)) : "";
     const all = new Map(facts.counts).get("pairs");
     const others = side.pairs.flatMap((pair) => (pair.includes(name) ? pair.filter((other) => other !== name) : []));
     const where = all === undefined || all !== side.pairs.length ? ""
