@@ -242,7 +242,8 @@ class Hand {
   async fly({ text, index, lesson: { frames: [{ step, time: start }] } }) {
     const { engine, name } = this.live;
     const dense = stopping(text, step, Math.max(1, Math.round(FRAME / timeStepOf(text))));
-    const { frames } = await engine.ask({ do: "open", text: dense, name });
+    const { frames } = await engine.ask({ do: "open", text: dense, name }).catch(() => ({}));
+    if (!frames) return null; // more than can be shown
     this.flies = true;
     const stop = ({ type, target }) => {
       this.landed = this.flies && type === "pointerdown" && $("stage").contains(target);
@@ -296,9 +297,8 @@ class Hand {
     const stored = showsNodes(lesson, index) ? this.stored(side.leavesWith(name), this.boxOf(one, lesson, index)) : "";
     const all = new Map(facts.counts).get("pairs");
     const others = side.pairs.flatMap((pair) => (pair.includes(name) ? pair.filter((other) => other !== name) : []));
-    const where = all === undefined || all !== side.pairs.length ? ""
-      : !others.length ? (all > 1 ? `in none of the ${all} candidate pairs` : all ? "not in the only candidate pair" : "in no candidate pair")
-      : `in ${all === 1 ? "the only candidate pair" : `${others.length < all ? `${others.length} of ${all}` : all === 2 ? "both" : `all ${all}`} candidate pairs`}${isShort ? "" : `, with ${listed(others)}`}`;
+    const shares = all === undefined || all !== side.pairs.length ? "" : shareOf(others.length, all);
+    const where = shares + (shares && others.length && !isShort ? `, with ${listed(others)}` : "");
     if (isShort && stored) return `${name} ${stored}${where && `, ${where}`}.`;
     return [stored && `${name} ${stored}.`, where && `${stored ? "It" : name} is ${where}.`].filter(Boolean).join(" ");
   }
@@ -408,6 +408,13 @@ class Hand {
 
 const listed = (names) => names.length > FEW ? `${names.slice(0, FEW - 1).join(", ")} and ${names.length - FEW + 1} more`
   : names.length > 1 ? `${names.slice(0, -1).join(", ")} and ${names.at(-1)}` : names[0];
+
+// So many of all pairs, in words.
+function shareOf(n, all) {
+  if (all === 1) return n ? "in the only candidate pair" : "not in the only candidate pair";
+  if (!n) return all ? `in none of the ${all} candidate pairs` : "in no candidate pair";
+  return `in ${n < all ? `${n} of ${all}` : n === 2 ? "both" : `all ${n}`} candidate pairs`;
+}
 
 // The box around points, [x, y, x, y].
 function boxAround(points) {
