@@ -105,11 +105,9 @@ class Edit {
     if (all()[at].is_value()) {
       add_step_in_list(all()[at], added);
     } else {
-      std::size_t end = 0;  // of its last line
+      std::size_t end = 0;
       for (std::size_t i = at; i < all().size(); ++i)
-        if ((all()[i].form == Written::header || all()[i].form == Written::line) &&
-            written_.is_within(i, at))
-          end = std::max(end, all()[i].end);
+        if (written_.is_within(i, at)) end = std::max(end, all()[i].end);
       add_below(end, line_end_ + added);
     }
     return result();
