@@ -19,9 +19,8 @@ namespace {
 using draw::DrawList;
 using draw::WorldMap;
 
-constexpr double kNear = 24;    // page units from a corner that still take it
-constexpr double kThrown = 60;  // page units a second: a hand that is slower puts down
-constexpr double kGoesOn = 2;   // seconds that a script without any is run after a throw
+constexpr double kNear = 24;   // page units from a corner that still take it
+constexpr double kGoesOn = 2;  // seconds that a script without any is run after a throw
 
 // In as many digits as a hand can tell apart, where a page unit is 1/scale.
 std::string number_text(double x, double scale) {
@@ -107,7 +106,7 @@ class BodyGrip : public Grip {
         to[i] = std::clamp(to[i], lo, hi);
     const std::string place =
         hand.at != at_ || adds_step_ ? point_text(to, dimension_, ways_.scale) : "";
-    const std::string way = glm::length(hand.velocity) > kThrown && !body_.is_static
+    const std::string way = hand.velocity != Vec<2>(0) && !body_.is_static
                                 ? point_text(ways_.of(hand.velocity), dimension_, ways_.scale)
                                 : "";
     const std::string turned = hand.turn != 0 && dimension_ == 2

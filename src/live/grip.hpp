@@ -15,7 +15,7 @@
 namespace lantern::live {
 
 // Where a hand is, in page units; how it has been turned since it went down, degrees; and how fast
-// it moves when it lets go, page units a second.
+// it moves when it lets go, page units a second; 0: it puts down.
 struct Hand {
   Vec<2> at{0.0};
   double turn = 0;

@@ -348,7 +348,7 @@ TEST(Session, AHandTurnsAndThrows) {
   EXPECT_NEAR(way[1], way[0] / 2, 0.1);  // y points upwards in a world
   EXPECT_EQ(thrown["text"],
             with(kTwo, "[4, 0]", value_at(thrown["text"].get<std::string>(), "body[1].velocity")));
-  EXPECT_EQ(page.drag({{"x", 800}, {"y", 300}, {"vx", 10}})["text"], kTwo);  // it is put down
+  EXPECT_EQ(page.drag({{"x", 800}, {"y", 300}})["text"], kTwo);  // it is put down
 
   // Turned from where it stood when the hand came, however it was told.
   const std::string heading = with(kTwo, "oriented = true", "heading = [-1, 0]");
