@@ -6,6 +6,7 @@
 #include "base/check.hpp"
 #include "publish/lesson_frames.hpp"
 #include "run/director.hpp"
+#include "run/shown.hpp"
 #include "run/warnings.hpp"
 
 namespace lantern::live {
@@ -85,24 +86,25 @@ const draw::Staging& Play::staging_of(std::size_t index) {
 }
 
 draw::DrawList Play::picture(std::size_t index) {
-  return drawn(frames_.at(index), staging_of(index));
+  return drawn(frames_.at(index), staging_of(index), scenario_);
 }
 
 draw::DrawList Play::page(std::size_t index, int width, int height) {
   return draw_frame(frames_.at(index), staging_of(index), draw::page_for(width, height), work_);
 }
 
-draw::DrawList Play::picture(const Frame& frame, std::size_t beside) {
+draw::DrawList Play::picture(const Frame& frame, std::size_t beside, const Scenario& of) {
   const Group& group = group_of(beside);
   std::vector<const Frame*> all;
   if (draw::Staging::is_one_group(frames_.at(beside), frame))
     for (const Frame& other : group.frames) all.push_back(&other);
   all.push_back(&frame);
-  return drawn(frame, draw::Staging(std::move(all), axes_));
+  return drawn(frame, draw::Staging(std::move(all), axes_), of);
 }
 
-draw::DrawList Play::drawn(const Frame& frame, const draw::Staging& staging) {
+draw::DrawList Play::drawn(const Frame& frame, const draw::Staging& staging, const Scenario& of) {
   Frame bare = frame;
+  if (!held.empty() && !traits_of(of.steps.at(frame.step).verb).asks) light_held(held, bare);
   bare.display.title = bare.display.caption = bare.display.counters = false;
   return draw_frame(bare, staging, publish::lesson_page(), work_);
 }

@@ -51,10 +51,16 @@ class Play {
   // The whole page of a frame, as a picture of this many pixels has it.
   draw::DrawList page(std::size_t index, int width, int height);
   // The picture of a frame of another run, in the places that this one's frames have.
-  draw::DrawList picture(const frame::Frame& frame, std::size_t beside);
+  draw::DrawList picture(const frame::Frame& frame, std::size_t beside,
+                         const language::Scenario& of);
+
+  // The body that a hand holds, or held last; none: "". Where a step asks nothing, what is of it is
+  // lit on all pictures, and nothing that the script lights.
+  std::string held;
 
  private:
-  draw::DrawList drawn(const frame::Frame& frame, const draw::Staging& staging);
+  draw::DrawList drawn(const frame::Frame& frame, const draw::Staging& staging,
+                       const language::Scenario& of);
   const draw::Staging& staging_of(std::size_t index);
 
   struct Group {

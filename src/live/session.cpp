@@ -81,7 +81,7 @@ class Session::Engine {
  public:
   std::string answer(const json& q) {
     const std::string what = q.at("do");
-    if (what == "open") return open(q.at("text"), q.at("name"));
+    if (what == "open") return open(q.at("text"), q.at("name"), q.value("held", ""));
     if (what == "complete")
       return complete_json(q.at("text").get<std::string>(), whole_in(q, "line"),
                            whole_in(q, "column"));
@@ -122,8 +122,9 @@ class Session::Engine {
     return index;
   }
 
-  std::string open(const std::string& text, const std::string& name) {
+  std::string open(const std::string& text, const std::string& name, const std::string& held) {
     play_ = std::make_unique<Play>(language::parse_scenario(text, name));
+    play_->held = held;
     text_ = text;
     name_ = name;
     grip_.reset();
@@ -173,7 +174,11 @@ class Session::Engine {
   std::string grab(const json& q) {
     const std::size_t index = index_in(q, "frame");
     const Vec<2> at = point_in(q, "x", "y");
-    grip_ = grip_on(text_, *play_, index, q.at("entity").get<std::string>(), at);
+    const std::string entity = q.at("entity");
+    grip_ = grip_on(text_, *play_, index, entity, at);
+    if (const std::size_t body = entity.rfind("body/");
+        body != entity.npos && grip_->what() != "size")
+      play_->held = entity.substr(body + 5);
     grabbed_ = index;
     begun_.reset();
     if (grip_->only_from_there) begun_ = begun(grip_->text({at}));
@@ -192,7 +197,7 @@ class Session::Engine {
     const std::size_t index = now->index_of(grip_->moment);
     const Frame& frame = now->frames()[index];
     Pictures one;
-    one.add(frame, nullptr, play_->picture(frame, grabbed_), scenario);
+    one.add(frame, nullptr, play_->picture(frame, grabbed_, scenario), scenario);
     return fmt::format("{{\"text\": {}, \"index\": {}, {}}}", json_string(text), index, one.json());
   }
 

@@ -13,8 +13,9 @@ namespace lantern::live {
 // "message", "suggestion"}, with line 0 for the file as a whole; lines and columns count from 1. A
 // picture is {"lesson": frames as a lesson page has them, "facts": [...], "hashes": ["..."]}.
 //
-// open: text, name. {"frames": n, "warnings": [D], "unmet": [D]}; the text is parsed, and run
-// whole.
+// open: text, name, held. {"frames": n, "warnings": [D], "unmet": [D]}; the text is parsed, and run
+// whole. Pictures light what is of the body `held`, if that is given, in place of what the text
+// lights; so they do from a grab of a body on.
 //
 // lesson. The picture of all frames, and "questions": [[asked, answer, frame, predict]].
 //

@@ -140,6 +140,19 @@ const LitSpec* light_only(const std::vector<LitSpec>& lit, Frame& frame) {
   return strange;
 }
 
+void light_held(std::string_view name, Frame& frame) {
+  for (Frame& side : frame.sides) light_held(name, side);
+  put_out(frame);
+  for (FrameBody& body : frame.bodies) {
+    if (body.name != name) continue;
+    body.lit = true;
+    for (FrameNode& node : frame.nodes)
+      if (node.leaf && holds_any(node, {body.id})) node.mark = Mark::lit;
+    for (FramePair& p : frame.pairs) p.lit = p.pair.a == body.id || p.pair.b == body.id;
+  }
+  pass_to(frame);
+}
+
 void Lighting::light_nodes(const Cause& cause, bool few, Frame& frame) const {
   const bool marked = std::ranges::any_of(
       frame.nodes, [](const FrameNode& node) { return node.mark != Mark::quiet; });

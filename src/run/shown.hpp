@@ -41,6 +41,10 @@ class Lighting {
 // that the frame does not have.
 const LitSpec* light_only(const std::vector<LitSpec>& lit, Frame& frame);
 
+// Lights the body of that name, its pairs and the leaves that hold it, on all sides, and nothing
+// else.
+void light_held(std::string_view body, Frame& frame);
+
 // Where frames are looked at from, and what of the world they show, from step to step.
 class Looks {
  public:

@@ -20,6 +20,7 @@
 #include "live/edit.hpp"
 #include "publish/lesson_frames.hpp"
 #include "run/director.hpp"
+#include "run/shown.hpp"
 
 namespace lantern::live {
 namespace {
@@ -303,6 +304,46 @@ TEST(Session, WhatHasMovedGetsAStepOfItsOwn) {
   const std::string last = page.drag({{"x", 10}, {"y", 10}})["text"];
   EXPECT_EQ(value_at(last, "step[3].body"), "\"dot2\"");
   EXPECT_EQ(value_at(last, "step[2].ending"), "");
+}
+
+TEST(Session, WhatIsOfTheBodyThatAHandHoldsIsLit) {
+  const std::string text = shipped("ghost_quadtree.toml");
+  const language::Scenario scenario = language::parse_scenario(text, "ghosts.toml");
+  Work work;
+  int stored_twice = 0;
+  run::direct(scenario, scenario.pace, work, [&](const Frame& frame) {
+    Frame lit = frame;
+    run::light_held("pink", lit);
+    BodyId pink = -1;
+    for (const FrameBody& body : lit.bodies) {
+      EXPECT_EQ(body.lit, body.name == "pink");
+      if (body.lit) pink = body.id;
+    }
+    int leaves = 0;
+    for (const FrameNode& node : lit.nodes) {
+      const bool holds = node.leaf && std::ranges::count(node.bodies, pink) > 0;
+      EXPECT_EQ(node.mark == Mark::lit, holds);
+      leaves += holds;
+    }
+    for (const FramePair& p : lit.pairs) EXPECT_EQ(p.lit, p.pair.a == pink || p.pair.b == pink);
+    stored_twice += leaves == 2;
+    return true;
+  });
+  EXPECT_GT(stored_twice, 0);
+
+  // From the grab on, and in a text that is opened with it; of hashes nothing is another.
+  Page page, held, rays;
+  page.open(text);
+  held.ask({{"do", "open"}, {"text", text}, {"name", "ghosts.toml"}, {"held", "red"}});
+  EXPECT_NE(page.frame(3)["lesson"], held.frame(3)["lesson"]);
+  EXPECT_EQ(page.frame(3)["hashes"], held.frame(3)["hashes"]);
+  page.grab(3, "body/red", {400, 300});
+  EXPECT_EQ(page.frame(3)["lesson"], held.frame(3)["lesson"]);
+  // What a step asks for stays lit.
+  const std::string ray = shipped("raycast_quadtree.toml");
+  page.open(ray);
+  rays.ask({{"do", "open"}, {"text", ray}, {"name", "rays.toml"}, {"held", "red"}});
+  EXPECT_EQ(page.frame(4)["lesson"], rays.frame(4)["lesson"]);
 }
 
 // What has been run at the grab is gone on with once, and run again for what follows.
