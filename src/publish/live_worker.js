@@ -41,14 +41,15 @@ async function instanceOf(module) {
   return exports;
 }
 
-// Base64 of a zlib stream.
-function unpacked(packed) {
-  const bytes = Uint8Array.from(atob(packed.trim()), (letter) => letter.charCodeAt(0));
-  return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"))).arrayBuffer();
+// Of base64 of a zlib stream: it is compiled while it is unpacked.
+async function unpacked(packed) {
+  const { body } = await fetch(`data:;base64,${packed.trim()}`);
+  const headers = { "Content-Type": "application/wasm" };
+  return WebAssembly.compileStreaming(new Response(body.pipeThrough(new DecompressionStream("deflate")), { headers }));
 }
 
 async function start({ packed, module }) {
-  module ??= await WebAssembly.compile(await unpacked(packed));
+  module ??= await unpacked(packed);
   const engine = await instanceOf(module);
   const memory = () => new Uint8Array(engine.memory.buffer);
   const ask = (request) => {
