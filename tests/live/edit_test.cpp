@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <vector>
 
 #include <fmt/format.h>
@@ -224,21 +225,32 @@ struct ScenarioText {
   std::vector<KnownValue> values;
 };
 
-std::vector<ScenarioText> scenario_texts() {
-  std::vector<ScenarioText> found;
+// Of their values, one of each kind, and some of the others.
+const std::vector<ScenarioText>& scenario_texts() {
+  static std::vector<ScenarioText> found;
+  if (!found.empty()) return found;
   for (const auto& entry : std::filesystem::directory_iterator(LANTERN_ROOT "/scenarios")) {
     if (entry.path().extension() != ".toml") continue;
     const std::string text = read_file(entry.path(), 1'000'000);
     Problems problems;
     found.push_back({entry.path().filename(), text, {{}, read_toml(text, problems)}, {}});
-    add_values(found.back().root, "", found.back().values);
   }
   std::ranges::sort(found, {}, &ScenarioText::file);
+  Random random(1);
+  for (ScenarioText& scenario : found) {
+    add_values(scenario.root, "", scenario.values);
+    std::set<std::string> kinds;
+    std::erase_if(scenario.values, [&](const KnownValue& known) {
+      std::string kind = known.path;
+      std::erase_if(kind, [](char c) { return '0' <= c && c <= '9'; });
+      return !kinds.insert(kind).second && random.whole(0, 7) != 0;
+    });
+  }
   EXPECT_GT(found.size(), 40u);
   return found;
 }
 
-TEST(Edit, FindsEachValueOfEachScenarioAndLeavesItsBytesWhenItIsSetToItself) {
+TEST(Edit, FindsValuesOfEachScenarioAndLeavesItsBytesWhenTheyAreSetToThemselves) {
   for (const ScenarioText& scenario : scenario_texts()) {
     EXPECT_GT(scenario.values.size(), 20u) << scenario.file;
     for (const auto& [path, value] : scenario.values) {
@@ -257,7 +269,7 @@ TEST(Edit, GivesTheSameBytesAfterThereAndBack) {
   Random random(1);
   for (const ScenarioText& scenario : scenario_texts())
     for (const KnownValue& known : scenario.values) {
-      if (random.whole(0, 7) != 0) continue;  // all would take minutes with the sanitizers
+      if (random.whole(0, 3) != 0) continue;
       const std::string old = value_at(scenario.text, known.path);
       const std::string there = with_value(scenario.text, known.path, "[\"]#\", {}, 1]");
       EXPECT_EQ(there.size() + old.size(), scenario.text.size() + 13) << scenario.file;
