@@ -14,7 +14,7 @@ namespace {
 
 template <int D>
 std::uint64_t dynamic_tests(const BroadPhase<D>& broad) {
-  return broad.dynamic().counters().box_tests;
+  return broad.dynamic().structure->work().box_tests;
 }
 
 // Are those that move where they were?
@@ -141,16 +141,11 @@ PairChain BroadPhase<D>::pair_chain(FunctionRef<bool(BodyId)> awake, std::uint64
   std::vector<bool> stirring;
   for (std::size_t i = 0; i < dynamic_.boxes.size(); ++i)
     stirring.push_back(!dynamic_.state(i).is_static && awake(dynamic_.id(i)));
-  struct Met {
-    Pair pair;
-    bool overlaps;
-  };
-  std::vector<Met> met;
   PairChain chain;
   const auto meet = [&](BodyId i, const Store& store, BodyId j) {
     require_within(++chain.met, most);
     const BodyId a = dynamic_.id(i), b = store.id(j);
-    met.push_back({{std::min(a, b), std::max(a, b)}, overlap(dynamic_.boxes[i], store.boxes[j])});
+    chain.pairs.push_back({std::min(a, b), std::max(a, b)});
   };
   // What sorts its bodies before it is asked does so in a copy, and stays as it is.
   const auto dynamic_copy = dynamic_.structure->sorted(), static_copy = static_.structure->sorted();
@@ -166,21 +161,19 @@ PairChain BroadPhase<D>::pair_chain(FunctionRef<bool(BodyId)> awake, std::uint64
   std::map<lecture::CollisionDetection::CollisionInfoAsPrinted, Pair> first;
   std::set<Pair> lost;
   if (address)
-    std::erase_if(met, [&](const Met& both) {
-      const auto [low, high] = std::minmax({address(both.pair.a), address(both.pair.b)});
-      const Pair& known = first.try_emplace({low, high}, both.pair).first->second;
-      return known != both.pair && (lost.insert(both.pair), true);
+    std::erase_if(chain.pairs, [&](const Pair& pair) {
+      const auto [low, high] = std::minmax({address(pair.a), address(pair.b)});
+      const Pair& known = first.try_emplace({low, high}, pair).first->second;
+      return known != pair && (lost.insert(pair), true);
     });
   chain.lost = lost.size();
-  std::ranges::sort(met, [](const Met& x, const Met& y) {
+  std::ranges::sort(chain.pairs, [](const Pair& x, const Pair& y) {
     stop_if_asked();
-    return x.pair < y.pair;
+    return x < y;
   });
-  for (const Met& both : met) {
-    if (!chain.pairs.empty() && chain.pairs.back() == both.pair) continue;
-    chain.pairs.push_back(both.pair);
-    if (both.overlaps) chain.overlapping.push_back(both.pair);
-  }
+  chain.pairs.erase(std::ranges::unique(chain.pairs).begin(), chain.pairs.end());
+  for (const Pair& pair : chain.pairs)
+    if (overlap(*box_of(pair.a), *box_of(pair.b))) chain.overlapping.push_back(pair);
   return chain;
 }
 
@@ -203,7 +196,7 @@ StructureWork structure_work(BroadPhaseConfig<D> config, std::span<const Proxy<D
   std::optional<BroadPhase<D>> broad(std::in_place, config);
   broad->build(before);
   std::uint64_t at_first = dynamic_tests(*broad), builds = broad->counters().dynamic_builds;
-  work.build += at_first + broad->fixed().counters().box_tests;
+  work.build += at_first + broad->fixed().structure->work().box_tests;
   const bool moved = !same_movers(before, after);
   if (chooses && moved && !some_stand(before)) {  // its planes were chosen for where they were
     config.planes = compiled_planes(after, config, work.renew);

@@ -145,8 +145,8 @@ class Grid final : public StructureOf<Grid<D>, D>, CountsAllocations {
 
   void sort() override { hold(); }
   std::unique_ptr<Structure<D>> sorted() const override {
-    auto copy = std::make_unique<Grid>(*this);
-    copy->hold();
+    auto copy = std::make_unique<Grid>(config_);
+    copy->make(items_);
     return copy;
   }
   // Puts the bodies into their cells, if some came since; whoever asks does so, too. Nothing else
