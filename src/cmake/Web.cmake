@@ -11,6 +11,22 @@ find_path(LANTERN_STB_DIR stb_truetype.h PATH_SUFFIXES stb REQUIRED)
 file(CREATE_LINK ${LANTERN_STB_DIR} ${headers}/stb SYMBOLIC)
 find_path(LANTERN_FONT_DIR Inter-Regular.otf PATHS /usr/share/fonts/opentype/inter REQUIRED)
 find_path(LANTERN_CODE_FONT_DIR Inconsolata.otf PATHS /usr/share/fonts/truetype/inconsolata REQUIRED)
+# What letters lead to, without alternates, rules of shaping and hints. Whole typefaces serve as
+# well, where the tool is missing (libharfbuzz-bin).
+find_program(LANTERN_HB_SUBSET hb-subset)
+if(LANTERN_HB_SUBSET)
+  set(fonts ${PROJECT_BINARY_DIR}/fonts)
+  file(MAKE_DIRECTORY ${fonts})
+  foreach(font ${LANTERN_FONT_DIR}/Inter-Regular.otf ${LANTERN_FONT_DIR}/Inter-SemiBold.otf
+      ${LANTERN_CODE_FONT_DIR}/Inconsolata.otf)
+    cmake_path(GET font FILENAME name)
+    add_custom_command(OUTPUT ${fonts}/${name} DEPENDS ${font} VERBATIM
+      COMMAND ${LANTERN_HB_SUBSET} ${font} --unicodes=* --layout-features=kern --no-hinting
+      --notdef-outline --drop-tables+=GSUB,GDEF,OS/2,post -o ${fonts}/${name})
+  endforeach()
+  set(LANTERN_FONT_DIR ${fonts})
+  set(LANTERN_CODE_FONT_DIR ${fonts})
+endif()
 include(Precompiled)
 include(Rooms)
 
