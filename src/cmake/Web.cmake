@@ -35,7 +35,7 @@ set(src ${PROJECT_SOURCE_DIR}/src)
 set_source_files_properties(${src}/physics/world.cpp ${src}/spatial/near_pairs.cpp
   PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 set_source_files_properties(${src}/language/text/problems.cpp PROPERTIES
-  COMPILE_OPTIONS -I${src}/web/config SKIP_UNITY_BUILD_INCLUSION ON
+  COMPILE_OPTIONS "-I${src}/web/config;-O2" SKIP_UNITY_BUILD_INCLUSION ON
   SKIP_PRECOMPILE_HEADERS ON)
 # They include themselves; Highway's vectors for WebAssembly have no doubles, of which one is made.
 set_source_files_properties(${src}/spatial/box_vectors.cpp ${src}/physics/contact/quick_vectors.cpp
@@ -48,13 +48,16 @@ foreach(library font lecture_source examples)
   target_link_libraries(lantern_web_options INTERFACE lantern_${library})
 endforeach()
 target_link_libraries(lantern_web_options INTERFACE lantern_version)
-target_compile_definitions(lantern_web_options INTERFACE FMT_HEADER_ONLY TOML_HEADER_ONLY=1)
+# Numbers are read and written without a locale: libc++'s would be a thirtieth.
+target_compile_definitions(lantern_web_options INTERFACE FMT_HEADER_ONLY TOML_HEADER_ONLY=1
+  TOML_FLOAT_CHARCONV=1 FMT_STATIC_THOUSANDS_SEPARATOR=',')
 # What is to be warned of is told by the other builds.
 target_compile_options(lantern_web_options INTERFACE -w -include ${src}/web/one_thread.hpp)
 
 set(quick -O2)
-set(small -Os)
-foreach(kind quick small)
+set(even -Os)
+set(small -Oz)
+foreach(kind quick even small)
   lantern_headers(web_${kind}_headers LINKS lantern_web_options OPTIONS ${${kind}}
     HEADERS ${common_headers})
 endforeach()
@@ -73,11 +76,14 @@ foreach(room base geometry lecture spatial atlas physics language frame run draw
     list(FILTER sources INCLUDE REGEX "/lesson_(facts|frames)\\.cpp$")
   endif()
   add_library(lantern_web_${room} OBJECT ${sources})
-  # Those where a run's time goes are quick; of the others a small one is opened sooner.
-  if(room MATCHES "^(geometry|lecture|physics|draw)$")
-    set(kind quick)
-  else()
+  # Those where a drag's time goes are quick; of the others a small one is opened sooner. Of the
+  # structures there are many, and the smallest would take twice the time.
+  if(room MATCHES "^(language|run|render|live|web)$")
     set(kind small)
+  elseif(room STREQUAL spatial)
+    set(kind even)
+  else()
+    set(kind quick)
   endif()
   target_compile_options(lantern_web_${room} PRIVATE ${${kind}})
   lantern_precompile(lantern_web_${room} FROM web_${kind}_headers)
