@@ -2,6 +2,7 @@
 // changes only what changes.
 
 const MANY = 1500; // shapes that make a step slow
+const EASE = 200; // ms
 const SVG = "http://www.w3.org/2000/svg";
 const TAG = ["rect", "line", "polygon", "path"];
 const RECT_AT = ["x", "y", "width", "height", "rx"]; // in the order of a rectangle's measures
@@ -146,8 +147,30 @@ class Picture {
     element.style.strokeWidth = width / 100;
   }
 
+  get places() {
+    return [...this.layer.children].map((element) => [element, element.at]);
+  }
+
+  // What stood elsewhere goes to where it is now.
+  ease(places) {
+    const moved = calm() ? [] : places.filter(([{ at, parentNode }, from]) =>
+      parentNode === this.layer && at.length === from.length && at.some((n, i) => n !== from[i]));
+    const began = performance.now();
+    const tick = (now) => {
+      const t = Math.min(1, Math.max(0, now - began) / EASE);
+      for (const [element, from] of moved) place(element, element.kind, element.at.map((to, i) => to + (from[i] - to) * (1 - t) ** 2));
+      this.easing = t < 1 && requestAnimationFrame(tick);
+    };
+    this.easing = moved.length > 0 && requestAnimationFrame(tick);
+    this.arrive = () => tick(Infinity);
+  }
+
   // What was moving goes: its elements are made anew where they are needed.
   settle() {
+    if (this.easing) {
+      cancelAnimationFrame(this.easing);
+      this.arrive();
+    }
     if (!this.moving) return;
     for (const { element } of this.moving.passages) element.remove();
     this.moving = null;
