@@ -30,10 +30,12 @@ class Page {
     if (hasOneStep.includes(true)) [this.byEvent] = hasOneStep;
     this.lesson = lesson;
     this.words.load(lesson);
+    const places = this.picture.places;
     this.look(lesson, facts, index);
     this.know(facts);
     this.speaker?.load(lesson);
     this.show(Math.min(index, lesson.last));
+    this.picture.ease(places);
     this.words.fit();
   }
 
@@ -67,6 +69,7 @@ class Page {
 
   show(index) {
     this.index = index;
+    if (this.picture.lesson !== this.lesson) this.look(this.lesson, this.facts, index);
     this.picture.show(index);
     this.tell();
     this.pointing?.light(this.playing ? null : undefined);
@@ -96,11 +99,13 @@ class Page {
   tellStop(step, caption) {
     const stop = this.stops.findIndex((stop) => stop >= this.index);
     $("pace").setAttribute("aria-pressed", this.byEvent);
-    $("slider").max = this.stops.length - 1;
-    $("slider").value = stop;
+    const { grown } = this.words;
+    const [place, count] = [stop + 1 + grown, this.stops.length + grown];
+    $("slider").max = count - 1;
+    $("slider").value = place - 1;
     $("slider").setAttribute("aria-label", this.byEvent ? "Frame" : "Step");
-    $("slider").setAttribute("aria-valuetext", `${stop + 1} of ${this.stops.length}, step ${step + 1}: ${caption}`);
-    $("number").textContent = `${stop + 1} / ${this.stops.length}`;
+    $("slider").setAttribute("aria-valuetext", `${place} of ${count}, step ${step + 1}: ${caption}`);
+    $("number").textContent = `${place} / ${count}`;
   }
 
   // --- stepping
@@ -154,7 +159,7 @@ class Page {
     cancelAnimationFrame(this.playing);
     this.playing = 0;
     $("play").setAttribute("aria-pressed", "false");
-    this.picture.show(this.index);
+    if (this.picture.lesson === this.lesson) this.picture.show(this.index);
     this.pointing?.light();
   }
 

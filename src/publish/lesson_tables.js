@@ -23,6 +23,7 @@ class Words {
 
   load(lesson) {
     this.lesson = lesson;
+    this.grown = 0; // steps that a frame's lesson has more, which is not loaded
     for (const spare of document.querySelectorAll("#words .spare:not(.kept)")) spare.remove();
     document.getElementById("words").append(...this.spares());
     document.documentElement.style.setProperty("--ratio", lesson.ratio);
@@ -56,7 +57,7 @@ class Words {
     numbers.replaceChildren(...counterList(document, counters));
     told.parentNode.classList.toggle("ending", Boolean(ending));
     document.getElementById("part").textContent = part ?? "";
-    document.getElementById("place").textContent = `step ${step + 1} of ${this.lesson.steps}`;
+    document.getElementById("place").textContent = `step ${step + 1} of ${this.lesson.steps + this.grown}`;
   }
 
   // Words begin and end where the picture's panels do. Narrower words may be higher, and then the

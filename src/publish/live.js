@@ -88,7 +88,7 @@ class Live {
 
   listen() {
     const acts = {
-      undo: () => this.undo(), redo: () => this.redo(), again: () => this.change(this.own.text, "again"),
+      undo: () => this.undo(), redo: () => this.redo(), again: () => this.again(),
       change: () => this.toggle("change"), text: () => this.toggle("text"),
       download: () => this.download(), link: () => this.copyLink(),
     };
@@ -102,7 +102,7 @@ class Live {
       key === "y" || event.shiftKey ? this.redo() : this.undo();
     });
     $("live-panel").addEventListener("keydown", (event) => {
-      event.stopPropagation();
+      if (!(event.ctrlKey || event.metaKey) || event.target === $("source")) event.stopPropagation();
       if (event.key === "Escape" && !event.defaultPrevented) this.close();
     });
     window.addEventListener("hashchange", () => this.openLink());
@@ -143,7 +143,7 @@ class Live {
   take(text, cause) {
     if (text === this.text) return;
     const now = performance.now();
-    if (cause !== this.cause || now > this.lastly + 1000) this.past.push(this.text);
+    if (cause !== this.cause || now > this.lastly + 1000) this.past.push([this.text, this.page.index, cause]);
     [this.cause, this.lastly, this.future] = [cause, now, []];
     this.become(text);
   }
@@ -157,10 +157,17 @@ class Live {
   turnTo(from, to) {
     this.editor.flush();
     if (!from.length) return;
-    to.push(this.text);
+    const [text, index, cause] = from.pop();
+    to.push([this.text, this.page.index, cause]);
     this.cause = null;
-    this.become(from.pop());
-    this.soon("run", () => this.run());
+    this.become(text);
+    this.soon("run", () => this.run(cause === "hand" ? { index } : {}));
+  }
+
+  // To the frame in which it was left.
+  again() {
+    const [, index] = this.past.findLast(([text]) => text === this.own.text) ?? [];
+    this.change(this.own.text, "again", { index });
   }
 
   become(text) {
@@ -181,7 +188,7 @@ class Live {
   }
 
   // Refused text leaves the picture of the last good one.
-  async run({ index, time } = {}) {
+  async run({ index, moment } = {}) {
     const { text, name, page } = this;
     const { refused, warnings, unmet } = await this.engine.ask({ do: "open", text, name });
     this.editor.tell(refused ?? warnings, unmet);
@@ -193,7 +200,7 @@ class Live {
     if (isOwn) this.own.drawn = drawn;
     else this.retold(drawn.lesson, drawn.facts);
     if (isOwn) this.hand.watch(null);
-    if (time !== undefined) index = drawn.lesson.frames.findLastIndex((frame) => frame.time <= time + 1e-6);
+    if (moment) index = leadsTo(drawn.lesson, moment);
     page.load(drawn.lesson, drawn.facts, index ?? this.near(drawn.lesson));
     if (isOwn) this.keepRoom();
     const { title, questions } = drawn.card ?? { title: this.title, questions: questionsOf(drawn) };
@@ -202,16 +209,15 @@ class Live {
     await this.controls.refresh();
   }
 
-  // Captions were written for the lesson's world: those of another one's frames are the lesson's own, as
-  // it told them, of the same place in the same step; none where the steps are others. Before them goes
-  // what this world's facts say of the body that was moved.
+  // Captions were written for the lesson's world. Another one's frames are each like one of the lesson,
+  // of the same place in the same step; like none where the steps are others.
   retold(lesson, facts) {
     const told = this.own.drawn?.lesson.frames ?? [];
     const isSame = told.at(-1)?.step === lesson.frames.at(-1).step;
     const its = byStep(isSame ? told : []);
     for (const [step, frames] of byStep(lesson.frames)) {
       const own = its.get(step) ?? [];
-      frames.forEach((frame, i) => (frame.caption = own[frames.length === own.length ? i : own.length - 1]?.caption ?? ""));
+      frames.forEach((frame, i) => (frame.like = told.indexOf(own[frames.length === own.length ? i : own.length - 1])));
     }
     lesson.frames.forEach((_, index) => this.tellOf(lesson, index, facts[index]));
   }
@@ -219,14 +225,15 @@ class Live {
   // The same of one frame that is looked at in the place of the one shown.
   retoldAlone(lesson, [facts]) {
     const [now, [frame]] = [this.page.lesson.frames[this.page.index], lesson.frames];
-    frame.caption = frame.step === now.step ? now.told ?? now.caption : "";
+    frame.like = frame.step === now.step ? now.like ?? this.page.index : -1;
     return this.tellOf(lesson, 0, facts);
   }
 
+  // What this world's facts say, of the body that was moved or of all; the lesson's words stand beside.
   tellOf(lesson, index, facts) {
-    const frame = lesson.frames[index];
-    const own = this.hand.sentence(lesson, index, facts);
-    if (own) Object.assign(frame, { caption: own, told: frame.caption, ending: false });
+    const [frame, { lesson: its, facts: known }] = [lesson.frames[index], this.own.drawn || {}];
+    const caption = this.hand.sentence(lesson, index, facts) || countsTold(facts, known?.[frame.like], showsNodes(lesson, index));
+    Object.assign(frame, { caption, told: its?.frames[frame.like]?.caption ?? "", ending: false });
     return lesson;
   }
 
@@ -346,6 +353,11 @@ function byStep(frames) {
   for (const frame of frames) steps.has(frame.step) ? steps.get(frame.step).push(frame) : steps.set(frame.step, [frame]);
   return steps;
 }
+
+const leadsTo = ({ frames, last }, { step, time }) => {
+  const found = frames.findIndex((frame) => frame.step >= step && frame.time >= time - 1e-6);
+  return found < 0 ? last : found;
+};
 
 const questionsOf = ({ questions = [] }) =>
   questions.map(([asked, answer, frame, predict]) => ({ asked, answer, frame, predict }));

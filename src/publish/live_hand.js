@@ -8,8 +8,11 @@ const DRAG_SECONDS = 2;
 const REACH = 16; // pixels to a corner, or beside a body for a finger
 const THROWN = 250; // page units a second: slower is let go
 const FRAME = 1 / 30; // s of a world's time from one picture of a flight to the next
+const FLIGHT = -1; // what plays
+const COUNTS = ["pairs", "leaves", "entries", "textures", "refused", "awake"];
 const FEW = 4; // names that a sentence has room for
 const STEPS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+const INVITATIONS = { wall: "Drag the corner of a wall", texture: "Drag the corner of a texture", body: "Drag a body", throw: "Drag a body, or throw it" };
 const TURNS = { ",": 15, ".": -15 }; // degrees, counter-clockwise
 
 class Hand {
@@ -178,7 +181,7 @@ class Hand {
     page.pause();
     this.welcome();
     if (live.guess) live.guess.before = countOf(page, live.guess.predict);
-    this.watch(kindOf(held.one) === "body" ? held.one : null);
+    this.watch(kindOf(held.one) === "body" ? held.one : null, "hold");
     $("stage").dataset.hand = "grabbing";
     live.editor.flush();
     live.soon("grab", async () => {
@@ -215,6 +218,7 @@ class Hand {
   look({ lesson, facts }, text) {
     const { live, page } = this;
     this.unlight(text, lesson.frames[0].step);
+    page.words.grown = stepsOf(text).length - stepsOf(live.good).length;
     page.look(live.retoldAlone(new Lesson(lesson, page.lesson), facts), facts);
     page.pointing.light();
   }
@@ -223,6 +227,7 @@ class Hand {
   release(held, speed) {
     const { live } = this;
     this.held = null;
+    this.deed = speed ? "threw" : "moved";
     $("stage").dataset.hand = "";
     if (speed) live.soon("throw", () => held.refused || this.ask(held, speed));
     live.soon("release", async () => {
@@ -230,45 +235,59 @@ class Hand {
       if (!last) return;
       live.take(last.text, "hand");
       live.cause = null;
-      const time = speed && (await this.fly(last));
-      await live.run(time ? { time } : { index: last.index });
+      const moment = speed && (await this.fly(last));
+      await live.run(moment ? { moment } : { index: last.index });
       this.tell(held.one);
+      if (!speed && live.passes && kindOf(held.one) === "body") live.say("It was put down here: play goes on from here.");
       if (live.guess) judge(live, live.guess);
     });
   }
 
   // A run of its own, whose steps stop every few moments, is seen in its world's own time until it ends
-  // or the reader does something else. Tells the time that it has come to.
+  // or the reader does something else. Tells the moment that it has come to.
   async fly({ text, index, lesson: { frames: [{ step, time: start }] } }) {
-    const { engine, name } = this.live;
+    const { page, live: { engine, name } } = this;
     const dense = stopping(text, step, Math.max(1, Math.round(FRAME / timeStepOf(text))));
     const { frames } = await engine.ask({ do: "open", text: dense, name }).catch(() => ({}));
     if (!frames) return null; // more than can be shown
-    this.flies = true;
+    const ends = new AbortController();
     const stop = ({ type, target }) => {
-      this.landed = this.flies && type === "pointerdown" && $("stage").contains(target);
-      this.flies = false;
+      if ($("bar").contains(target)) return; // its buttons know of what plays
+      this.landed = type === "pointerdown" && $("stage").contains(target);
+      setTimeout(() => page.pause());
     };
-    for (const kind of ["pointerdown", "keydown"]) document.addEventListener(kind, stop, { capture: true, once: true });
+    for (const kind of ["pointerdown", "keydown"]) document.addEventListener(kind, stop, { capture: true, signal: ends.signal });
+    page.playing = FLIGHT;
+    $("play").setAttribute("aria-pressed", "true");
     const began = performance.now();
-    let time = start;
+    let [moment, seen] = [{ step, time: start }, page.index];
     const gone = () => ((performance.now() - began) / 1000) * Number($("speed").value);
-    for (let i = index + 1; this.flies && i < frames; i += Math.max(1, Math.floor((gone() + start - time) / FRAME))) {
-      const drawn = await engine.ask({ do: "frame", index: i });
-      [{ time }] = drawn.lesson.frames;
-      await new Promise((then) => setTimeout(then, 1000 * (time - start - gone())));
-      this.look(drawn, dense);
+    try {
+      for (let i = index + 1; page.playing === FLIGHT && i < frames; i += Math.max(1, Math.floor((gone() + start - moment.time) / FRAME))) {
+        const drawn = await engine.ask({ do: "frame", index: i });
+        const [frame] = drawn.lesson.frames;
+        await new Promise((then) => setTimeout(then, 1000 * (frame.time - start - gone())));
+        if (page.playing !== FLIGHT) break;
+        moment = frame;
+        seen = page.index = leadsTo(page.lesson, { ...frame, step: frame.step - page.words.grown });
+        this.look(drawn, dense);
+        page.tellStop(frame.step, frame.caption);
+      }
+    } finally {
+      ends.abort();
+      page.pause();
     }
-    this.flies = false;
-    return time;
+    return page.index === seen ? moment : page.lesson.frames[page.index];
   }
 
   // --- what is told of a body
 
   // Its nodes and pairs stay lit, and a sentence says them, until another one is held.
-  watch(one) {
+  watch(one, deed) {
     const { pointing } = this.page;
     this.page.watched = one;
+    this.deed = deed;
+    $("remove").disabled = !one;
     if (!pointing) return;
     pointing.watched = one;
     pointing.light();
@@ -287,20 +306,26 @@ class Hand {
     const own = sides.filter(({ name }) => sides.length < 3 || name === sideOf(watched));
     const told = own.map((facts) => this.told(lesson, index, facts, entity(facts.name, "body", nameOf(watched)), own.length > 1));
     return told.map((words, i) => (words && own.length > 1 ? `${own[i].title.split(":")[0]}: ${words}` : words)).filter(Boolean)
-      .map((words) => words.replace(/^[a-z]+\b/, (word) => word[0].toUpperCase() + word.slice(1))).join(" ");
+      .map(asSentence).join(" ");
   }
 
   told(lesson, index, facts, one, isShort) {
     const name = nameOf(one);
-    if (!facts.bodies.some(([, known]) => known === name)) return "";
+    const body = facts.bodies.find(([, known]) => known === name);
+    if (!body) return "";
+    const named = new Set(lesson.lists[index].map((row) => lesson.shape(row)).filter(({ kind }) => kind === KIND.text)
+      .map(({ key }) => lesson.keys[key]).flatMap(([key, one]) => (/(^|\/)world\/name\//.test(key) ? [nameOf(one)] : [])));
+    const called = named.has(name) ? name : `the body you ${this.deed}`;
+    const [least, most] = boundsOf(this.live.text);
+    if (least && body[2].some((n, i) => n < least[i] || n > most[i])) return `${called} has left the world.`;
     const side = new Relations(facts);
     const stored = showsNodes(lesson, index) ? this.stored(side.leavesWith(name), this.boxOf(one, lesson, index)) : "";
     const all = new Map(facts.counts).get("pairs");
     const others = side.pairs.flatMap((pair) => (pair.includes(name) ? pair.filter((other) => other !== name) : []));
     const shares = all === undefined || all !== side.pairs.length ? "" : shareOf(others.length, all);
-    const where = shares + (shares && others.length && !isShort ? `, with ${listed(others)}` : "");
-    if (isShort && stored) return `${name} ${stored}${where && `, ${where}`}.`;
-    return [stored && `${name} ${stored}.`, where && `${stored ? "It" : name} is ${where}.`].filter(Boolean).join(" ");
+    const where = shares + (shares && others.length && !isShort && others.every((one) => named.has(one)) ? `, with ${listed(others)}` : "");
+    if (isShort && stored) return `${called} ${stored}${where && `, ${where}`}.`;
+    return [stored && `${called} ${stored}.`, where && `${stored ? "It" : called} is ${where}.`].filter(Boolean).join(" ");
   }
 
   stored(leaves, box) {
@@ -361,12 +386,12 @@ class Hand {
 
   // --- that it can be done
 
-  // What can be moved pulses, and words say so, until somebody has done it.
+  // What can be moved pulses, and words say so, until somebody has done such a thing.
   invite() {
+    this.done = ""; // kinds of things
     try {
-      if (localStorage.getItem("lantern-hand")) return;
+      this.done = localStorage.getItem("lantern-hand") ?? "";
     } catch {} // a page may be kept from remembering
-    this.invites = true;
     this.beckon();
   }
 
@@ -381,13 +406,12 @@ class Hand {
 
   beckon() {
     this.mark?.remove();
-    const one = this.invites && this.inviting;
-    const isWall = !one && this.live.hasLevel;
-    $("invitation").hidden = !this.invites || !(one || isWall);
-    const what = isWall ? "Drag the corner of a wall" : one && this.sizes(one) ? "Drag the corner of a texture"
-      : this.live.passes ? "Drag a body, or throw it" : "Drag a body";
-    $("invitation").textContent = `${what}: the engine answers.`;
-    if (!one) return;
+    const one = this.inviting;
+    this.kind = !one ? this.live.hasLevel && "wall" : this.sizes(one) ? "texture" : this.live.passes ? "throw" : "body";
+    const invites = this.kind && this.done !== undefined && !this.done.includes(this.kind);
+    $("invitation").hidden = !invites;
+    $("invitation").textContent = `${INVITATIONS[this.kind]}: the engine answers.`;
+    if (!one || !invites) return;
     const [left, upper, right, lower] = this.boxOf(one);
     this.mark = this.page.picture.make("g");
     this.mark.setAttribute("class", "beckon");
@@ -398,16 +422,38 @@ class Hand {
 
   // It has been done.
   welcome() {
-    this.invites = false;
+    const what = this.kind === "throw" ? "throw body" : this.kind; // who throws can drag
+    if (!this.done.includes(what)) this.done += ` ${what}`;
     this.beckon();
     try {
-      localStorage.setItem("lantern-hand", "1");
+      localStorage.setItem("lantern-hand", this.done);
     } catch {}
   }
 }
 
 const listed = (names) => names.length > FEW ? `${names.slice(0, FEW - 1).join(", ")} and ${names.length - FEW + 1} more`
   : names.length > 1 ? `${names.slice(0, -1).join(", ")} and ${names.at(-1)}` : names[0];
+
+const asSentence = (words) => words[0].toUpperCase() + words.slice(1);
+
+// So many of what a word in the plural names.
+const singular = (word) => word.replace(/ves$/, "f").replace(/ies$/, "y").replace(/(..)s$/, "$1");
+const counted = (n, word) => `${n} ${n === 1 ? singular(word) : word}`;
+
+// What a frame counts, and what the lesson's frame like it did.
+function countsTold(sides, before, hasNodes) {
+  return sides.flatMap(({ title, counts }, i) => {
+    const known = new Map(before?.[i]?.counts);
+    const all = counts.filter(([name, n]) => COUNTS.includes(name) && (n || name !== "refused") && (hasNodes || !/leaves|entries/.test(name)));
+    if (!all.length) return [];
+    const told = all.map(([name, n]) => {
+      const [now, then] = [counted(n, name === "pairs" ? "candidate pairs" : name), known.get(name)];
+      return then === undefined || then === n ? now : `${now} (${then} in the lesson)`;
+    }).join(", ");
+    const isSame = known.size && !told.includes("(");
+    return asSentence(`${sides.length > 1 ? `${title.split(":")[0]}: ` : ""}${told}${isSame ? ", as in the lesson" : ""}.`);
+  }).join(" ");
+}
 
 // So many of all pairs, in words.
 function shareOf(n, all) {
