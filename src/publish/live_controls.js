@@ -38,7 +38,7 @@ class Controls {
     const [head, ...steps] = stepsOf(live.text);
     const { step } = page.lesson.frames[page.index];
     steps[step] = `${steps[step].trimEnd()}\n\n[[step]]\n${lines}\n${step === steps.length - 1 ? "" : "\n"}`;
-    page.watched = watched;
+    live.hand.watch(watched, "added");
     live.editor.flush();
     live.change(head + tables + steps.join(""), "body", { index: page.lesson.frames.findLastIndex((frame) => frame.step === step) + 1 });
   }
@@ -64,7 +64,7 @@ class Controls {
     this.paths = paths;
     if (!controls.length) $("fields").textContent = "Nothing here can be set by hand. The text can be changed.";
     for (const field of document.querySelectorAll("#change-part [data-path]"))
-      putIn(field, controls.find(({ path }) => path === field.dataset.path));
+      putIn(field, controls.find(({ path }) => path === field.dataset.path), this.live.cause === field.dataset.path);
   }
 }
 
@@ -107,10 +107,14 @@ function fieldOf({ path, key, means, type, least, most, step, choices, unit }) {
   const range = () => [input("range", { min: least, max: most, step: step ?? (type === "whole" ? 1 : "any") }),
     element(document, "output")];
   return element(document, type === "point" ? "fieldset" : "label", {
-    "data-path": path, "data-type": type, "data-unit": unit ?? "", title: means,
-    children: [element(document, "b", { text: key }), ...(parts[type] ?? range)(), element(document, "small", { text: means })],
+    "data-path": path, "data-type": type, "data-unit": unit ?? "", title: means.replaceAll("`", ""),
+    children: [element(document, "b", { text: key }), ...(parts[type] ?? range)(), element(document, "small", { children: coded(means.match(/^.{1,140}?\.(?=\s|$)|^.*?([.;](?=\s)|$)/)[0].replace(/;$/, ".")) })],
   });
 }
+
+// What stands between backticks is code.
+const coded = (words) => words.split("`").map((text, i) => (i % 2 ? element(document, "code", { text }) : text));
+const withUnit = (value, unit) => (unit?.length > 2 ? counted(Number(value), unit) : `${value} ${unit ?? ""}`);
 
 // A TOML string of one line without its quotes, or what has none.
 const bare = (value) => String(value).replace(/^(["'])(.*)\1$/, "$2");
@@ -122,18 +126,18 @@ function valueIn(field) {
   if (type === "truth") return String(inputs[0].checked);
   if (type === "point") return `[${inputs.map((one) => Number(one.value)).join(", ")}]`;
   const value = String(Number(Number(inputs[0].value).toPrecision(4)));
-  field.querySelector("output").textContent = `${value} ${field.dataset.unit}`;
+  field.querySelector("output").textContent = withUnit(value, field.dataset.unit);
   return value;
 }
 
-function putIn(field, { type, value, unit }) {
+function putIn(field, { type, value, unit }, isSetting) {
   const inputs = [...field.querySelectorAll("input, select")];
   if (field.contains(document.activeElement) && type === "point") return; // it is being typed
   const output = field.querySelector("output");
-  if (output) output.textContent = `${value} ${unit ?? ""}`;
+  if (output) output.textContent = withUnit(value, unit);
   if (type === "truth") inputs[0].checked = value === "true";
   else if (type === "point") String(value).match(/-?[\d.]+(e-?\d+)?/g)?.slice(0, 2).forEach((n, i) => (inputs[i].value = n));
-  else if (document.activeElement !== inputs[0] || inputs[0].type !== "range") inputs[0].value = bare(value);
+  else if (!isSetting || inputs[0].type !== "range") inputs[0].value = bare(value);
 }
 
 // --- questions: say first, then look
@@ -148,23 +152,23 @@ function fillQuestions(page, questions, isOwn = true) {
     link.addEventListener("click", (event) => { event.preventDefault(); page.go(frame); });
     const told = element(document, "p", { children: [`${isOwn ? "" : "In the lesson: "}${answer} `, link] });
     return element(document, "details", {
-      children: [element(document, "summary", { text: asked }), ...(predict ? askFirst(page, question, told) : []), told],
+      children: [element(document, "summary", { text: predict ? `At step ${page.lesson.frames[frame].step + 1}: ${asked}` : asked }), ...(predict ? askFirst(page, question, told) : []), told],
     });
   }));
   if ($("question")) $("question").hidden = !questions.length;
 }
 
 function askFirst(page, { predict, frame }, answer) {
-  const number = element(document, "input", { type: "number", min: 0, required: "" });
+  const number = element(document, "input", { type: "number", min: 0 });
   const words = element(document, "label", { children: [`Your number of ${predict.replaceAll("_", " ")}: `, number] });
   const form = element(document, "form", { children: [words, element(document, "button", { text: "Look" })] });
   const said = element(document, "p", { role: "status" });
   answer.hidden = true;
   form.addEventListener("submit", (event) => {
     event.preventDefault();
-    const counted = page.facts[frame].map(({ title, counts }) =>
-      `${title ? `${title}: ` : ""}${new Map(counts).get(predict) ?? "none"}`);
-    said.textContent = `You said ${number.value}. The engine counts ${counted.join(", ")}.`;
+    if (!number.value) return (said.textContent = "Say a number first.");
+    const found = page.facts[frame].map(({ counts }) => new Map(counts).get(predict) ?? 0);
+    said.textContent = `${found.includes(Number(number.value)) ? "Right" : "Wrong"}: you said ${number.value}; it is ${found.join(" and ")}.`;
     answer.hidden = false;
     page.go(frame);
   });
@@ -179,7 +183,7 @@ function askFirst(page, { predict, frame }, answer) {
     button.addEventListener("click", () => choose(word));
     return button;
   });
-  return [form, said, element(document, "p", { class: "group", children: ["Or say what your next move makes of them:", ...buttons] })];
+  return [form, said, element(document, "p", { class: "group", children: ["Or guess, then drag a body. There will be ", ...buttons, ` ${predict.replaceAll("_", " ")}.`] })];
 }
 
 const CHANGES = ["fewer", "as many", "more"];

@@ -74,9 +74,8 @@ class Editor {
   // What the engine says of the text. What a lesson expects need not be so in a world of one's own.
   tell(diagnostics, unmet = []) {
     this.diagnostics = [...diagnostics, ...unmet.map((one) => ({ ...one, severity: "warning" }))];
-    const counts = unmet.length === 1 ? "a count" : `${unmet.length} counts`;
     this.told = diagnostics.map(sentenceOf).join("\n");
-    $("live-said").textContent = [this.told, unmet.length && `The lesson tells ${counts} that your world has otherwise.`].filter(Boolean).join("\n");
+    $("live-said").textContent = [this.told, unmet.length && `Of the lesson’s expectations ${unmet.length === 1 ? "1 does" : `${unmet.length} do`} not hold in your world.`].filter(Boolean).join("\n");
     const isWrong = diagnostics.some(({ severity }) => severity === "error");
     this.area.setAttribute("aria-invalid", isWrong);
     $("text").classList.toggle("wrong", isWrong);
