@@ -22,7 +22,7 @@ def expect(what, found, expected=True):
 
 
 def at_rest(page):
-    page.wait_for("window.lantern.live.working === null || window.lantern.live.working === undefined")
+    page.wait_for("!window.lantern.live.working && !window.lantern.picture.easing")
 
 
 def open_live(page, address):
@@ -53,6 +53,10 @@ def drag(page, name, dx, dy, moves=10):
     at_rest(page)
 
 
+def text_of(page, name):
+    return page.run("return document.getElementById(arguments[0]).textContent", name)
+
+
 STATE = """const { live } = window.lantern;
 return { index: window.lantern.index, own: live.text === live.own.text, past: live.past.length, shown: live.text ===
 document.getElementById('source').value, marked: !document.getElementById('own').firstElementChild.hidden }"""
@@ -69,8 +73,8 @@ def check_hand(page):
     moved = middle_of(page, "red")
     expect("the body is where the hand has put it", abs(moved[0] - x - 90) < 3 and abs(moved[1] - y - 20) < 3)
     expect("so is the text", page.run(STATE), {"index": STEP, "own": False, "past": 1, "shown": True, "marked": True})
-    expect("what was done is said", page.run("return document.getElementById('said').textContent").startswith("red at "))
-    expect("what its facts are", page.run("return document.getElementById('caption').textContent"),
+    expect("what was done is said", text_of(page, "said").startswith("red at "))
+    expect("what its facts are", text_of(page, "caption"),
            "Red lies across leaves 1 and 2 and is stored in both. It is in 2 of 3 candidate pairs, with pink and blue.")
     expect("and where it is stored is lit", page.run(
         "return [...new Set([...document.querySelectorAll('#picture .lit')].map((e) => window.lantern.lesson.keys[e.thing][0]))]"
@@ -108,10 +112,15 @@ def check_keys(page):
 def check_controls(page):
     page.press("c")
     page.wait_for("document.querySelector('[data-path=\"structure.capacity\"] input') !== null")
-    page.run("const i = document.querySelector('[data-path=\"structure.capacity\"] input'); i.value = 4;"
+    expect("nothing was moved", page.run("return document.getElementById('remove').disabled"))
+    page.run("const i = document.querySelector('[data-path=\"structure.capacity\"] input'); i.focus(); i.value = 4;"
              " i.dispatchEvent(new Event('input', {bubbles: true}))")
     at_rest(page)
     expect("a slider changes the text", page.run("return /capacity = 4/.test(window.lantern.live.text)"))
+    expect("and the words", text_of(page, "caption"), "1 leaf (7 in the lesson), 4 entries (5 in the lesson), 6 candidate pairs (0 in the lesson).")
+    page.run("document.activeElement.dispatchEvent(new KeyboardEvent('keydown', {key: 'z', ctrlKey: true, bubbles: true}))")
+    at_rest(page)
+    expect("Ctrl+Z undoes it", page.run("return [window.lantern.live.text === window.lantern.live.own.text, document.activeElement.value]"), [True, "2"])
     bodies = "return window.lantern.facts[window.lantern.index][0].bodies.map(([, name]) => name)"
     for button, names in (("add", ["blue", "new1"]), ("remove", ["blue"])):
         page.run("document.getElementById(arguments[0]).click()", button)
@@ -124,9 +133,13 @@ def check_controls(page):
 
 def check_prediction(page):
     page.press("q")
+    for number, said in (("", "Say a number first."), (5, "Wrong: you said 5; it is 0.")):
+        page.run("const form = document.querySelector('#question-dialog details form');"
+                 " form.querySelector('input').value = arguments[0]; form.requestSubmit()", number)
+        expect("an answer is judged", page.run("return document.querySelector('#question-dialog [role=status]').textContent"), said)
     page.run("[...document.querySelectorAll('#question-dialog button')].find((one) => one.textContent === 'more').click()")
     drag(page, "red", -60, 60)
-    expect("a prediction is judged by the engine's count", page.run("return document.getElementById('hint').textContent"),
+    expect("a prediction is judged by the engine's count", text_of(page, "hint"),
            "Yes, more: 0 pairs before, 2 now.")
     page.run("document.getElementById('again').click(); window.lantern.go(arguments[0])", STEP)
     at_rest(page)
@@ -166,6 +179,42 @@ def check_link(page):
     expect("and the frame", page.run("return window.lantern.index"), index)
 
 
+PLACE = """const of = (id) => document.getElementById(id);
+return [of('place').textContent, of('number').textContent, of('play').getAttribute('aria-pressed')]"""
+
+
+def throw(page, name, dx, dy):
+    x, y = middle_of(page, name)
+    page.move_to(x, y)
+    page.mouse("pointerDown", x, y)
+    for i in range(1, 7):
+        page.mouse("pointerMove", x + dx * i / 6, y + dy * i / 6)
+    page.mouse("pointerUp", x + dx, y + dy)
+    page.wait_for("window.lantern.playing && window.lantern.index > 3")
+
+
+# Slider and number follow a flight, which can be paused; back to the lesson is where it began.
+def check_throw(page):
+    page.run("window.lantern.go(1)")
+    expect("that one can throw is said", text_of(page, "invitation"), "Drag a body, or throw it: the engine answers.")
+    for end in ("play", "next"):
+        throw(page, "b5", 240, -120)
+        place, number, plays = page.run(PLACE)
+        expect("the number follows", [f"step {number.replace(' / ', ' of ')}", plays], [place, "true"])
+        page.run("document.getElementById(arguments[0]).click()", end)
+        at_rest(page)
+        place, number, plays = page.run(PLACE)
+        expect("and stays where it ends", [f"step {number.replace(' / ', ' of ')}", plays], [place, "false"])
+        expect("what is gone is said", text_of(page, "caption"), "The body you threw has left the world.")
+        page.run("document.getElementById('again').click()")
+        at_rest(page)
+        expect("back to where it was thrown", page.run("return window.lantern.index"), 1)
+    throw(page, "b5", 240, -120)
+    page.press("right")
+    at_rest(page)
+    expect("no script fails in a flight", page.errors(), [])
+
+
 # What the program says of the file that the page saves.
 def check_download(page, lantern, folder):
     page.run("window.lantern.go(arguments[0])", STEP)
@@ -202,6 +251,8 @@ def check(browser, address, lantern, folder):
         expect("run() gives the facts of all frames", frames, page.run("return window.lantern.lesson.frames.length"))
         times = page.run("return window.lantern.live.hand.times")
         expect("no script fails", page.errors(), [])
+        open_live(page, address.replace("live.html", "throw.html"))
+        check_throw(page)
         page.before_load("delete window.Worker")
         page.open("about:blank")
         page.open(address)
@@ -219,8 +270,8 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     file = folder / "live.html"
     engine = ["--engine", words[3]] if len(words) > 3 else []
-    subprocess.run([lantern, "render", root / "scenarios/ghost_quadtree.toml", "-o", file, "--live", *engine],
-                   check=True, capture_output=True)
+    for name, page in (("ghost_quadtree", file), ("falling_boxes", folder / "throw.html")):
+        subprocess.run([lantern, "render", root / f"scenarios/{name}.toml", "-o", page, "--live", *engine], check=True, capture_output=True)
     if len(words) == len(sys.argv) - 1:
         check(Browser, file.as_uri(), lantern, folder)
     elif not firefox.BINARY:
