@@ -66,7 +66,7 @@ class Live {
   constructor(page, engine, scenario, recorded) {
     Object.assign(this, { page, engine, waiting: new Map() });
     this.begin(scenario, recorded);
-    engine.again = () => ({ do: "open", text: this.good, name: this.name });
+    engine.again = () => this.opening(this.good);
     this.editor = new Editor(this);
     this.controls = new Controls(this);
     this.hand = new Hand(this);
@@ -187,10 +187,16 @@ class Live {
     $("redo").disabled = !this.future.length;
   }
 
+  // In one's own world what a hand holds is lit, in place of what the lesson points out.
+  opening(text) {
+    const held = text === this.own.text ? "" : nameOf(this.page.watched ?? "");
+    return { do: "open", text, name: this.name, held };
+  }
+
   // Refused text leaves the picture of the last good one.
   async run({ index, moment } = {}) {
-    const { text, name, page } = this;
-    const { refused, warnings, unmet } = await this.engine.ask({ do: "open", text, name });
+    const { text, page } = this;
+    const { refused, warnings, unmet } = await this.engine.ask(this.opening(text));
     this.editor.tell(refused ?? warnings, unmet);
     if (refused) return;
     this.good = text;

@@ -36,7 +36,6 @@ class Hand {
     this.page.shown = () => {
       this.handle.remove();
       this.beckon();
-      this.unlight(this.live.good, this.page.lesson.frames[this.page.index].step);
     };
     this.handle = this.page.picture.make("circle");
     this.handle.setAttribute("class", "handle");
@@ -217,7 +216,6 @@ class Hand {
   // One frame that the engine has drawn.
   look({ lesson, facts }, text) {
     const { live, page } = this;
-    this.unlight(text, lesson.frames[0].step);
     page.words.grown = stepsOf(text).length - stepsOf(live.good).length;
     page.look(live.retoldAlone(new Lesson(lesson, page.lesson), facts), facts);
     page.pointing.light();
@@ -246,9 +244,9 @@ class Hand {
   // A run of its own, whose steps stop every few moments, is seen in its world's own time until it ends
   // or the reader does something else. Tells the moment that it has come to.
   async fly({ text, index, lesson: { frames: [{ step, time: start }] } }) {
-    const { page, live: { engine, name } } = this;
+    const { page, live, live: { engine } } = this;
     const dense = stopping(text, step, Math.max(1, Math.round(FRAME / timeStepOf(text))));
-    const { frames } = await engine.ask({ do: "open", text: dense, name }).catch(() => ({}));
+    const { frames } = await engine.ask(live.opening(dense)).catch(() => ({}));
     if (!frames) return null; // more than can be shown
     const ends = new AbortController();
     const stop = ({ type, target }) => {
@@ -291,11 +289,6 @@ class Hand {
     if (!pointing) return;
     pointing.watched = one;
     pointing.light();
-  }
-
-  // What a step asks of the world stays lit; what the lesson points out in it, or puts there, does not.
-  unlight(text, step) {
-    this.page.picture.svg.classList.toggle("unlit", Boolean(this.page.watched) && PLAIN.test(stepsOf(text)[step + 1]));
   }
 
   // What a frame's facts say of the body that is watched: where it is stored, and its pairs. Of two
@@ -485,7 +478,6 @@ function stopping(text, step, every) {
     : lines.replace(/^\s*every\s*=.*$/m, "").replace(PASSES, `$&\nevery = ${every}`))].join("");
 }
 const stepsOf = (text) => text.split(/^(?=[ \t]*\[\[step\]\])/m);
-const PLAIN = /^\s*do\s*=\s*["'](show|insert|emit|remove|move|run|wait|rebuild|sleep|wake)["']/m;
 const PASSES = /^\s*do\s*=\s*["'](run|wait)["'].*$/m;
 
 // How far a hand has gone around a middle, counter-clockwise.
