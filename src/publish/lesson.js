@@ -188,17 +188,18 @@ class Page {
   }
 
   fillFacts(sides = this.facts[this.index]) {
-    $("facts-panel").replaceChildren(...sides.flatMap(factTables));
+    $("facts-panel").lastElementChild.replaceChildren(...sides.flatMap(factTables));
   }
 
   openOverview() {
     const dialog = $("overview-dialog");
     fillOverview(dialog, this.lesson, this.lesson.stepStops, this.lesson.stepStops.find((stop) => stop >= this.index),
       (index) => { dialog.close(); this.go(index); });
+    dialog.append(element(document, "form", { method: "dialog", children: [element(document, "button", { text: "Close" })] }));
   }
 
   openQuestions() {
-    if ($("question")) $("question-dialog").showModal();
+    if ($("question")) $("question-dialog")[matchMedia("(pointer: coarse)").matches ? "show" : "showModal"]();
   }
 
   openSpeaker() {
@@ -306,23 +307,27 @@ function listenToButtons(page) {
   for (const [id, act] of Object.entries(acts)) $(id).addEventListener("click", act);
   $("question")?.addEventListener("click", () => page.openQuestions());
   $("question-dialog").addEventListener("click", (event) => event.target.closest("a") && $("question-dialog").close());
+  $("facts-panel").firstElementChild.addEventListener("click", () => page.toggleFacts());
   $("slider").addEventListener("input", () => page.go(page.stops[$("slider").value]));
   for (const dialog of document.querySelectorAll("dialog"))
-    dialog.addEventListener("click", (event) => event.target === dialog && dialog.close());
+    dialog.addEventListener("click", (event) => event.target === dialog && dialog.matches(":modal") && dialog.close());
 }
 
 function listenToPointer(page) {
   const stage = $("stage");
-  let touch = null;
+  let touch = null; // and how far it has gone, unless a hand has a body or the picture moves
   stage.addEventListener("pointermove", (event) => event.pointerType === "mouse" && page.pointAt(event));
   stage.addEventListener("pointerleave", () => page.pointing?.light());
-  stage.addEventListener("pointerdown", (event) => (touch = event.pointerType === "touch" ? event : null));
+  for (const part of [stage, $("words")]) {
+    part.addEventListener("pointerdown", ({ pointerType, clientX }) => (touch = pointerType === "touch" ? { clientX, way: 0 } : null));
+    part.addEventListener("pointermove", ({ clientX }) => touch && (touch.way = clientX - touch.clientX));
+    part.addEventListener("pointerup", () => Math.abs(touch?.way ?? 0) > 30 && (touch.way > 0 ? page.back() : page.next()));
+  }
   stage.addEventListener("click", (event) => {
     if (event.pointerType !== "touch") return event.shiftKey ? page.back() : page.next();
-    const way = touch ? event.clientX - touch.clientX : 0;
     const at = (event.clientX - stage.offsetLeft) / stage.offsetWidth;
-    if (Math.abs(way) < 30 && at > 0.2 && at < 0.8) return page.pointAt(event);
-    return way > 30 || at <= 0.2 ? page.back() : page.next();
+    if (at > 0.2 && at < 0.8) return page.pointAt(event);
+    return at <= 0.2 ? page.back() : page.next();
   });
 }
 
