@@ -290,6 +290,7 @@ class Live {
   toggle(part) {
     const opens = $(`${part}-part`).hidden;
     if (opens && !$("facts-panel").hidden) this.page.toggleFacts();
+    if (opens && matchMedia("(max-width: 50rem), (max-height: 28rem)").matches) this.close(); // there is room for one
     $(`${part}-part`).hidden = !opens;
     $("live-panel").hidden = $("change-part").hidden && $("text-part").hidden;
     for (const name of ["aria-pressed", "aria-expanded"]) $(part).setAttribute(name, opens);
