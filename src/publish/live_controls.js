@@ -161,7 +161,7 @@ function fillQuestions(page, questions, isOwn = true) {
 function askFirst(page, { predict, frame }, answer) {
   const number = element(document, "input", { type: "number", min: 0 });
   const words = element(document, "label", { children: [`Your number of ${predict.replaceAll("_", " ")}: `, number] });
-  const form = element(document, "form", { children: [words, element(document, "button", { text: "Look" })] });
+  const form = element(document, "form", { children: [words, element(document, "button", { text: "Check" })] });
   const said = element(document, "p", { role: "status" });
   answer.hidden = true;
   form.addEventListener("submit", (event) => {
