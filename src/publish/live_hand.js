@@ -409,7 +409,7 @@ class Hand {
     this.mark = this.page.picture.make("g");
     this.mark.setAttribute("class", "beckon");
     this.mark.innerHTML = `<rect x="${left - 8}" y="${upper - 8}" width="${right - left + 16}" height="${lower - upper + 16}" rx="10"/>
-<path transform="translate(${right - 8} ${lower - 8}) scale(${1.7 * Math.max(1, 0.7 / this.scale)})" d="M9 14V5a2 2 0 0 1 4 0v7l5 1a2.5 2.5 0 0 1 2 3l-1 4a4 4 0 0 1-4 3h-2a5 5 0 0 1-4-2l-4-5a1.7 1.7 0 0 1 2.5-2.2z"/>`;
+<path transform="translate(${right - 8} ${lower - 8}) scale(${1.7 * Math.max(1, 0.45 / this.scale)})" d="M9 14V5a2 2 0 0 1 4 0v7l5 1a2.5 2.5 0 0 1 2 3l-1 4a4 4 0 0 1-4 3h-2a5 5 0 0 1-4-2l-4-5a1.7 1.7 0 0 1 2.5-2.2z"/>`;
     this.page.picture.svg.append(this.mark);
   }
 
