@@ -11,6 +11,7 @@ LANTERN, ROOT, FOLDER = (pathlib.Path(word).resolve() for word in sys.argv[1:4])
 SCENARIO = ROOT / "tests/publish/lesson.toml"
 SIZE = (960, 540)
 PICTURE_HEIGHT = 427  # between the words
+PHONE = (390, 844)
 
 # The mean difference of two pictures' channels, 0 ... 255, asked of the browser.
 DIFFERENCE = """
@@ -177,6 +178,41 @@ def check_in_a_deck(page):
     page.wait_for("told.includes('{\"method\":\"next\"}')")
 
 
+def check_phone(address):
+    middle = "const r = document.querySelector(arguments[0]).getBoundingClientRect(); const at = [r.x + r.width / 2, r.y + r.height / 2];"
+
+    def touch(kind, *points):
+        page.cdp("Input.dispatchTouchEvent", type=kind, touchPoints=[{"x": x, "y": y} for x, y in points])
+
+    def is_free(one):
+        return page.run(f"{middle} return document.elementFromPoint(...at).closest(arguments[0]) !== null", one)
+
+    for width, height in (PHONE, PHONE[::-1]):
+        with Browser((width, height), device={"width": width, "height": height, "pixelRatio": 2, "touch": True}) as page:
+            page.open(address)
+            page.wait_for("window.lantern && window.lantern.facts")
+            for way, index in ((-1, 1), (1, 0)):
+                x, y = page.run(f"{middle} return at", "#words")
+                touch("touchStart", (x, y))
+                for i in range(1, 9):
+                    touch("touchMove", (x + 10 * i * way, y))
+                touch("touchEnd")
+                expect("a swipe over the words steps", page.run("return window.lantern.index"), index)
+            for button in ("#facts", "#facts-panel .close"):
+                page.run("document.querySelector(arguments[0]).click()", button)
+                expect("the bar stays free", [one for one in ("#back", "#facts", "#help") if not is_free(one)], [])
+            expect("facts can be closed", page.run("return document.getElementById('facts-panel').hidden"))
+            page.run("document.getElementById('overview').click()")
+            page.wait_for("document.querySelectorAll('#overview-dialog svg').length > 1")
+            expect("no step's words are covered", page.run(
+                "return [...document.querySelectorAll('#overview-dialog [data-index]')].every((one) => {"
+                " one.scrollIntoView({ block: 'center' }); const r = one.lastElementChild.getBoundingClientRect();"
+                " return one.contains(document.elementFromPoint(r.x + r.width / 2, r.y + r.height / 2)) })"))
+            expect("the steps can be closed", is_free("#overview-dialog form button"))
+            if height > width:
+                expect("upright the picture is wider than the phone", page.run("return document.getElementById('stage').scrollWidth > innerWidth"))
+
+
 def check_plain(address):
     with Browser(SIZE, scripts=False) as page:
         page.open(address)
@@ -209,6 +245,7 @@ def main():
         check_pictures(page, 1, "dark")
         check_in_a_deck(page)
         expect("no script fails", page.errors(), [])
+    check_phone(address)
     check_plain(address)
     for failure in failures:
         print(failure)
