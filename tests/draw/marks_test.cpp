@@ -385,5 +385,32 @@ TEST(Marks, LookTheSameIn2DAnd3D) {
   EXPECT_NEAR(longest_line(in_3d, Role::ray), ratio * longest_line(in_2d, Role::ray), 15);
 }
 
+// A pile whose boxes just touch: on the page some of them lie apart by a rounding.
+TEST(Marks, EachPairThatTouchesHasItsMark) {
+  for (const double width : {22.0, 19.7, 31.3}) {
+    Frame frame;
+    frame.panels = {panel_named("world")};
+    frame.bounds = {Vec<3>(0.0), {width, 12.5, 0}};
+    for (const double y : {1.9, 3.7, 5.5, 7.3, 9.1}) {
+      const auto i = static_cast<BodyId>(frame.bodies.size());
+      FrameBody body;
+      body.id = i;
+      body.name = "b" + std::to_string(i);
+      body.position = {6.5, y, 0};
+      const Vec<3> half{1.1, 0.9, 0};
+      body.shape = OrientedBox<3>{half};
+      body.box = {body.position - half, body.position + half};
+      frame.bodies.push_back(body);
+      if (i > 0) frame.pairs.push_back({.pair = {i - 1, i}, .overlaps = true});
+    }
+    Work work;
+    const DrawList list = draw_frame(frame, page_for(1600, 900), work);
+    EXPECT_EQ(std::ranges::count_if(list.runs,
+                                    [](const auto& run) { return run.key.ends_with("/boxes"); }),
+              4)
+        << width;
+  }
+}
+
 }  // namespace
 }  // namespace lantern::draw

@@ -62,8 +62,10 @@ PageLink link_between(const Vec<2>& from, const Vec<2>& to, double first, double
 PageLink link_of(const Stand& a, const Stand& b) {
   const Vec<2> from = aim_at(a, b.center), to = aim_at(b, from);
   PageLink link = link_between(from, to, share_inside(a, from, to), 1 - share_inside(b, to, from));
-  if (!a.outside && !b.outside && overlap(a.box, b.box))
-    link.common = Box<2>{glm::max(a.box.lo, b.box.lo), glm::min(a.box.hi, b.box.hi)};
+  // Boxes that touch may lie apart by a rounding on the page.
+  const Vec<2> lo = glm::max(a.box.lo, b.box.lo), hi = glm::min(a.box.hi, b.box.hi);
+  if (!a.outside && !b.outside && glm::all(glm::lessThanEqual(lo, hi + 1e-6)))
+    link.common = Box<2>{glm::min(lo, hi), hi};
   return link;
 }
 
