@@ -24,12 +24,14 @@ class Hand {
     listen("pointermove", (event) => this.move(event));
     listen("pointerup", (event) => this.up(event));
     listen("pointercancel", (event) => this.up(event));
+    // A finger's moves go to what it came down on, also when that is no longer in the picture.
+    const stay = (event) => this.held && event.preventDefault();
+    listen("touchstart", ({ target }) => target.addEventListener("touchmove", stay, { passive: false }), { passive: false });
     listen("click", (event) => {
       const way = this.pressed && Math.hypot(event.clientX - this.pressed.clientX, event.clientY - this.pressed.clientY);
       if (this.dragged || (event.pointerType === "mouse" && way > 8)) event.stopImmediatePropagation();
       this.dragged = false;
     });
-    listen("touchmove", (event) => this.held && event.preventDefault(), { passive: false });
     $("things").addEventListener("keydown", (event) => this.key(event));
     const giveUp = (event) => event.key === "Escape" && this.held?.begun && this.giveUp(event);
     document.addEventListener("keydown", giveUp, true);

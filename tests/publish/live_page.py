@@ -216,6 +216,19 @@ def check_throw(page):
 
 
 # What the program says of the file that the page saves.
+# A picture that is wider than the phone scrolls sideways, but not under a body that is dragged.
+def check_finger(address):
+    with Browser((390, 844), device={"width": 390, "height": 844, "pixelRatio": 2, "touch": True}) as page:
+        open_live(page, address)
+        x, y = middle_of(page, "b5")
+        for i, kind in enumerate(["touchStart"] + 13 * ["touchMove"]):
+            page.cdp("Input.dispatchTouchEvent", type=kind, touchPoints=[{"x": x + 8 * i, "y": y - i}])
+        at_rest(page)
+        expect("a body follows a finger sideways", middle_of(page, "b5")[0] > x + 60)
+        page.cdp("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
+        expect("a finger has no error", page.errors(), [])
+
+
 def check_download(page, lantern, folder):
     page.run("window.lantern.go(arguments[0])", STEP)
     drag(page, "blue", -60, 30)
@@ -274,6 +287,7 @@ def main():
         subprocess.run([lantern, "render", root / f"scenarios/{name}.toml", "-o", page, "--live", *engine], check=True, capture_output=True)
     if len(words) == len(sys.argv) - 1:
         check(Browser, file.as_uri(), lantern, folder)
+        check_finger((folder / "throw.html").as_uri())
     elif not firefox.BINARY:
         return 77
     else:
