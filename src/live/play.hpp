@@ -35,7 +35,7 @@ class Play {
   void go_on(const language::Scenario& as, const Moment& until);
 
   // To run so much again would take longer than to copy an engine's memory.
-  bool is_long() const { return work_.world_steps * scenario_.bodies.size() > 2000; }
+  bool is_long() const { return work_.world_steps * scenario_.bodies.size() > 500; }
 
   const language::Scenario& scenario() const { return scenario_; }
   const std::vector<frame::Frame>& frames() const { return frames_; }
