@@ -181,7 +181,7 @@ class Session::Engine {
       play_->held = entity.substr(body + 5);
     grabbed_ = index;
     begun_.reset();
-    if (grip_->only_from_there) begun_ = begun(grip_->text({at}));
+    if (grip_->only_from_there) begun_ = begun(parsed(grip_->text({at})));
     if (begun_ && !begun_->is_long()) begun_.reset();
     return fmt::format("{{\"grabbed\": \"{}\", \"kept\": {}}}", grip_->what(), bool(begun_));
   }
@@ -190,9 +190,11 @@ class Session::Engine {
     if (!grip_) throw Refused("nothing is grabbed");
     const std::string text =
         grip_->text({point_in(q, "x", "y"), number_in(q, "turn"), point_in(q, "vx", "vy")});
-    const language::Scenario scenario = language::parse_scenario(text, name_);
+    language::Scenario changed = parsed(text);
     auto now = std::exchange(begun_, nullptr);
-    if (!now || now->scenario().steps.size() != scenario.steps.size()) now = begun(text);
+    const bool goes_on = now && now->scenario().steps.size() == changed.steps.size();
+    if (!goes_on) now = begun(std::move(changed));
+    const language::Scenario& scenario = goes_on ? changed : now->scenario();
     now->go_on(scenario, grip_->moment);
     const std::size_t index = now->index_of(grip_->moment);
     const Frame& frame = now->frames()[index];
@@ -201,8 +203,11 @@ class Session::Engine {
     return fmt::format("{{\"text\": {}, \"index\": {}, {}}}", json_string(text), index, one.json());
   }
 
-  std::unique_ptr<Play> begun(const std::string& text) const {
-    return std::make_unique<Play>(language::parse_scenario(text, name_), grip_->moment);
+  language::Scenario parsed(const std::string& text) const {
+    return language::parse_scenario(text, name_);
+  }
+  std::unique_ptr<Play> begun(language::Scenario scenario) const {
+    return std::make_unique<Play>(std::move(scenario), grip_->moment);
   }
 
   std::unique_ptr<Play> play_;   // of what was opened last
