@@ -12,17 +12,16 @@ std::string name_or_number(const auto& named) {
 }  // namespace
 
 std::string way_of(const std::vector<FrameNode>& nodes, std::uint32_t node) {
-  std::string way;
-  while (nodes[node].parent != kNone) {
-    way.insert(0, fmt::format(".{}", nodes[node].slot));
-    node = nodes[node].parent;
-  }
-  return (nodes[node].of_static ? "static" : "root") + way;
+  const FrameNode& own = nodes[node];
+  if (own.parent == kNone) return own.of_static ? "static" : "root";
+  std::string way = way_of(nodes, own.parent);
+  way += '.';
+  return way += fmt::format_int(own.slot).c_str();
 }
 
 std::string node_key(std::string_view kind, const std::vector<FrameNode>& nodes,
                      std::uint32_t node) {
-  return fmt::format("{}/{}", kind, way_of(nodes, node));
+  return std::string(kind) + "/" + way_of(nodes, node);
 }
 
 std::string node_key(std::string_view kind, const std::vector<FrameNode>& nodes,

@@ -289,6 +289,16 @@ std::string with_value(std::string_view text, std::string_view path, std::string
   return value.empty() ? Edit(text).removed(where) : Edit(text).replaced(where, value);
 }
 
+std::string Slot::with(const std::string& value) {
+  if (around_) return around_->first + value + around_->second;
+  const std::string first = with_value(text_, path_, value);
+  const Edit edit(first);
+  if (const Written* spot = edit.spot_of(checked_path(path_)))
+    around_ = {first.substr(0, first.size() - edit.whole().size() + spot->value),
+               std::string(edit.whole().substr(spot->end))};
+  return first;
+}
+
 std::string with_step(std::string_view text, std::size_t step, std::string_view lines) {
   return Edit(text).with_step(step, lines);
 }

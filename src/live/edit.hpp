@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "rooms.hpp"
 
@@ -26,6 +27,19 @@ std::string value_at(std::string_view text, std::string_view path);
 // Refused if the path leads nowhere (an index behind the list's end, a key of a number), or to a
 // table of many lines, or `value` is not one TOML value.
 std::string with_value(std::string_view text, std::string_view path, std::string_view value);
+
+// A value that changes again and again: with_value(), for which the text is read once.
+class Slot {
+ public:
+  explicit Slot(std::string text = "", std::string path = "")
+      : text_(std::move(text)), path_(std::move(path)) {}
+  // The value is one TOML value, as long as any other was.
+  std::string with(const std::string& value);
+
+ private:
+  std::string text_, path_;
+  std::optional<std::pair<std::string, std::string>> around_;  // what is before and behind it
+};
 
 // The text with one more step behind the one of this index, and behind that one's own tables. Its
 // lines are those of a [[step]]; the header may be left out. Throws Refused if there is no such

@@ -89,7 +89,11 @@ class BodyGrip : public Grip {
     } else if (!put || put->body != body.place || !put->to) {  // else that step's place changes
       adds_step_ = true;
       moment = {next, 0, true};
+      text_ =
+          behind(text_, next - 1, fmt::format("do = \"move\"\nbody = {}", json_string(body.name)));
     }
+    keys_ = table_ ? fmt::format("body[{}].", *table_) : fmt::format("step[{}].", moment.step);
+    place_ = Slot(text_, keys_ + (table_ ? "position" : "to"));
     only_from_there = !table_;
     goes_on_ = std::any_of(steps.begin() + next, steps.end(), [](const language::Step& step) {
       return traits_of(step.verb).passes_time;
@@ -98,32 +102,25 @@ class BodyGrip : public Grip {
 
   std::string_view what() const override { return table_ ? "position" : "move"; }
 
-  std::string text(const Hand& hand) const override {
+  std::string text(const Hand& hand) override {
     Vec<3> to = body_.position + ways_.of(hand.at - at_);
     const Vec<3> half = 0.5 * body_.box.size();  // the whole of it stays in the world
     for (int i = 0; i < dimension_; ++i)
       if (const double lo = bounds_.lo[i] + half[i], hi = bounds_.hi[i] - half[i]; lo < hi)
         to[i] = std::clamp(to[i], lo, hi);
-    const std::string place =
-        hand.at != at_ || adds_step_ ? point_text(to, dimension_, ways_.scale) : "";
     const std::string way = hand.velocity != Vec<2>(0) && !body_.is_static
                                 ? point_text(ways_.of(hand.velocity), dimension_, ways_.scale)
                                 : "";
     const std::string turned = hand.turn != 0 && dimension_ == 2
                                    ? number_text(glm::degrees(body_.angle) + hand.turn, 10)
                                    : "";
-    std::string text = text_;
-    if (adds_step_)
-      text = behind(text, moment.step - 1,
-                    fmt::format("do = \"move\"\nbody = {}", json_string(body_.name)));
-    const std::string table =
-        table_ ? fmt::format("body[{}].", *table_) : fmt::format("step[{}].", moment.step);
+    std::string text =
+        hand.at != at_ || adds_step_ ? place_.with(point_text(to, dimension_, ways_.scale)) : text_;
     const auto say = [&](const char* key, const std::string& value) {
-      if (!value.empty()) text = with_value(text, table + key, value);
+      if (!value.empty()) text = with_value(text, keys_ + key, value);
     };
-    say(table_ ? "position" : "to", place);
     say("velocity", way);
-    if (!turned.empty()) text = with_value(text, table + "heading", "");  // instead of it
+    if (!turned.empty()) text = with_value(text, keys_ + "heading", "");  // instead of it
     say("turned", turned);
     if (!way.empty() && !goes_on_)
       text = behind(text, moment.step, fmt::format("do = \"run\"\nseconds = {}\n", kGoesOn));
@@ -155,6 +152,8 @@ class BodyGrip : public Grip {
   bool goes_on_ = false;              // time passes later in the script
   std::optional<std::size_t> table_;  // whose position changes; else a step's `to`
   bool adds_step_ = false;
+  std::string keys_;  // of that table or step
+  Slot place_;
 };
 
 // Its lower right corner follows the hand.
@@ -162,20 +161,21 @@ class TextureGrip : public Grip {
  public:
   TextureGrip(std::string_view text, std::size_t table, const FrameTexture& texture,
               const Vec<2>& per_pixel, const Vec<2>& at)
-      : text_(text), table_(table), texture_(texture), per_pixel_(per_pixel), at_(at) {}
+      : size_(std::string(text), fmt::format("texture[{}].size", table)),
+        texture_(texture),
+        per_pixel_(per_pixel),
+        at_(at) {}
 
   std::string_view what() const override { return "size"; }
-  std::string text(const Hand& hand) const override {
+  std::string text(const Hand& hand) override {
     const Vec<2> more = (hand.at - at_) / per_pixel_;
     const auto length = [](double pixels) { return std::lround(std::clamp(pixels, 1.0, 1e6)); };
-    return with_value(
-        text_, fmt::format("texture[{}].size", table_),
+    return size_.with(
         fmt::format("[{}, {}]", length(texture_.width + more.x), length(texture_.height + more.y)));
   }
 
  private:
-  std::string text_;
-  std::size_t table_;
+  Slot size_;
   FrameTexture texture_;
   Vec<2> per_pixel_, at_;
 };
@@ -184,16 +184,15 @@ class CornerGrip : public Grip {
  public:
   CornerGrip(std::string_view text, std::string path, const Vec<2>& corner, const Ways& ways,
              const Vec<2>& at)
-      : text_(text), path_(std::move(path)), corner_(corner), ways_(ways), at_(at) {}
+      : place_(std::string(text), std::move(path)), corner_(corner), ways_(ways), at_(at) {}
 
   std::string_view what() const override { return "corner"; }
-  std::string text(const Hand& hand) const override {
-    return with_value(text_, path_,
-                      point_text(Vec<3>(corner_, 0) + ways_.of(hand.at - at_), 2, ways_.scale));
+  std::string text(const Hand& hand) override {
+    return place_.with(point_text(Vec<3>(corner_, 0) + ways_.of(hand.at - at_), 2, ways_.scale));
   }
 
  private:
-  std::string text_, path_;
+  Slot place_;
   Vec<2> corner_;
   Ways ways_;
   Vec<2> at_;

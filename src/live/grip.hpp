@@ -28,7 +28,7 @@ class Grip {
   // "position", "move", "size" or "corner": what of the text changes.
   virtual std::string_view what() const = 0;
   // The text that puts what is held where the hand is.
-  virtual std::string text(const Hand& hand) const = 0;
+  virtual std::string text(const Hand& hand) = 0;
   // The moment to be looked at in that text.
   Moment moment;
   // Nothing before that moment's step changes, wherever the hand goes.

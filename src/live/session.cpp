@@ -181,7 +181,8 @@ class Session::Engine {
       play_->held = entity.substr(body + 5);
     grabbed_ = index;
     begun_.reset();
-    if (grip_->only_from_there) begun_ = begun(parsed(grip_->text({at})));
+    // As of any place but that one: a text for each place is then as good as made.
+    if (grip_->only_from_there) begun_ = begun(parsed(grip_->text({at + Vec<2>(1, 0)})));
     if (begun_ && !begun_->is_long()) begun_.reset();
     return fmt::format("{{\"grabbed\": \"{}\", \"kept\": {}}}", grip_->what(), bool(begun_));
   }

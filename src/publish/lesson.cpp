@@ -278,9 +278,10 @@ std::string Lesson::live_part() const {
   if (live_->scenarios.size() > 1)
     text +=
         data_script("application/json", "scenarios", script_text(scenario_list(live_->scenarios)));
-  text += live_->engine.empty() ? fmt::format("<script src=\"{}\" defer></script>\n", kEngineFile)
+  text += live_->engine.empty() ? fmt::format("<script src=\"{}\"></script>\n", kEngineFile)
                                 : data_script("text/plain", "engine-packed", live_->engine);
-  return text + data_script("text/plain", "worker-script", page::live_worker_js);
+  text += data_script("text/plain", "worker-script", page::live_worker_js);
+  return text + fmt::format("<script>\n{}</script>\n", page::live_engine_js);
 }
 
 std::string packed_engine(std::string_view wasm) { return base64(deflated(wasm, kSmallest)); }

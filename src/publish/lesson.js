@@ -41,7 +41,7 @@ class Page {
 
   // A frame of another lesson, for as long as nothing else is shown.
   look(lesson, facts, index = 0) {
-    this.pointing?.light(null);
+    if (!this.watched) this.pointing?.light(null); // else other things will be lit at once
     this.picture.load(lesson, index);
     const sheet = styleSheet(lesson);
     if ($("styles").textContent !== sheet) $("styles").textContent = sheet;

@@ -15,11 +15,11 @@ const KIND = { rect: 0, line: 1, polygon: 2, text: 3 };
 
 // Where the members of a list stand in a list known before, which takes in those that it lacks.
 function numbersIn(known, list) {
-  const numbers = (known.numbers ??= new Map(known.map((one, i) => [JSON.stringify(one), i])));
+  const numbers = (known.numbers ??= new Map(known.map((one, i) => [one.join("\n"), i])));
   return list.map((one) => {
-    const json = JSON.stringify(one);
-    if (!numbers.has(json)) numbers.set(json, known.push(one) - 1);
-    return numbers.get(json);
+    const words = one.join("\n");
+    if (!numbers.has(words)) numbers.set(words, known.push(one) - 1);
+    return numbers.get(words);
   });
 }
 
@@ -67,7 +67,7 @@ class Lesson {
   }
 
   entitiesOf(key) {
-    return this.keys[key].slice(1);
+    return ((this.keys.entities ??= [])[key] ??= this.keys[key].slice(1));
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <variant>
 
 #include <fmt/format.h>
@@ -105,14 +106,31 @@ std::int64_t thousandths(double x) { return whole(1000 * x); }
 
 int number_of(Role role) { return static_cast<int>(role); }
 
-// A point, told by its way from another one.
-void add_way(std::string& row, const Vec<2>& from, const Vec<2>& to) {
-  row += fmt::format(",{},{}", hundredths(to.x) - hundredths(from.x),
-                     hundredths(to.y) - hundredths(from.y));
+// A list of JSON: whole numbers, behind `first` if there is one.
+class Numbers {
+ public:
+  explicit Numbers(std::string first = "") : text_(std::move(first)) {}
+  void add(std::integral auto... numbers) {
+    ((text_ += text_.empty() ? "" : ",", text_ += fmt::format_int(numbers).c_str()), ...);
+  }
+  // A point, told by its way from another one.
+  void add_way(const Vec<2>& from, const Vec<2>& to) {
+    add(hundredths(to.x) - hundredths(from.x), hundredths(to.y) - hundredths(from.y));
+  }
+  std::string json() const { return "[" + text_ + "]"; }
+
+ private:
+  std::string text_;
+};
+
+std::string list_of(std::integral auto... numbers) {
+  Numbers list;
+  list.add(numbers...);
+  return list.json();
 }
 
 // A glyph's path in ems and absolute, as one of thousandths that goes on from where the pen is.
-std::string quoted_path(int glyph, Weight weight) {
+std::string written_path(int glyph, Weight weight) {
   std::string text = "\"";
   std::array<std::int64_t, 2> pen{}, start{};
   for (const PathStep& step : glyph_path(glyph, weight)) {
@@ -122,7 +140,7 @@ std::string quoted_path(int glyph, Weight weight) {
       at[i % 2] = thousandths(step.points[i / 2][static_cast<int>(i % 2)]);
       const std::int64_t way = at[i % 2] - pen[i % 2];
       if (i > 0 && way >= 0) text += ' ';  // a sign separates numbers as well
-      text += fmt::format("{}", way);
+      text += fmt::format_int(way).c_str();
     }
     pen = step.letter == 'Z' ? start : at;  // a closed contour leaves the pen at its start
     if (step.letter == 'M') start = pen;
@@ -130,15 +148,13 @@ std::string quoted_path(int glyph, Weight weight) {
   return text + "\"";
 }
 
-// A list of whole numbers as JSON.
-class Numbers {
- public:
-  void add(std::int64_t number) { text_ += fmt::format("{}{}", text_.empty() ? "" : ",", number); }
-  std::string json() const { return "[" + text_ + "]"; }
-
- private:
-  std::string text_;
-};
+// The same, written once.
+const std::string& quoted_path(int glyph, Weight weight) {
+  thread_local std::map<std::pair<int, Weight>, std::string> known;
+  const auto [it, fresh] = known.try_emplace({glyph, weight});
+  if (fresh) it->second = written_path(glyph, weight);
+  return it->second;
+}
 
 bool is_put(const Passage& p) { return !(p.own == p.start && p.own == p.end); }
 
@@ -210,53 +226,55 @@ std::string LessonShapes::row(const DrawShape& shape, std::uint32_t key) {
 }
 
 std::string LessonShapes::row_of(const RectShape& s, std::uint32_t key) {
-  std::string row = fmt::format("[0,{},{},{},{}", key, style(s.fill, s.stroke, s.snapped),
-                                hundredths(s.box.lo.x), hundredths(s.box.lo.y));
-  add_way(row, s.box.lo, s.box.hi);
   const Vec<2> size = s.box.size();
   const double most = std::max(0.0, 0.5 * std::min(size.x, size.y));
-  return row + fmt::format(",{}]", hundredths(std::min(s.radius, most)));
+  Numbers row;
+  row.add(0, key, style(s.fill, s.stroke, s.snapped));
+  row.add_way(Vec<2>(0), s.box.lo);
+  row.add_way(s.box.lo, s.box.hi);
+  row.add(hundredths(std::min(s.radius, most)));
+  return row.json();
 }
 
 std::string LessonShapes::row_of(const LineShape& s, std::uint32_t key) {
-  std::string row = fmt::format("[1,{},{},{},{}", key, style(Role::none, s.stroke, s.snapped),
-                                hundredths(s.from.x), hundredths(s.from.y));
-  add_way(row, s.from, s.to);
-  return row + "]";
+  Numbers row;
+  row.add(1, key, style(Role::none, s.stroke, s.snapped));
+  row.add_way(Vec<2>(0), s.from);
+  row.add_way(s.from, s.to);
+  return row.json();
 }
 
 std::string LessonShapes::row_of(const PolygonShape& s, std::uint32_t key) {
-  std::string row = fmt::format("[2,{},{}", key, style(s.fill, s.stroke));
+  Numbers row;
+  row.add(2, key, style(s.fill, s.stroke));
   Vec<2> last{0.0};
   for (const Vec<2>& point : s.points) {
-    add_way(row, last, point);
+    row.add_way(last, point);
     last = point;
   }
-  return row + "]";
+  return row.json();
 }
 
 std::string LessonShapes::row_of(const TextShape& s, std::uint32_t key) {
-  return fmt::format("[3,{},{},{},{},{},{}]", key, style(s.role, {s.halo, 0, 0}),
-                     hundredths(s.at.x), hundredths(s.at.y), hundredths(s.size), text(s));
+  return list_of(3, key, style(s.role, {s.halo, 0, 0}), hundredths(s.at.x), hundredths(s.at.y),
+                 hundredths(s.size), text(s));
 }
 
 std::uint32_t LessonShapes::style(Role fill, const Stroke& stroke, bool snapped) {
-  return styles_.number(fmt::format("[{},{},{},{},{}]", number_of(fill), number_of(stroke.role),
-                                    hundredths(stroke.width), hundredths(stroke.dash),
-                                    snapped ? 1 : 0));
+  return styles_.number(list_of(number_of(fill), number_of(stroke.role), hundredths(stroke.width),
+                                hundredths(stroke.dash), int{snapped}));
 }
 
 std::uint32_t LessonShapes::text(const TextShape& s) {
   const int weight = static_cast<int>(s.weight);
   return texts_.number(fmt::format("{} {} {}", weight, s.align, s.text), [&] {
-    std::string json = "[" + json_string(s.text);
+    Numbers one(json_string(s.text));
     const double left = s.align == 0 ? 0 : -s.align * text_width(s.text, 1, s.weight);
-    for (const PlacedGlyph& g : shape_text(s.text, 1, s.weight)) {
-      const std::uint32_t glyph = glyphs_.number(fmt::format("{} {}", weight, g.glyph),
-                                                 [&] { return quoted_path(g.glyph, s.weight); });
-      json += fmt::format(",{},{}", thousandths(left + g.x), glyph);
-    }
-    return json + "]";
+    for (const PlacedGlyph& g : shape_text(s.text, 1, s.weight))
+      one.add(thousandths(left + g.x), glyphs_.number(fmt::format("{} {}", weight, g.glyph), [&] {
+        return quoted_path(g.glyph, s.weight);
+      }));
+    return one.json();
   });
 }
 
@@ -377,9 +395,8 @@ std::string LessonFrames::way_text(const DrawList& list, const std::vector<std::
 }
 
 std::uint32_t LessonFrames::kind_of(const Passage& p) {
-  return kinds_.number(fmt::format("[{},{},{},{},{},{}]", p.a ? 1 : 0, p.b ? 1 : 0,
-                                   static_cast<int>(p.move), static_cast<int>(p.fade),
-                                   p.leaves ? 1 : 0, is_put(p) ? 1 : 0));
+  return kinds_.number(list_of(int{p.a.has_value()}, int{p.b.has_value()}, static_cast<int>(p.move),
+                               static_cast<int>(p.fade), int{p.leaves}, int{is_put(p)}));
 }
 
 // Of its two boxes one is the shape's own: the other one is where it comes from or goes to.
@@ -389,9 +406,8 @@ std::uint32_t LessonFrames::place_of(const Passage& p) {
   for (int i = 0; i < 2; ++i)  // a box without width has only a middle
     if (p.own.size()[i] > 1e-9) scale[i] = to.size()[i] / p.own.size()[i];
   const Vec<2> way = to.center() - p.own.center() * scale;
-  return places_.number(fmt::format("[{},{},{},{}]", hundredths(100 * scale.x),
-                                    hundredths(100 * scale.y), hundredths(way.x),
-                                    hundredths(way.y)));
+  return places_.number(list_of(hundredths(100 * scale.x), hundredths(100 * scale.y),
+                                hundredths(way.x), hundredths(way.y)));
 }
 
 std::string LessonFrames::json() const {

@@ -220,7 +220,7 @@ class Picture {
   made(row) {
     const { kind, key } = this.lesson.shape(row);
     const element = this.make(TAG[kind]);
-    Object.assign(element, { kind, thing: key });
+    Object.assign(element, { kind, thing: key, marks: "" });
     return this.dressed(element, row);
   }
 
@@ -229,13 +229,23 @@ class Picture {
     const { kind, style, text, at } = this.lesson.shape(row);
     const outline = kind === KIND.text ? outlineOf(this.lesson, text) : "";
     const halo = kind === KIND.text && this.lesson.styles[style][1] > 0;
-    if (element.look !== style) element.setAttribute("class", `s${style}${halo ? " halo" : ""}`);
+    if (element.look !== style) {
+      element.paint = `s${style}${halo ? " halo" : ""}`;
+      element.setAttribute("class", element.paint + element.marks);
+    }
     if (outline && element.outline !== outline) element.setAttribute("d", outline);
     const stays = element.halo === halo && element.at?.length === at.length && at.every((n, i) => n === element.at[i]);
     const before = element.at;
     Object.assign(element, { row, outline, halo, at, look: style });
     if (!stays) place(element, kind, at, before);
     return element;
+  }
+
+  // What is told of an element by further classes, each behind a blank.
+  mark(element, marks) {
+    if (element.marks === marks) return;
+    element.marks = marks;
+    element.setAttribute("class", element.paint + marks);
   }
 
   forget(element) {

@@ -160,7 +160,7 @@ class Pointing {
     svg.classList.toggle("pointing", one !== null);
     svg.classList.toggle("watching", one !== null && one === this.watched);
     if (!one) {
-      for (const element of layer.querySelectorAll(".lit")) element.classList.remove("lit");
+      for (const element of layer.querySelectorAll(".lit")) this.picture.mark(element, element.marks.replace(" lit", ""));
       return this.say("");
     }
     const related = this.related(one);
@@ -171,9 +171,9 @@ class Pointing {
 
   mark(element, related) {
     const entities = this.lesson.entitiesOf(element.thing);
-    element.classList.toggle("thing", entities.length > 0);
-    element.classList.toggle("link", entities.length > 0 && kindOf(entities[0]) === "pair");
-    element.classList.toggle("lit", entities.length > 0 && entities.every((e) => related.has(e)));
+    const isLink = entities.length > 0 && kindOf(entities[0]) === "pair";
+    const isLit = entities.every((e) => related.has(e));
+    this.picture.mark(element, entities.length ? ` thing${isLink ? " link" : ""}${isLit ? " lit" : ""}` : "");
   }
 
   // The cells of lit nodes, and what stands for them in the other panels.

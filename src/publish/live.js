@@ -1,72 +1,13 @@
 // A live page: the engine in a Worker draws what the reader's hand, the controls and the text make
 // of the scenario, in the place of the lesson as it was recorded.
 
-const MOST_SECONDS = 10; // for a run
 const MOST_LETTERS = 1 << 20; // of a text in an address
-
-// What the engine could not bear.
-class Ended extends Error {}
-
-// The Worker. Where it takes too long, or fails, it is made anew; `again()` brings it to where it was.
-class Engine {
-  constructor(packed, script) {
-    this.from = { packed };
-    this.script = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
-    this.line = Promise.resolve();
-    this.again = () => {};
-  }
-
-  async start() {
-    this.worker = new Worker(this.script);
-    const { module } = await this.send(this.from, 6 * MOST_SECONDS);
-    this.from = { module };
-  }
-
-  // One request after the other. The time is that of this one alone.
-  ask(request, seconds = MOST_SECONDS) {
-    const asked = this.line.then(() => this.answer(request, seconds));
-    this.line = asked.catch(() => {});
-    return asked;
-  }
-
-  async answer(request, seconds) {
-    try {
-      const { answer } = await this.send({ ask: JSON.stringify(request) }, seconds);
-      return JSON.parse(answer);
-    } catch (error) {
-      await this.start();
-      const good = this.again();
-      if (good) await this.send({ ask: JSON.stringify(good) }, MOST_SECONDS);
-      throw error;
-    }
-  }
-
-  send(message, seconds) {
-    const { worker } = this;
-    return new Promise((resolve, reject) => {
-      const end = (why) => {
-        clearTimeout(timer);
-        worker.terminate();
-        reject(new Ended(why));
-      };
-      const late = () => end(`This took longer than ${seconds} s and was ended.`);
-      const timer = setTimeout(late, 1000 * seconds);
-      worker.onerror = () => end("The engine could not be started.");
-      worker.onmessage = ({ data }) => {
-        if (data.failed) return end(`The engine failed and was started again: ${data.failed}`);
-        clearTimeout(timer);
-        resolve(data);
-      };
-      worker.postMessage(message);
-    });
-  }
-}
 
 class Live {
   constructor(page, engine, scenario, recorded) {
     Object.assign(this, { page, engine, waiting: new Map() });
     this.begin(scenario, recorded);
-    engine.again = () => this.opening(this.good);
+    engine.first = () => [this.opening(this.good)];
     this.editor = new Editor(this);
     this.controls = new Controls(this);
     this.hand = new Hand(this);
@@ -376,7 +317,6 @@ const PARTS = [[1, "Why a broad phase"], [4, "Binary space partitioning and quad
   [13, "What stands still, what sleeps"], [16, "Octrees and kD-trees"], [20, "Levels and views"],
   [26, "The narrow phase"], [30, "The lecture’s code"], [33, "Physics"], [41, "Other structures"]];
 const partOf = ({ lecture }) => (lecture === null ? "More" : PARTS.findLast(([first]) => lecture >= first)[1]);
-const inOrder = (scenarios) => scenarios.sort((a, b) => (a.lecture ?? Infinity) - (b.lecture ?? Infinity) || 0);
 
 function fillChoice(live, scenarios) {
   const list = $("scenario-list");
@@ -393,25 +333,18 @@ function fillChoice(live, scenarios) {
 }
 
 async function startLive(page) {
-  const read = (id) => document.getElementById(id)?.textContent;
-  const packed = read("engine-packed") ?? window.lanternEngine;
   document.documentElement.dataset.live = "loading";
-  const engine = new Engine(packed, read("worker-script"));
-  const scenarios = inOrder(JSON.parse(read("scenarios") ?? "[]"));
-  const scenario = scenarios[0] ?? JSON.parse(read("scenario"));
-  await engine.start();
-  const { text, name } = scenario;
-  const { frames, refused } = await engine.ask({ do: "open", text, name });
+  const scenarios = JSON.parse(textIn("scenarios") ?? "[]");
+  const [{ frames, refused }, { lesson: first }] = await engine.started;
   if (refused) throw new Error(refused[0].message);
   $("facts").before($("live-buttons").content);
   $("place").before($("live-marks").content);
   $("help-dialog").querySelector("dl").append($("live-keys").content);
   const { lesson, facts } = page;
-  const { lesson: first } = await engine.ask({ do: "frame", index: 0 });
   // All frames, and as large as the engine draws them: else those are not what a hand would move.
   const isRecorded = frames === lesson.frames.length && `${first?.page}` === `${lesson.page}`;
-  const card = JSON.parse(read("card") ?? "{}");
-  const live = new Live(page, engine, scenario, isRecorded && { lesson, facts, card });
+  const card = JSON.parse(textIn("card") ?? "{}");
+  const live = new Live(page, engine, firstScenario, isRecorded && { lesson, facts, card });
   page.live = live;
   page.run = (text) => live.runAll(text);
   if (scenarios.length) fillChoice(live, scenarios);

@@ -21,7 +21,10 @@ class Hand {
     const stage = $("stage");
     const listen = (name, act, options) => stage.addEventListener(name, act, { capture: true, ...options });
     listen("pointerdown", (event) => this.down(event));
-    listen("pointermove", (event) => this.move(event));
+    // Each move at once, and not with the next picture, while something is held.
+    const atOnce = "onpointerrawupdate" in window;
+    if (atOnce) listen("pointerrawupdate", (event) => this.held && this.move(event));
+    listen("pointermove", (event) => (this.held?.begun && atOnce ? event.stopImmediatePropagation() : this.move(event)));
     listen("pointerup", (event) => this.up(event));
     listen("pointercancel", (event) => this.up(event));
     // A finger's moves go to what it came down on, also when that is no longer in the picture.

@@ -43,12 +43,13 @@ async function instanceOf(module) {
 
 // Of base64 of a zlib stream: it is compiled while it is unpacked.
 async function unpacked(packed) {
-  const { body } = await fetch(`data:;base64,${packed.trim()}`);
+  const { body } = Uint8Array.fromBase64 ? new Response(Uint8Array.fromBase64(packed.trim())) : await fetch(`data:;base64,${packed.trim()}`);
   const headers = { "Content-Type": "application/wasm" };
   return WebAssembly.compileStreaming(new Response(body.pipeThrough(new DecompressionStream("deflate")), { headers }));
 }
 
-async function start({ packed, module }) {
+// With the answers to the first requests.
+async function start({ packed, module, first = [] }) {
   module ??= await unpacked(packed);
   const engine = await instanceOf(module);
   const memory = () => new Uint8Array(engine.memory.buffer);
@@ -75,7 +76,7 @@ async function start({ packed, module }) {
     if (kept) kept.used = true;
     return ask(request);
   };
-  return { module };
+  return { module, answers: first.map(answer) };
 }
 
 onmessage = async ({ data }) => {

@@ -1,4 +1,6 @@
 // `playground`: one page in which every sequence can be run and changed.
+#include <algorithm>
+
 #include <fmt/format.h>
 
 #include "app/commands/command.hpp"
@@ -59,6 +61,9 @@ int make_playground(const PlaygroundOptions& options) {
   for (const std::string& file : listed_files(options.folders))
     if (const auto scenario = load_or_complain(file, code))
       live.scenarios.push_back(live_scenario(*scenario));
+  std::ranges::stable_sort(live.scenarios, {}, [](const publish::LiveScenario& s) {
+    return std::pair(!s.lecture, s.lecture);  // those without a place in the lecture are the last
+  });
   const std::string there = counted(live.scenarios.size(), "scenario");
   live.scenarios.push_back(
       {"empty.toml", "An empty world", "To begin from nothing.", {}, kEmptyWorld});
