@@ -45,6 +45,28 @@ TEST(Edit, ReplacesAValueWhereItStands) {
   EXPECT_EQ(with_value(text, "body[1].position[1]", ""), with("3, 4.5", "3"));
 }
 
+TEST(Edit, OfASlotIsTheSameEachTime) {
+  for (const std::string text :
+       {"\xEF\xBB\xBF[structure]\r\ncapacity = 2 # two\r\n[[body]]\r\nname = 'a'\r\n[[step]]\r\n",
+        "structure = { capacity = 2 }\nbody = [{ name = 'a' }]\nstep = [{ do = 'show' }]\n", ""})
+    for (const char* path :
+         {"structure.capacity", "world.size[0]", "body[0].position", "step[0].to"}) {
+      Slot slot(text, path);
+      for (const char* value : {"[1, 2]", "[1.25, -2]", "3"}) {
+        const auto said = [&](const auto& act) -> std::string {
+          try {
+            return act();
+          } catch (const Refused& why) {
+            return why.what();
+          }
+        };
+        EXPECT_EQ(said([&] { return slot.with(value); }),
+                  said([&] { return with_value(text, path, value); }))
+            << text << path;
+      }
+    }
+}
+
 TEST(Edit, KnowsWhereEachKindOfValueEnds) {
   for (const std::string_view value :
        {R"("a \" ] # ")", R"('a \')", "\"\"\"a \"\" \\\"\"\" \n # \"\"\"\"\"", "'''\n''a\\'''''",
