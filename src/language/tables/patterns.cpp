@@ -115,9 +115,12 @@ void unroll(const BodySpec& like, const PatternSpec& pattern, const TableReader&
 
 }  // namespace
 
-Occupied::Occupied(const Box<3>& region, int dimension) : region_(region) {
-  const std::size_t most = dimension == 2 ? 128 : 24;  // cells along an axis
-  for (std::size_t i = 0; i < static_cast<std::size_t>(dimension); ++i) cells_[i] = most;
+Occupied::Occupied(const Box<3>& region, int dimension, std::size_t expected) : region_(region) {
+  const auto n = static_cast<double>(expected);
+  const double along =
+      dimension == 2 ? std::min(std::sqrt(n), 128.0) : std::min(std::cbrt(n), 24.0);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(dimension); ++i)
+    cells_[i] = 1 + static_cast<std::size_t>(along);
   grid_.resize(cells_[0] * cells_[1] * cells_[2]);
 }
 
@@ -159,8 +162,8 @@ Placement::Placement(const Arrangement& arrangement, const BodySpec& like,
     cells_ = grid_cells(how_.region.size(), how_.count);
   if (how_.arrange != Arrange::apart) return;
   if (const auto* ball = std::get_if<Sphere>(&like.shape)) radius_ = ball->radius;
-  own_.emplace(how_.region, how_.dimension);
-  walls_.emplace(how_.region, how_.dimension);
+  own_.emplace(how_.region, how_.dimension, how_.count);
+  walls_.emplace(how_.region, how_.dimension, others.size());
   for (const BodySpec& other : others) {
     if (other.kind != BodyKind::static_body) continue;
     if (const auto* ground = std::get_if<HalfSpace<3>>(&other.shape)) {

@@ -20,7 +20,8 @@ inline EnumNames names(Arrange) {
 // Boxes by the cells of a coarse grid over a region, so that only near ones are compared.
 class Occupied {
  public:
-  Occupied(const Box<3>& region, int dimension);
+  // For about so many boxes: with as many cells, up to a bound.
+  Occupied(const Box<3>& region, int dimension, std::size_t expected = 1 << 14);
 
   void add(const Box<3>& box);
   // Is `holds` true of one of the boxes that may overlap this one?
