@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/json_writer.hpp"
 #include "base/printable.hpp"
 
 namespace lantern {
@@ -44,6 +45,14 @@ std::string with_caret(std::string_view line, std::size_t column) {
 }
 
 }  // namespace
+
+JsonWriter& JsonWriter::value(const Diagnostic& d) {
+  return begin_object()
+      .members("severity", d.severity == Severity::error ? "error" : "warning", "line",
+               d.where.line, "column", d.where.column, "message", d.message, "suggestion",
+               d.suggestion)
+      .end_object();
+}
 
 std::string_view to_string(Severity severity) {
   return severity == Severity::error ? "error:" : "warning:";

@@ -15,6 +15,7 @@
 #include "base/printable.hpp"
 
 namespace lantern {
+struct Diagnostic;
 
 class JsonWriter {
  public:
@@ -37,6 +38,8 @@ class JsonWriter {
     LANTERN_CHECK(std::isfinite(d), ==, true);
     return raw(fmt::format("{:.17g}", d == 0 ? 0.0 : d));
   }
+  // {"severity", "line", "column", "message", "suggestion"}, with line 0 for the file as a whole.
+  JsonWriter& value(const Diagnostic& d);
   JsonWriter& null() { return raw("null"); }
   // Null if there is none.
   template <class T>

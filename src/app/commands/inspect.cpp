@@ -90,25 +90,13 @@ Verdict check_one(const std::string& file, const CheckOptions& options, Work& wo
   return verdict;
 }
 
-void write(JsonWriter& json, const char* key, const std::vector<Diagnostic>& diagnostics) {
-  json.key(key).begin_array();
-  for (const Diagnostic& d : diagnostics)
-    json.begin_object()
-        .members("line", d.where.line, "column", d.where.column, "message", d.message, "suggestion",
-                 d.suggestion)
-        .end_object();
-  json.end_array();
-}
-
 void write(JsonWriter& json, const Verdict& v) {
   json.line().begin_object().member("file", v.file).key("name");
   v.name.empty() ? json.null() : json.value(v.name);
   json.member("good", v.code == kGood);
   json.member("frames", v.result.report.frames)
       .member("expectations", v.result.report.expectations);
-  write(json, "problems", v.problems);
-  write(json, "warnings", v.result.warnings);
-  json.member("facts", v.result.facts);
+  json.members("problems", v.problems, "warnings", v.result.warnings, "facts", v.result.facts);
   if (v.hashes) json.member("hashes", *v.hashes);
   json.end_object();
 }
