@@ -46,23 +46,24 @@ double round_number(double x) {
   return ten * (x >= 5 * ten ? 5 : x >= 2 * ten ? 2 : 1);
 }
 
-// The numbers of a number or a point; none of what is neither.
-std::vector<double> numbers_in(const std::string& value) {
+Json json_of(const TomlValue& value) {
+  if (const auto* list = std::get_if<TomlArray>(&value.data)) {
+    Json all = Json::array();
+    for (const TomlValue& one : *list) all.push_back(json_of(one));
+    return all;
+  }
+  const auto plain = []<class T>(const T& of) -> Json {
+    if constexpr (std::is_arithmetic_v<T> || std::is_same_v<T, std::string>) return of;
+    return nullptr;
+  };
+  return std::visit(plain, value.data);
+}
+
+// Of a value as it is written.
+Json json_of(const std::string& value) {
   language::Problems problems;
   const TomlTable table = language::read_toml("x = " + value, problems);
-  std::vector<double> numbers;
-  const auto add = [&](const TomlValue& one) {
-    if (const auto* whole = std::get_if<std::int64_t>(&one.data))
-      numbers.push_back(static_cast<double>(*whole));
-    else if (const auto* number = std::get_if<double>(&one.data))
-      numbers.push_back(*number);
-  };
-  if (table.empty()) return numbers;
-  if (const auto* list = std::get_if<TomlArray>(&table[0].value.data))
-    for (const TomlValue& one : *list) add(one);
-  else
-    add(table[0].value);
-  return numbers;
+  return table.empty() ? Json() : json_of(table[0].value);
 }
 
 class Controls {
@@ -132,8 +133,8 @@ class Controls {
   }
 
   std::optional<Json> control_of(const std::string& path, std::string_view table,
-                                 const KeyDoc& key) const {
-    std::string value = value_at(text_, path);
+                                 const KeyDoc& key) {
+    std::string value = written_ = value_at(text_, path);
     const bool is_written = !value.empty();
     if (!is_written) value = key.fallback.empty() ? key.at_first : key.fallback;
     if (value.empty() && key.type == KeyType::point)
@@ -141,13 +142,18 @@ class Controls {
     if (value.empty() || !fits(path, key, value)) return std::nullopt;
     const auto type =
         std::ranges::find(kTypes, key.type, &std::pair<KeyType, std::string_view>::first);
-    Json control{{"path", path},     {"table", table},       {"key", key.key},
-                 {"means", key.doc}, {"unit", key.unit},     {"type", type->second},
-                 {"value", value},   {"written", is_written}};
+    Json control{{"path", path},
+                 {"table", table},
+                 {"key", key.key},
+                 {"means", key.doc},
+                 {"unit", key.unit},
+                 {"type", type->second},
+                 {"value", json_of(value)},
+                 {"written", is_written}};
     const bool has_room = key.type == KeyType::choice ? add_choices(path, key, control)
                           : key.type == KeyType::truth
                               ? fits(path, key, "true") && fits(path, key, "false")
-                              : add_ends(path, key, value, control);
+                              : add_ends(path, key, control);
     return has_room ? std::optional(std::move(control)) : std::nullopt;
   }
 
@@ -158,9 +164,12 @@ class Controls {
     return choices.size() > 1;
   }
 
-  bool add_ends(const std::string& path, const KeyDoc& key, const std::string& value,
-                Json& control) const {
-    const std::vector<double> numbers = numbers_in(value);
+  bool add_ends(const std::string& path, const KeyDoc& key, Json& control) const {
+    const Json& value = control["value"];
+    const Json list = value.is_array() ? value : Json::array({value});
+    std::vector<double> numbers;
+    for (const Json& one : list)
+      if (one.is_number()) numbers.push_back(one);
     if (numbers.empty()) return false;
     const bool is_whole = key.type == KeyType::whole, is_point = key.type == KeyType::point;
     const auto& size = scenario_.world.bounds.size();
@@ -204,7 +213,7 @@ class Controls {
       return one.kind == language::Warning::settings &&
              one.message.starts_with(fmt::format("'{}' ", key.key));
     };
-    if (value == value_at(text_, path)) return std::ranges::none_of(scenario_.noticed, is_idle);
+    if (value == written_) return std::ranges::none_of(scenario_.noticed, is_idle);
     const std::string changed = with_value(text_, path, value);
     return std::ranges::none_of(language::parse_scenario(changed, scenario_.file).noticed, is_idle);
   } catch (const ScenarioError&) {
@@ -216,6 +225,7 @@ class Controls {
   std::string_view text_;
   const language::Scenario& scenario_;
   TomlTable file_;
+  std::string written_;  // at the path of the control that is made
   Json controls_ = Json::array();
 };
 

@@ -11,10 +11,9 @@
 namespace lantern::live {
 
 // JSON: {"controls": [{"path", "table", "key", "means", "type", "least", "most", "step", "choices",
-// "unit", "value", "written"}…]}, at most twelve. `value` is TOML, as it is written or else the
-// default; `choices` are bare words; a point's `least` and `most` are of each of its numbers. Each
-// choice and both ends were tried: the text with that value in place of its own is a scenario.
-// `text` is that of the scenario.
+// "unit", "value", "written"}…]}, at most twelve. `value` is what is written, or else the default;
+// a point's `least` and `most` are of each of its numbers. Each choice and both ends were tried:
+// the text with that value in place of its own is a scenario. `text` is that of the scenario.
 std::string controls_json(std::string_view text, const language::Scenario& scenario);
 
 // JSON: {"from": 3, "words": [{"word", "means"}…]}: what may stand from that column on, up to the

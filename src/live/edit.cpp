@@ -87,28 +87,34 @@ class Edit {
     return result();
   }
 
-  std::string with_step(std::size_t step, std::string_view lines) {
-    constexpr std::string_view kHeader = "[[step]]";
+  // Behind the one of this index, or the last one.
+  std::string with_table(const std::string& list, std::size_t behind, std::string_view lines) {
+    const std::string header = fmt::format("[[{}]]", list);
     std::string added(lines);
-    if (!added.starts_with(kHeader)) added = fmt::format("{}\n{}", kHeader, added);
+    if (!added.starts_with(header)) added = fmt::format("{}\n{}", header, added);
     while (added.ends_with('\n') || added.ends_with('\r')) added.pop_back();
     std::erase(added, '\r');
     for (std::size_t at = 0; (at = added.find('\n', at)) != added.npos; at += line_end_.size())
       added.replace(at, 1, line_end_);
 
-    const TomlTable root = tree_of(added, "the step");
-    const auto* one = value_of<TomlArray>(root, "step");
+    const TomlTable root = tree_of(added, "what is added");
+    const auto* one = value_of<TomlArray>(root, list);
     if (root.size() != 1 || !one || one->size() != 1)
-      throw Refused("these lines are not one step: {}", in_quotes(lines));
-    const auto [at, known] = way_of(TomlPath{"step", step});
-    if (known < 2) throw Refused("there is no step[{}]", step);
-    if (all()[at].is_value()) {
-      add_step_in_list(all()[at], added);
-    } else {
+      throw Refused("these lines are not one {}: {}", header, in_quotes(lines));
+    const std::size_t of = written_.find(0, list);
+    const bool is_last = behind == kNone;
+    while (is_last && written_.find(of, behind + 1) != kNone) ++behind;  // kNone + 1 is 0
+    const std::size_t before = written_.find(of, behind);
+    if (before == kNone && !is_last) throw Refused("there is no {}[{}]", list, behind);
+    if (of != kNone && all()[of].is_value()) {
+      add_in_list(of, before, added);
+    } else if (before != kNone) {
       std::size_t end = 0;
-      for (std::size_t i = at; i < all().size(); ++i)
-        if (written_.is_within(i, at)) end = std::max(end, all()[i].end);
+      for (std::size_t i = before; i < all().size(); ++i)
+        if (written_.is_within(i, before)) end = std::max(end, all()[i].end);
       add_below(end, line_end_ + added);
+    } else {
+      add_section(added);
     }
     return result();
   }
@@ -161,6 +167,15 @@ class Edit {
     splice(begin, begin, lines + line_end_ + line_end_);
   }
 
+  // Lines under a header of their own, above the first [[step]] if there is one.
+  void add_section(const std::string& lines) {
+    if (const Written* step = first_header(written_.find(0, "step")))
+      return add_above(step->begin, lines);
+    const std::string open = whole().empty() || whole().ends_with('\n') ? "" : line_end_;
+    result_ = fmt::format("{}{}{}{}{}", whole(), open, whole().empty() ? "" : line_end_, lines,
+                          line_end_);
+  }
+
   void add_pair(const Written& last, const std::string& pair) {
     if (last.form == Written::line)
       add_below(last.end, fmt::format("{}{}", indent_of(last.begin), pair));
@@ -207,13 +222,8 @@ class Edit {
     };
 
     if (table == 0 && names.size() > 1) {  // in a [table] of its own
-      const std::string lines = fmt::format("[{}]{}{}", written_keys(names.first(1)), line_end_,
-                                            pair(names.subspan(1, 1), 2));
-      if (const Written* step = first_header(written_.find(0, "step")))
-        return add_above(step->begin, lines);
-      const std::string open = whole().empty() || whole().ends_with('\n') ? "" : line_end_;
-      result_ = fmt::format("{}{}{}{}{}", whole(), open, whole().empty() ? "" : line_end_, lines,
-                            line_end_);
+      add_section(fmt::format("[{}]{}{}", written_keys(names.first(1)), line_end_,
+                              pair(names.subspan(1, 1), 2)));
     } else if (const Written* behind = last_pair(table)) {
       std::size_t base = known;  // so many parts lead to where that one stands
       for (std::size_t at = table; at != behind->table; at = all()[at].parent) --base;
@@ -250,20 +260,20 @@ class Edit {
       splice(whole()[before - 1] == ',' ? behind_last(before - 1) : before, spot.end, "");
   }
 
-  // As { } in a `step = [...]`.
-  void add_step_in_list(const Written& spot, const std::string& added) {
+  // As { } in a `step = [...]`, behind one of its elements if there is any.
+  void add_in_list(std::size_t list, std::size_t behind, const std::string& added) {
     std::string pairs;
-    for (const WrittenText step = read_written(added); const Written& s : step.all) {
+    for (const WrittenText table = read_written(added); const Written& s : table.all) {
       if (s.form == Written::header && s.begin > 0)
-        throw Refused("a step in braces has no tables with headers of their own");
+        throw Refused("a table in braces has no tables with headers of their own");
       if (s.form == Written::line)
         pairs += (pairs.empty() ? " " : ", ") + added.substr(s.begin, s.end - s.begin);
     }
-    const bool is_alone = next_of(line_begin(spot.begin)) == spot.begin;
-    const std::string_view indent = indent_of(spot.begin);
-    splice(
-        spot.end, spot.end,
-        fmt::format(",{}{{{} }}", is_alone ? fmt::format("{}{}", line_end_, indent) : " ", pairs));
+    const std::size_t at = behind == kNone ? all()[list].value + 1 : all()[behind].end;
+    if (behind == kNone) return splice(at, at, fmt::format("{{{} }}", pairs));
+    const bool is_alone = next_of(line_begin(all()[behind].begin)) == all()[behind].begin;
+    const std::string line = fmt::format("{}{}", line_end_, indent_of(all()[behind].begin));
+    splice(at, at, fmt::format(",{}{{{} }}", is_alone ? line : " ", pairs));
   }
 
   std::string result() const {
@@ -300,7 +310,12 @@ std::string Slot::with(const std::string& value) {
 }
 
 std::string with_step(std::string_view text, std::size_t step, std::string_view lines) {
-  return Edit(text).with_step(step, lines);
+  const std::string open = with_value(text, fmt::format("step[{}].ending", step), "");
+  return Edit(open).with_table("step", step, lines);
+}
+
+std::string with_body(std::string_view text, std::string_view lines) {
+  return Edit(text).with_table("body", kNone, lines);
 }
 
 std::optional<std::size_t> index_of(std::string_view text, std::string_view list,

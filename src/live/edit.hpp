@@ -41,10 +41,13 @@ class Slot {
   std::optional<std::pair<std::string, std::string>> around_;  // what is before and behind it
 };
 
-// The text with one more step behind the one of this index, and behind that one's own tables. Its
-// lines are those of a [[step]]; the header may be left out. Throws Refused if there is no such
-// step, or the lines are not one step.
+// The text with one more step behind the one of this index, which is no ending then, and behind
+// that one's own tables. Its lines are those of a [[step]]; the header may be left out. Throws
+// Refused if there is no such step, or the lines are not one step.
 std::string with_step(std::string_view text, std::size_t step, std::string_view lines);
+
+// With one more body behind the last one, if there is any, in the same way.
+std::string with_body(std::string_view text, std::string_view lines);
 
 // Which table of a list, as `body`, has this name.
 std::optional<std::size_t> index_of(std::string_view text, std::string_view list,

@@ -1,7 +1,10 @@
 #include "live/grip.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -89,8 +92,8 @@ class BodyGrip : public Grip {
     } else if (!put || put->body != body.place || !put->to) {  // else that step's place changes
       adds_step_ = true;
       moment = {next, 0, true};
-      text_ =
-          behind(text_, next - 1, fmt::format("do = \"move\"\nbody = {}", json_string(body.name)));
+      text_ = with_step(text_, next - 1,
+                        fmt::format("do = \"move\"\nbody = {}", json_string(body.name)));
     }
     keys_ = table_ ? fmt::format("body[{}].", *table_) : fmt::format("step[{}].", moment.step);
     place_ = Slot(text_, keys_ + (table_ ? "position" : "to"));
@@ -123,7 +126,7 @@ class BodyGrip : public Grip {
     if (!turned.empty()) text = with_value(text, keys_ + "heading", "");  // instead of it
     say("turned", turned);
     if (!way.empty() && !goes_on_)
-      text = behind(text, moment.step, fmt::format("do = \"run\"\nseconds = {}\n", kGoesOn));
+      text = with_step(text, moment.step, fmt::format("do = \"run\"\nseconds = {}\n", kGoesOn));
     return text;
   }
 
@@ -138,11 +141,6 @@ class BodyGrip : public Grip {
     }
     return passed;
   }
-  // One more step; an ending that has it behind itself is none any more.
-  static std::string behind(const std::string& text, std::size_t step, const std::string& lines) {
-    return with_step(with_value(text, fmt::format("step[{}].ending", step), ""), step, lines);
-  }
-
   std::string text_;
   FrameBody body_;
   Ways ways_;
@@ -233,7 +231,70 @@ std::optional<Vec<2>> units_of_pixel(const DrawList& list, const Frame& frame,
   return *largest / Vec<2>(texture.width, texture.height);
 }
 
+// Of the places in a coarse grid the one that is farthest from walls and bodies.
+Vec<3> roomiest(const Box<3>& bounds, int dimension, const std::vector<FrameBody>& bodies) {
+  constexpr std::array kShares = {7, 3, 13, 5, 11, 9};  // sixteenths: not where trees cut
+  std::pair<double, Vec<3>> best(-1, 0.0);
+  for (int n = 0; n < (dimension == 3 ? 216 : 36); ++n) {
+    Vec<3> at{0.0};
+    double room = std::numeric_limits<double>::infinity();
+    for (int i = 0, rest = n; i < dimension; ++i, rest /= 6) {
+      const double side = bounds.size()[i];
+      const double way = side * kShares[static_cast<std::size_t>(rest % 6)] / 16;
+      at[i] = bounds.lo[i] + way;
+      room = std::min(room, 2 * std::min(way, side - way));
+    }
+    for (const FrameBody& body : bodies)
+      room = std::min(room, glm::length(glm::clamp(at, body.box.lo, body.box.hi) - at));
+    if (room > best.first) best = {room, at};
+  }
+  return best.second;
+}
+
+// "body/red", behind its side's prefix: that, its name, and the frame in which it is.
+std::tuple<std::string, std::string, const Frame*> body_named(std::string_view entity,
+                                                              const Frame& whole) {
+  // Names have no slash: a side may be called "body".
+  const std::size_t slash = ("/" + std::string(entity)).rfind("/body/");
+  if (slash == entity.npos)
+    throw Refused("only bodies, textures and corners of walls can be moved");
+  const std::string prefix(entity.substr(0, slash)), name(entity.substr(slash + 5));
+  const Frame* frame = prefix.empty() ? &whole : whole.side_named(prefix.substr(0, slash - 1));
+  if (!frame) throw Refused("there is no side '{}'", prefix);
+  return {prefix, name, frame};
+}
+
 }  // namespace
+
+std::string with_another(std::string_view text, const Play& play, const Frame& whole,
+                         std::string& entity) {
+  const language::Scenario& scenario = play.scenario();
+  if (!scenario.has_world()) throw Refused("there is no [world] for a body");
+  std::string name = "new1";
+  for (int i = 2; text.find(name) != text.npos ||
+                  std::ranges::count(scenario.bodies, name, &language::BodySpec::name) > 0;
+       ++i)
+    name = fmt::format("new{}", i);
+  const Frame& frame = whole.sides.empty() ? whole : whole.sides.front();
+  const std::string side = frame.get<FrameSide>().name;
+  entity = fmt::format("{}{}body/{}", side, side.empty() ? "" : "/", name);
+  const int dimension = whole.dimension;
+  const Vec<3> size = whole.bounds.size();
+  const double least = std::min({size.x, size.y, dimension == 3 ? size.z : size.y});
+  const Vec<3> at = roomiest(whole.bounds, dimension, frame.bodies);
+  return with_step(
+      with_body(text, fmt::format("name = \"{}\"\nradius = {:.2g}\nposition = {}", name, least / 20,
+                                  point_text(at, dimension, 100 / least))),
+      whole.step, fmt::format("do = \"insert\"\nbodies = [\"{}\"]", name));
+}
+
+std::string without(std::string_view text, const Frame& whole, std::string_view entity) {
+  const auto [prefix, name, frame] = body_named(entity, whole);
+  if (std::ranges::count(frame->bodies, name, &FrameBody::name) == 0)
+    throw Refused("there is no body '{}' on this picture", name);
+  return with_step(text, whole.step,
+                   fmt::format("do = \"remove\"\nbodies = [{}]", json_string(name)));
+}
 
 std::unique_ptr<Grip> grip_on(std::string_view text, Play& play, std::size_t index,
                               std::string_view entity, const Vec<2>& at) {
@@ -244,13 +305,7 @@ std::unique_ptr<Grip> grip_on(std::string_view text, Play& play, std::size_t ind
     return grip;
   };
   if (entity.empty() && play.scenario().level) return placed(on_corner(text, play, list, at));
-  // Names have no slash: a side may be called "body".
-  const std::size_t slash = ("/" + std::string(entity)).rfind("/body/");
-  if (slash == entity.npos)
-    throw Refused("only bodies, textures and corners of walls can be moved");
-  const std::string prefix(entity.substr(0, slash)), name(entity.substr(slash + 5));
-  const Frame* frame = prefix.empty() ? &whole : whole.side_named(prefix.substr(0, slash - 1));
-  if (!frame) throw Refused("there is no side '{}'", prefix);
+  const auto [prefix, name, frame] = body_named(entity, whole);
   for (const FrameBody& body : frame->bodies) {
     if (body.name != name) continue;
     const auto ways = ways_at(body.position, *frame, whole, list, prefix);

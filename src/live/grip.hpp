@@ -35,6 +35,14 @@ class Grip {
   bool only_from_there = false;
 };
 
+// The text with a body more, where that frame of its play has most room, and with a step behind the
+// frame's in which it enters. `entity` becomes what a page calls it.
+std::string with_another(std::string_view text, const Play& play, const frame::Frame& whole,
+                         std::string& entity);
+
+// With a step in which that body leaves, in the same way.
+std::string without(std::string_view text, const frame::Frame& whole, std::string_view entity);
+
 // On a body or texture, as a page names it: "body/red", behind its side's prefix; or, if it is
 // empty, on a corner of a level's walls that is near. Throws Refused where there is nothing to be
 // moved. `text` is that of the play.

@@ -20,6 +20,19 @@ constexpr std::size_t kMostBytes = std::size_t{96} << 20;  // of what frames lis
 
 }  // namespace
 
+void stop_every(int world_steps, std::size_t from, Scenario& scenario) {
+  const auto stop = [&]<class V>(V& verb) {
+    if constexpr (V::kTraits.passes_time && requires { verb.every; }) verb.every = world_steps;
+  };
+  for (std::size_t i = from; i < scenario.steps.size(); ++i)
+    std::visit(stop, scenario.steps[i].verb);
+  for (auto& side : scenario.sides) {
+    auto own = std::make_shared<Scenario>(*side);
+    stop_every(world_steps, from, *own);
+    side = std::move(own);
+  }
+}
+
 bool Play::keep(const Frame& frame) {
   place_ = frames_.empty() || frames_.back().step != frame.step ? 0 : place_ + 1;
   frames_.push_back(frame);

@@ -23,6 +23,9 @@ struct Moment {
   bool is_last = true;      // of them: then wherever that is
 };
 
+// From this step on, a scenario's frames are so many of its world's steps apart while time passes.
+void stop_every(int world_steps, std::size_t from, language::Scenario& scenario);
+
 class Play {
  public:
   // Runs it whole. Throws ScenarioError, and Refused for too many frames.

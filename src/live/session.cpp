@@ -23,36 +23,18 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int kMost = 1'000'000;  // of page units, degrees, lines and frames
+constexpr double kFlight = 1.0 / 30;  // seconds of a world from frame to frame of a flight
+constexpr int kMost = 1'000'000;      // of page units, degrees, lines and frames
 
-void write(JsonWriter& out, const Diagnostic& d) {
-  out.begin_object()
-      .members("severity", d.severity == Severity::error ? "error" : "warning", "line",
-               d.where.line, "column", d.where.column, "message", d.message, "suggestion",
-               d.suggestion)
-      .end_object();
-}
-
-std::string list_of_diagnostics(const std::vector<Diagnostic>& all) {
-  JsonWriter out;
-  out.begin_array();
-  for (const Diagnostic& d : all) write(out, d);
-  return out.end_array().text();
-}
-
-std::string refusal(const std::vector<Diagnostic>& why, const std::string& said) {
-  return fmt::format("{{\"refused\": {}, \"said\": {}}}", list_of_diagnostics(why),
-                     json_string(said));
+// Of names and values in turn.
+std::string object_of(const auto&... members) {
+  return JsonWriter().begin_object().members(members...).end_object().text();
 }
 
 std::string refusal(const std::string& message) {
   Diagnostic d;
   d.message = message;
-  return refusal({d}, message);
-}
-
-std::string with_text(std::string_view key, const std::string& text) {
-  return fmt::format("{{\"{}\": {}}}", key, json_string(text));
+  return object_of("refused", std::vector{d}, "said", message);
 }
 
 // Frames as a lesson page holds them.
@@ -90,11 +72,13 @@ class Session::Engine {
     if (what == "frame") return "{" + picture(index_in(q, "index")) + "}";
     if (what == "grab") return grab(q);
     if (what == "drag") return drag(q);
+    if (what == "fly") return fly();
+    if (what == "add" || what == "remove") return recast(q, what == "add");
     if (what == "set")
-      return with_text("text", with_value(text_, q.at("path").get<std::string>(),
+      return object_of("text", with_value(text_, q.at("path").get<std::string>(),
                                           q.at("value").get<std::string>()));
     if (what == "controls") return controls_json(text_, play_->scenario());
-    if (what == "facts") return with_text("facts", to_json(play_->frames()[index_in(q, "index")]));
+    if (what == "facts") return object_of("facts", to_json(play_->frames()[index_in(q, "index")]));
     if (what == "svg")
       return svg(index_in(q, "index"), whole_in(q, "width"), whole_in(q, "height"));
     throw Refused("unknown request '{}'", what);
@@ -123,15 +107,21 @@ class Session::Engine {
   }
 
   std::string open(const std::string& text, const std::string& name, const std::string& held) {
-    play_ = std::make_unique<Play>(language::parse_scenario(text, name));
-    play_->held = held;
+    begin(language::parse_scenario(text, name), held);
     text_ = text;
     name_ = name;
+    const language::Scenario& scenario = play_->scenario();
+    return object_of("frames", play_->frames().size(), "steps", scenario.steps.size(), "world",
+                     scenario.has_world(), "level", scenario.level.has_value(), "warnings",
+                     play_->warnings(), "unmet", play_->unmet());
+  }
+
+  void begin(language::Scenario scenario, std::string held) {
+    play_ = std::make_unique<Play>(std::move(scenario));
+    play_->held = std::move(held);
     grip_.reset();
     begun_.reset();
-    return fmt::format("{{\"frames\": {}, \"warnings\": {}, \"unmet\": {}}}",
-                       play_->frames().size(), list_of_diagnostics(play_->warnings()),
-                       list_of_diagnostics(play_->unmet()));
+    left_.clear();
   }
 
   std::string lesson() {
@@ -162,7 +152,7 @@ class Session::Engine {
     if (std::min(width, height) < 1 || std::max(width, height) > render::kMostSide)
       throw Refused("a picture is 1 to {} pixels wide and high", render::kMostSide);
     const Frame& frame = play_->frames()[index];
-    return with_text(
+    return object_of(
         "svg", render::to_svg(play_->page(index, width, height), *draw::theme_named("light"), false,
                               width, height, {frame.title, frame.caption, "l-"}));
   }
@@ -180,11 +170,12 @@ class Session::Engine {
         body != entity.npos && grip_->what() != "size")
       play_->held = entity.substr(body + 5);
     grabbed_ = index;
+    left_.clear();
     begun_.reset();
     // As of any place but that one: a text for each place is then as good as made.
     if (grip_->only_from_there) begun_ = begun(parsed(grip_->text({at + Vec<2>(1, 0)})));
     if (begun_ && !begun_->is_long()) begun_.reset();
-    return fmt::format("{{\"grabbed\": \"{}\", \"kept\": {}}}", grip_->what(), bool(begun_));
+    return object_of("grabbed", grip_->what(), "kept", bool(begun_));
   }
 
   std::string drag(const json& q) {
@@ -201,7 +192,30 @@ class Session::Engine {
     const Frame& frame = now->frames()[index];
     Pictures one;
     one.add(frame, nullptr, play_->picture(frame, grabbed_, scenario), scenario);
-    return fmt::format("{{\"text\": {}, \"index\": {}, {}}}", json_string(text), index, one.json());
+    left_ = text;
+    return fmt::format("{{\"text\": {}, \"index\": {}, \"steps\": {}, {}}}", json_string(text),
+                       index, scenario.steps.size(), one.json());
+  }
+
+  std::string fly() {
+    if (left_.empty()) throw Refused("nothing was moved");
+    language::Scenario scenario = parsed(left_);
+    const double step = scenario.world.time_step;
+    const double every = std::clamp(std::round(kFlight / step), 1.0, double{kMost});
+    stop_every(static_cast<int>(every), grip_->moment.step, scenario);
+    const std::string text = left_;
+    begin(std::move(scenario), play_->held);
+    text_ = text;
+    return object_of("frames", play_->frames().size(), "seconds", every * step);
+  }
+
+  // A body more or less, in a step behind that of a frame.
+  std::string recast(const json& q, bool adds) {
+    const Frame& frame = play_->frames()[index_in(q, "frame")];
+    std::string entity = adds ? "" : q.at("entity");
+    const std::string text =
+        adds ? with_another(text_, *play_, frame, entity) : without(text_, frame, entity);
+    return object_of("text", text, "entity", entity, "index", play_->index_of({frame.step}) + 1);
   }
 
   language::Scenario parsed(const std::string& text) const {
@@ -214,6 +228,7 @@ class Session::Engine {
   std::unique_ptr<Play> play_;   // of what was opened last
   std::unique_ptr<Play> begun_;  // what stays the same of a hand's texts, until it has gone on
   std::string text_, name_;
+  std::string left_;  // by the last drag; empty if there was none since then
   std::unique_ptr<Grip> grip_;
   std::size_t grabbed_ = 0;  // the frame that was looked at then
 };
@@ -225,7 +240,7 @@ std::string Session::ask(std::string_view question) {
   try {
     return engine_->answer(json::parse(question));
   } catch (const ScenarioError& e) {
-    return refusal(e.diagnostics(), e.what());
+    return object_of("refused", e.diagnostics(), "said", std::string_view(e.what()));
   } catch (const json::exception& e) {
     return refusal(fmt::format("the request is not understood: {}", e.what()));
   } catch (const std::bad_alloc&) {

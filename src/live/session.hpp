@@ -13,9 +13,9 @@ namespace lantern::live {
 // "message", "suggestion"}, with line 0 for the file as a whole; lines and columns count from 1. A
 // picture is {"lesson": frames as a lesson page has them, "facts": [...], "hashes": ["..."]}.
 //
-// open: text, name, held. {"frames": n, "warnings": [D], "unmet": [D]}; the text is parsed, and run
-// whole. Pictures light what is of the body `held`, if that is given, in place of what the text
-// lights; so they do from a grab of a body on.
+// open: text, name, held. {"frames": n, "steps": n, "world": b, "level": b, "warnings": [D],
+// "unmet": [D]}; the text is parsed, and run whole. Pictures light what is of the body `held`, if
+// that is given, in place of what the text lights; so they do from a grab of a body on.
 //
 // lesson. The picture of all frames, and "questions": [[asked, answer, frame, predict]].
 //
@@ -26,9 +26,15 @@ namespace lantern::live {
 // all before what it changes has been run, which the next drag uses up; whoever copies the memory
 // here, and begins each drag with it, spares that run.
 //
-// drag: x, y, turn, vx, vy. {"text", "index"} and the picture of that frame, with what was grabbed
-// at another place, turned by so many degrees, and thrown as fast, in page units a second. It
-// begins from the text at the grab, and what does not change stays where it is on the page.
+// drag: x, y, turn, vx, vy. {"text", "index", "steps"} and the picture of that frame, with what was
+// grabbed at another place, turned by so many degrees, and thrown as fast, in page units a second.
+// It begins from the text at the grab, and what does not change stays where it is on the page.
+//
+// fly. {"frames": n, "seconds"}: opens what the last drag has left, but that frames are so many
+// seconds apart in its world from the step on that it has changed, as long as time passes.
+//
+// add: frame; remove: frame, entity. {"text", "entity", "index"}: with a body more, where there is
+// most room in that frame, or with one less, in a step behind the frame's, which begins at "index".
 //
 // set: path, value. {"text"}, see with_value().
 //

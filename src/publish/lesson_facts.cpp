@@ -35,12 +35,12 @@ class FactsWriter {
     const auto pair = [](const Pair& p) { return fmt::format("[{},{}]", p.a, p.b); };
     return fmt::format(
         "{{\"name\":{},\"title\":{},\"counts\":{},\"measures\":{},\"textures\":{},\"bodies\":{},"
-        "\"nodes\":{},"
-        "\"pairs\":{},\"contacts\":{}}}",
+        "\"nodes\":{},\"leaf\":[{}],\"pairs\":{},\"contacts\":{}}}",
         json_string(frame_.get<FrameSide>().name), json_string(frame_.get<FrameSide>().title),
         list_of(frame_.counts, count), list_of(frame_.measures, measure),
         list_of(frame_.get<FrameTextures>().textures, texture),
         list_of(frame_.bodies, [&](const FrameBody& b) { return body(b); }), nodes(),
+        has_cells(frame_.structure) ? R"("cell","cells")" : R"("leaf","leaves")",
         list_of(frame_.pairs,
                 [](const FramePair& p) {
                   return fmt::format("[{},{},{}]", p.pair.a, p.pair.b, p.overlaps ? 1 : 0);
@@ -62,7 +62,8 @@ class FactsWriter {
 
   std::string body(const FrameBody& b) const {
     const std::string z = frame_.dimension == 3 ? "," + number(b.position.z) : "";
-    const char* state = b.is_static ? "static" : b.asleep ? "asleep" : "";
+    const bool is_outside = !contains(frame_.bounds, b.position);
+    const char* state = b.is_static ? "static" : is_outside ? "outside" : b.asleep ? "asleep" : "";
     return fmt::format("[{},{},[{},{}{}],{},\"{}\"]", b.id, json_string(b.name),
                        number(b.position.x), number(b.position.y), z,
                        number(glm::length(b.velocity)), state);

@@ -140,9 +140,10 @@ class LessonFrames {
 //   name, title    of the side; empty without sides
 //   counts         [["pairs", 3], ...], and measures likewise
 //   textures       [id, "name"]
-//   bodies         [id, "name", [x, y], speed, "static" | "asleep" | ""]
+//   bodies         [id, "name", [x, y], speed, "static" | "outside" its world | "asleep" | ""]
 //   nodes          ["root.0", "label", depth, leaf, [body ids], outline, pool slot]: the outline on
 //                  the page, [x, y, ...] in page units, of a flat world; the slot or -1
+//   leaf           ["leaf", "leaves"]: one that is none's parent, and many, in words
 //   pairs          [a, b, their boxes overlap]
 //   contacts       [a, b]
 // Measures, places and speeds have five digits: they are to be read, not to be reckoned with.

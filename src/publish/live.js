@@ -4,8 +4,9 @@
 const MOST_LETTERS = 1 << 20; // of a text in an address
 
 class Live {
-  constructor(page, engine, scenario, recorded) {
-    Object.assign(this, { page, engine, waiting: new Map() });
+  // `scene`: what the engine has told of the text that it has opened.
+  constructor(page, engine, scenario, scene, recorded) {
+    Object.assign(this, { page, engine, scene, waiting: new Map() });
     this.begin(scenario, recorded);
     engine.first = () => [this.opening(this.good)];
     this.editor = new Editor(this);
@@ -137,10 +138,10 @@ class Live {
   // Refused text leaves the picture of the last good one.
   async run({ index, moment } = {}) {
     const { text, page } = this;
-    const { refused, warnings, unmet } = await this.engine.ask(this.opening(text));
-    this.editor.tell(refused ?? warnings, unmet);
-    if (refused) return;
-    this.good = text;
+    const opened = await this.engine.ask(this.opening(text));
+    this.editor.tell(opened.refused ?? opened.warnings, opened.unmet);
+    if (opened.refused) return;
+    [this.good, this.scene] = [text, opened];
     const isOwn = text === this.own.text;
     const drawn = (isOwn && this.own.drawn) || (await this.engine.ask({ do: "lesson" }));
     if (!(drawn.lesson instanceof Lesson)) drawn.lesson = new Lesson(drawn.lesson, page.lesson);
@@ -182,10 +183,6 @@ class Live {
     const caption = this.hand.sentence(lesson, index, facts) || countsTold(facts, known?.[frame.like], showsNodes(lesson, index));
     Object.assign(frame, { caption, told: its?.frames[frame.like]?.caption ?? "", ending: false });
     return lesson;
-  }
-
-  get hasLevel() {
-    return /^\s*\[?level\b/m.test(this.good);
   }
 
   // Why neither hand nor controls can change the text.
@@ -335,16 +332,16 @@ function fillChoice(live, scenarios) {
 async function startLive(page) {
   document.documentElement.dataset.live = "loading";
   const scenarios = JSON.parse(textIn("scenarios") ?? "[]");
-  const [{ frames, refused }, { lesson: first }] = await engine.started;
-  if (refused) throw new Error(refused[0].message);
+  const [scene, { lesson: first }] = await engine.started;
+  if (scene.refused) throw new Error(scene.refused[0].message);
   $("facts").before($("live-buttons").content);
   $("place").before($("live-marks").content);
   $("help-dialog").querySelector("dl").append($("live-keys").content);
   const { lesson, facts } = page;
   // All frames, and as large as the engine draws them: else those are not what a hand would move.
-  const isRecorded = frames === lesson.frames.length && `${first?.page}` === `${lesson.page}`;
+  const isRecorded = scene.frames === lesson.frames.length && `${first?.page}` === `${lesson.page}`;
   const card = JSON.parse(textIn("card") ?? "{}");
-  const live = new Live(page, engine, firstScenario, isRecorded && { lesson, facts, card });
+  const live = new Live(page, engine, firstScenario, scene, isRecorded && { lesson, facts, card });
   page.live = live;
   page.run = (text) => live.runAll(text);
   if (scenarios.length) fillChoice(live, scenarios);

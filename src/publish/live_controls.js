@@ -13,52 +13,38 @@ class Controls {
     $("remove").addEventListener("click", () => this.remove());
   }
 
-  // A body where there is most room, and a step in which it enters.
   add() {
-    const { text, page } = this.live;
-    const [least, most] = boundsOf(text);
-    if (!least) return this.live.say("This world’s bounds are not written: add a body in the text.");
-    const { name: side, bodies } = page.facts[page.index][0];
-    const name = Array.from({ length: 1000 }, (_, i) => `new${i + 1}`).find((one) => !text.includes(`"${one}"`));
-    const radius = Math.min(...most.map((n, i) => n - least[i])) / 20;
-    const place = roomiest(least, most, bodies.map(([, , at]) => at));
-    const body = `[[body]]\nname = "${name}"\nradius = ${+radius.toPrecision(2)}\nposition = [${place.join(", ")}]\n\n`;
-    this.insertStep(`do = "insert"\nbodies = ["${name}"]`, body, entity(side, "body", name));
+    this.ask(Symbol("each press counts"), "body", () => ({ do: "add", frame: this.live.page.index }), "added");
   }
 
   remove() {
-    const { watched } = this.live.page;
-    if (!watched) return this.live.say("Move the body that is to go: then it is the one that is meant.");
-    this.insertStep(`do = "remove"\nbodies = ["${nameOf(watched)}"]`, "", null);
-  }
-
-  // A step behind the one that is seen, with tables before the first of all; it is then the one that is seen.
-  insertStep(lines, tables, watched) {
-    const { live } = this, { page } = live;
-    const [head, ...steps] = stepsOf(live.text);
-    const { step } = page.lesson.frames[page.index];
-    steps[step] = `${steps[step].trimEnd()}\n\n[[step]]\n${lines}\n${step === steps.length - 1 ? "" : "\n"}`;
-    live.hand.watch(watched, "added");
-    live.editor.flush();
-    live.change(head + tables + steps.join(""), "body", { index: page.lesson.frames.findLastIndex((frame) => frame.step === step) + 1 });
+    const { page } = this.live;
+    if (!page.watched) return this.live.say("Move the body that is to go: then it is the one that is meant.");
+    this.ask("remove", "body", () => ({ do: "remove", frame: page.index, entity: page.watched }));
   }
 
   set(path, value) {
+    this.ask(`set ${path}`, path, () => ({ do: "set", path, value }));
+  }
+
+  // The engine changes the text. What has come into the world is watched then, what has left it is not.
+  ask(kind, cause, request, deed) {
     const { live } = this;
     live.editor.flush();
-    live.soon(`set ${path}`, async () => {
+    live.soon(kind, async () => {
       if (live.broken) return live.say(live.broken);
-      const { text, refused } = await live.engine.ask({ do: "set", path, value });
+      const { text, entity, index, refused } = await live.engine.ask(request());
       if (refused) return live.say(refused[0].message);
-      live.take(text, path);
-      await live.run();
+      if (entity) live.hand.watch(deed ? entity : null, deed);
+      live.take(text, cause);
+      await live.run({ index });
     });
   }
 
   async refresh() {
     if ($("change-part").hidden) return;
     const { controls } = await this.live.engine.ask({ do: "controls" });
-    $("add").parentNode.hidden = !/^\s*\[world\]/m.test(this.live.good);
+    $("add").parentNode.hidden = !this.live.scene.world;
     const paths = controls.map(({ path }) => path).join();
     if (paths !== this.paths) $("fields").replaceChildren(...fieldsOf(controls));
     this.paths = paths;
@@ -66,22 +52,6 @@ class Controls {
     for (const field of document.querySelectorAll("#change-part [data-path]"))
       putIn(field, controls.find(({ path }) => path === field.dataset.path), this.live.cause === field.dataset.path);
   }
-}
-
-// The least and the most of a world, as its table has them.
-function boundsOf(text) {
-  const world = text.match(/^\s*\[world\]([^]*?)(?=^\s*\[|$(?![^]))/m)?.[1] ?? "";
-  const point = (key) => world.match(new RegExp(`^\\s*${key}\\s*=\\s*\\[([^\\]]*)\\]`, "m"))?.[1].split(",").map(Number);
-  const [size, least, most] = ["size", "min", "max"].map(point);
-  return size ? [size.map(() => 0), size] : least && most ? [least, most] : [];
-}
-
-// Of the places in a coarse grid the one that is farthest from walls and bodies.
-function roomiest(least, most, bodies) {
-  const shares = [7, 3, 13, 5, 11, 9].map((n) => n / 16); // not where trees cut
-  const places = least.reduce((all, low, i) => all.flatMap((at) => shares.map((share) => [...at, low + share * (most[i] - low)])), [[]]);
-  const room = (at) => Math.min(...at.flatMap((n, i) => [n - least[i], most[i] - n]).map((n) => 2 * n), ...bodies.map((one) => Math.hypot(...at.map((n, i) => n - one[i]))));
-  return places.reduce((a, b) => (room(b) > room(a) ? b : a)).map((n) => +n.toPrecision(3));
 }
 
 // Each under its table's name.
@@ -95,20 +65,20 @@ function fieldsOf(controls) {
   });
 }
 
-function fieldOf({ path, key, means, type, least, most, step, choices, unit }) {
+function fieldOf({ path, key, means, type, least, most, step, choices, unit, value }) {
   const input = (kind, more) => element(document, "input", { type: kind, ...more });
   const coordinate = (axis) => input("number", { step: "any", "aria-label": `${key} ${axis}` });
-  const option = (one) => element(document, "option", { text: bare(one) });
+  const option = (text) => element(document, "option", { text });
   const parts = {
     choice: () => [element(document, "select", { children: (choices ?? []).map(option) })],
     truth: () => [input("checkbox")],
-    point: () => ["x", "y"].map(coordinate),
+    point: () => value.map((_, i) => coordinate("xyz"[i])),
   };
   const range = () => [input("range", { min: least, max: most, step: step ?? (type === "whole" ? 1 : "any") }),
     element(document, "output")];
   return element(document, type === "point" ? "fieldset" : "label", {
     "data-path": path, "data-type": type, "data-unit": unit ?? "", title: means.replaceAll("`", ""),
-    children: [element(document, "b", { text: key }), ...(parts[type] ?? range)(), element(document, "small", { children: coded(means.match(/^.{1,140}?\.(?=\s|$)|^.*?([.;](?=\s)|$)/)[0].replace(/;$/, ".")) })],
+    children: [element(document, "b", { text: key }), ...(parts[type] ?? range)(), element(document, "small")],
   });
 }
 
@@ -116,8 +86,11 @@ function fieldOf({ path, key, means, type, least, most, step, choices, unit }) {
 const coded = (words) => words.split("`").map((text, i) => (i % 2 ? element(document, "code", { text }) : text));
 const withUnit = (value, unit) => (unit?.length > 2 ? counted(Number(value), unit) : `${value} ${unit ?? ""}`);
 
-// A TOML string of one line without its quotes, or what has none.
-const bare = (value) => String(value).replace(/^(["'])(.*)\1$/, "$2");
+// A choice has words of its own where those of its key come to it first; else theirs begin with a sentence.
+function meaningOf({ type, means, value }) {
+  const own = type === "choice" && means.match(new RegExp(`(?:^|[;.] )((?:an? )?\`${value}\`:? [^;.]*)`));
+  return own ? `${asSentence(own[1])}.` : means.match(/^.{1,140}?\.(?=\s|$)|^.*?([.;](?=\s)|$)/)[0].replace(/;$/, ".");
+}
 
 function valueIn(field) {
   const inputs = [...field.querySelectorAll("input, select")];
@@ -130,14 +103,16 @@ function valueIn(field) {
   return value;
 }
 
-function putIn(field, { type, value, unit }, isSetting) {
+function putIn(field, control, isSetting) {
+  const { type, value, unit } = control;
+  field.querySelector("small").replaceChildren(...coded(meaningOf(control)));
   const inputs = [...field.querySelectorAll("input, select")];
   if (field.contains(document.activeElement) && type === "point") return; // it is being typed
   const output = field.querySelector("output");
   if (output) output.textContent = withUnit(value, unit);
-  if (type === "truth") inputs[0].checked = value === "true";
-  else if (type === "point") String(value).match(/-?[\d.]+(e-?\d+)?/g)?.slice(0, 2).forEach((n, i) => (inputs[i].value = n));
-  else if (!isSetting || inputs[0].type !== "range") inputs[0].value = bare(value);
+  if (type === "truth") inputs[0].checked = value;
+  else if (type === "point") value.forEach((n, i) => (inputs[i].value = n));
+  else if (!isSetting || inputs[0].type !== "range") inputs[0].value = value;
 }
 
 // --- questions: say first, then look

@@ -7,7 +7,6 @@ const WALL = ""; // what the engine calls the corner of a wall that is near
 const DRAG_SECONDS = 2;
 const REACH = 16; // pixels to a corner, or beside a body for a finger
 const THROWN = 250; // page units a second: slower is let go
-const FRAME = 1 / 30; // s of a world's time from one picture of a flight to the next
 const FLIGHT = -1; // what plays
 const COUNTS = ["pairs", "leaves", "entries", "textures", "refused", "awake"];
 const FEW = 4; // names that a sentence has room for
@@ -69,7 +68,7 @@ class Hand {
     const hollow = [...this.page.picture.layer.children].findLast(({ thing, kind, at }) =>
       kind === KIND.polygon && MOVED.test(this.lesson.keys[thing][0]) && holds(at, x, y));
     if (hollow) return this.lesson.keys[hollow.thing][1];
-    return this.live.hasLevel && this.isVertex({ x, y }) ? WALL : null;
+    return this.live.scene.level && this.isVertex({ x, y }) ? WALL : null;
   }
 
   // Whether something that is drawn of a world has a corner here. The engine knows which are walls'.
@@ -212,16 +211,16 @@ class Hand {
       .catch((error) => { held.refused = true; throw error; });
     if (answer.refused) return live.say(answer.refused[0].message);
     held.last = answer;
-    this.look(answer, answer.text);
+    page.words.grown = answer.steps - live.scene.steps;
+    this.look(answer);
     live.editor.show(answer.text);
     live.mark(answer.text);
     return answer;
   }
 
   // One frame that the engine has drawn.
-  look({ lesson, facts }, text) {
+  look({ lesson, facts }) {
     const { live, page } = this;
-    page.words.grown = stepsOf(text).length - stepsOf(live.good).length;
     page.look(live.retoldAlone(new Lesson(lesson, page.lesson), facts), facts);
     page.pointing.light();
   }
@@ -248,10 +247,9 @@ class Hand {
 
   // A run of its own, whose steps stop every few moments, is seen in its world's own time until it ends
   // or the reader does something else. Tells the moment that it has come to.
-  async fly({ text, index, lesson: { frames: [{ step, time: start }] } }) {
-    const { page, live, live: { engine } } = this;
-    const dense = stopping(text, step, Math.max(1, Math.round(FRAME / timeStepOf(text))));
-    const { frames } = await engine.ask(live.opening(dense)).catch(() => ({}));
+  async fly({ index, lesson: { frames: [{ step, time: start }] } }) {
+    const { page, live: { engine } } = this;
+    const { frames, seconds } = await engine.ask({ do: "fly" }).catch(() => ({}));
     if (!frames) return null; // more than can be shown
     const ends = new AbortController();
     const stop = ({ type, target }) => {
@@ -266,14 +264,14 @@ class Hand {
     let [moment, seen] = [{ step, time: start }, page.index];
     const gone = () => ((performance.now() - began) / 1000) * Number($("speed").value);
     try {
-      for (let i = index + 1; page.playing === FLIGHT && i < frames; i += Math.max(1, Math.floor((gone() + start - moment.time) / FRAME))) {
+      for (let i = index + 1; page.playing === FLIGHT && i < frames; i += Math.max(1, Math.floor((gone() + start - moment.time) / seconds))) {
         const drawn = await engine.ask({ do: "frame", index: i });
         const [frame] = drawn.lesson.frames;
         await new Promise((then) => setTimeout(then, 1000 * (frame.time - start - gone())));
         if (page.playing !== FLIGHT) break;
         moment = frame;
         seen = page.index = leadsTo(page.lesson, { ...frame, step: frame.step - page.words.grown });
-        this.look(drawn, dense);
+        this.look(drawn);
         page.tellStop(frame.step, frame.caption);
       }
     } finally {
@@ -314,10 +312,9 @@ class Hand {
     const named = new Set(lesson.lists[index].map((row) => lesson.shape(row)).filter(({ kind }) => kind === KIND.text)
       .map(({ key }) => lesson.keys[key]).flatMap(([key, one]) => (/(^|\/)world\/name\//.test(key) ? [nameOf(one)] : [])));
     const called = named.has(name) ? name : `the body you ${this.deed}`;
-    const [least, most] = boundsOf(this.live.text);
-    if (least && body[2].some((n, i) => n < least[i] || n > most[i])) return `${called} has left the world.`;
+    if (body[4] === "outside") return `${called} has left the world.`;
     const side = new Relations(facts);
-    const stored = showsNodes(lesson, index) ? this.stored(side.leavesWith(name), this.boxOf(one, lesson, index)) : "";
+    const stored = showsNodes(lesson, index) ? this.stored(side.leavesWith(name), this.boxOf(one, lesson, index), facts.leaf) : "";
     const all = new Map(facts.counts).get("pairs");
     const others = side.pairs.flatMap((pair) => (pair.includes(name) ? pair.filter((other) => other !== name) : []));
     const shares = all === undefined || all !== side.pairs.length ? "" : shareOf(others.length, all);
@@ -326,8 +323,7 @@ class Hand {
     return [stored && `${called} ${stored}.`, where && `${stored ? "It" : called} is ${where}.`].filter(Boolean).join(" ");
   }
 
-  stored(leaves, box) {
-    const word = /^\s*kind\s*=\s*"grid"/m.test(this.live.text) ? ["cell", "cells"] : ["leaf", "leaves"];
+  stored(leaves, box, word) {
     const labels = leaves.map(({ label }) => label).filter(Boolean);
     const named = labels.length === leaves.length && labels.length <= FEW ? ` ${listed(labels)}` : "";
     if (!leaves.length) return "";
@@ -405,7 +401,7 @@ class Hand {
   beckon() {
     this.mark?.remove();
     const one = this.inviting;
-    this.kind = !one ? this.live.hasLevel && "wall" : this.sizes(one) ? "texture" : this.live.passes ? "throw" : "body";
+    this.kind = !one ? this.live.scene.level && "wall" : this.sizes(one) ? "texture" : this.live.passes ? "throw" : "body";
     const invites = this.kind && this.done !== undefined && !this.done.includes(this.kind);
     $("invitation").hidden = !invites;
     $("invitation").textContent = `${INVITATIONS[this.kind]}: the engine answers.`;
@@ -473,17 +469,6 @@ function boxAround(points) {
 const meets = (a, b) => [0, 1].every((i) => a[i] <= b[i + 2] + 1 && b[i] <= a[i + 2] + 1); // outlines are whole numbers
 const isBox = (outline) => outline.length === 8 && new Set(outline.filter((_, i) => i % 2)).size === 2 &&
   new Set(outline.filter((_, i) => !(i % 2))).size === 2;
-
-const timeStepOf = (text) => Number(text.match(/^\s*time_step\s*=\s*([\d.e+-]+)/m)?.[1]) || 1 / 60;
-
-// A script whose steps behind one in which time passes stop every so many steps of the world.
-function stopping(text, step, every) {
-  const [head, ...steps] = stepsOf(text);
-  return [head, ...steps.map((lines, i) => i < step || !PASSES.test(lines) ? lines
-    : lines.replace(/^\s*every\s*=.*$/m, "").replace(PASSES, `$&\nevery = ${every}`))].join("");
-}
-const stepsOf = (text) => text.split(/^(?=[ \t]*\[\[step\]\])/m);
-const PASSES = /^\s*do\s*=\s*["'](run|wait)["'].*$/m;
 
 // How far a hand has gone around a middle, counter-clockwise.
 function degrees(middle, from, to) {

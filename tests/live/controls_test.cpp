@@ -30,9 +30,9 @@ json controls_of(const std::string& text) {
 
 // "path = value", with its choices or ends.
 std::string told(const json& control) {
-  std::string line = fmt::format("{} = {}{}", control["path"].get<std::string>(),
-                                 control["value"].get<std::string>(),
-                                 control["written"].get<bool>() ? "" : " (default)");
+  std::string line =
+      fmt::format("{} = {}{}", control["path"].get<std::string>(), control["value"].dump(),
+                  control["written"].get<bool>() ? "" : " (default)");
   if (control.contains("choices"))
     for (const json& choice : control["choices"]) line += " " + choice.get<std::string>();
   if (control.contains("least"))
@@ -67,7 +67,7 @@ TEST(Controls, OfBodiesThatFall) {
            R"(structure.split_static = false (default))",
            R"(structure.margin = 0 (default) 0.0 to 1.0 by 0.02)",
            R"(structure.following = "auto" (default) auto reinsert refit)",
-           R"(world.gravity = [0, -10] -20.0 to 20.0 by 0.5)",
+           R"(world.gravity = [0,-10] -20.0 to 20.0 by 0.5)",
            R"(world.contacts = "soft" impulse soft direct lecture)",
            R"(world.integrator = "semi_implicit_euler" (default) explicit_euler )"
            R"(semi_implicit_euler velocity_verlet runge_kutta_4 implicit_midpoint implicit_euler)",
@@ -102,11 +102,9 @@ std::vector<std::string> values_of(const json& control) {
   else
     for (const char* end : {"least", "most"}) values.push_back(control[end].dump());
   if (control["type"] != "point") return values;
-  const std::string now = control["value"];
-  const auto commas = static_cast<std::size_t>(std::ranges::count(now, ','));
   for (std::string& value : values) {
     std::string list = "[" + value;
-    for (std::size_t i = 0; i < commas; ++i) list += ", " + value;
+    for (std::size_t i = 0; i + 1 < control["value"].size(); ++i) list += ", " + value;
     value = list + "]";
   }
   return values;

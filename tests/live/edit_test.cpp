@@ -166,6 +166,22 @@ TEST(Edit, InsertsAStepBehindAnother) {
   EXPECT_THROW(with_step("step = [{}]", 0, "do = 'c'\n[step.expect]\na = 1"), Refused);
 }
 
+TEST(Edit, InsertsABodyBehindTheOthers) {
+  const std::string step = "# First.\n[[step]]\ndo = 'a'\n";
+  EXPECT_EQ(with_body("a = 1\n" + step, "x = 1\n"), "a = 1\n[[body]]\nx = 1\n\n" + step);
+  EXPECT_EQ(with_body("[[body]]\ny.z = 1 # [\n[body.w]\n\n" + step + "[[ 'body' ]]\n", "x = 1"),
+            "[[body]]\ny.z = 1 # [\n[body.w]\n\n" + step + "[[ 'body' ]]\n\n[[body]]\nx = 1\n");
+  EXPECT_EQ(with_body("step = [{ do = 'a' }]", "x = 1"),
+            "step = [{ do = 'a' }]\n\n[[body]]\nx = 1\n");
+  EXPECT_EQ(with_body("body = []\n" + step, "x = 1\ny = 2"), "body = [{ x = 1, y = 2 }]\n" + step);
+  EXPECT_EQ(with_body("body = [{}, { z = 1 }]", "x = 1"), "body = [{}, { z = 1 }, { x = 1 }]");
+  EXPECT_EQ(with_body("", "x = 1"), "[[body]]\nx = 1\n");
+  EXPECT_THROW(with_body(step, "x = 1\n[step]"), Refused);
+  // What a step stands behind is no ending.
+  EXPECT_EQ(with_step("[[step]]\n'ending' = true\ndo = 'a'\n", 0, "do = 'b'"),
+            "[[step]]\ndo = 'a'\n\n[[step]]\ndo = 'b'\n");
+}
+
 TEST(Edit, FindsATableByItsName) {
   const std::string text = "[[body]]\nname = 'red'\n[[body]]\n[[body]]\nname = \"bl\\u0075e\"\n";
   EXPECT_EQ(index_of(text, "body", "red"), 0u);
@@ -342,6 +358,7 @@ TEST(Edit, InsertsAStepAnywhereInAScenario) {
     const std::vector<Said> steps = steps_of(scenario.text);
     for (std::size_t i = 0; i < steps.size(); ++i) {
       std::vector<Said> more = steps;
+      more[i].erase("].\"ending\"");  // it is none then
       more.insert(more.begin() + static_cast<std::ptrdiff_t>(i) + 1,
                   Said{{"].\"do\"", "text move"}});
       ASSERT_EQ(steps_of(with_step(scenario.text, i, "do = 'move'")), more) << scenario.file << i;

@@ -134,7 +134,9 @@ function* wildQuestions(dice, opened) {
     yield { do: "grab", frame: dice.part() < 0.8 ? index : frame(), entity: dice.of(entities), x: place(), y: place() };
     for (let i = dice.below(4); i > 0; i--)
       yield { do: "drag", x: place(), y: place(), turn: dice.part() < 0.5 ? 0 : place(), vx: dice.part() < 0.7 ? 0 : place(), vy: 0 };
-    const { text } = yield { do: "set", path: dice.of(paths), value: dice.of([...WILD, "1 # x", "1\n[x]", '"a'])};
+    if (dice.part() < 0.3) yield { do: "fly" };
+    const { text } = yield dice.of([{ do: "add", frame: frame() }, { do: "remove", frame: frame(), entity: dice.of(entities) },
+      { do: "set", path: dice.of(paths), value: dice.of([...WILD, "1 # x", "1\n[x]", '"a'])}]);
     if (text !== undefined && dice.part() < 0.5) {
       const again = yield { do: "open", text, name: "set.toml" };
       if (again.refused === undefined) yield { do: "frame", index: dice.below(again.frames) };
@@ -174,7 +176,7 @@ function requireSound(question, answer) {
       if (severity !== "error" || !message || !(line >= 0 && column >= 0)) throw new Error(`a reason that says nothing, ${line}:${column} ${message}`);
     return "refused";
   }
-  const wanted = { open: "frames", lesson: "lesson", frame: "lesson", grab: "grabbed", drag: "lesson", set: "text", controls: "controls", complete: "words", facts: "facts", svg: "svg" };
+  const wanted = { open: "frames", lesson: "lesson", frame: "lesson", grab: "grabbed", drag: "lesson", fly: "frames", add: "entity", remove: "text", set: "text", controls: "controls", complete: "words", facts: "facts", svg: "svg" };
   if (answer[wanted[question.do]] === undefined) throw new Error(`'${question.do}' has the answer ${JSON.stringify(answer).slice(0, 200)}`);
   if (question.do === "lesson" && !(answer.hashes.length > 0)) throw new Error("a lesson without frames");
   if (question.do === "facts") JSON.parse(answer.facts);

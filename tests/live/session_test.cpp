@@ -467,6 +467,168 @@ step = [{ do = "insert", bodies = ["red"] }]
   EXPECT_TRUE(page.grab(0, "body/red").contains("refused"));
 }
 
+// As no scenario of ours is written: keys in quotes and with dots, tables in braces, steps that are
+// only words, lines as in Windows, names that need signs before their signs.
+std::string unusual() {
+  const std::string text = R"(# [[step]] is none here
+"title" = 'Anders "geschrieben" \ für x'
+world.size = [ 64,
+  32 ]  # [world]
+'world' . time_step = 0.05
+structure = { kind = """grid""", cell = 4 }
+body = [ { name = "gr\u0065en new2 x", radius = 2, position = [20, 12], velocity = [4, 0] },
+  {name='new1', radius = 1, 'position'=[50, 20]} ]
+[[ step ]]
+do = 'insert'
+bodies = [ 'new1', 'green new2 x' ]
+notes = """\
+[[step]] \
+do = "run" \
+time_step = 1"""
+[[step]]
+'do' = "r\u0075n"
+seconds = 1
+every = 5  # of them
+[[step]]  # the last
+do = "show"
+"ending" = true)";
+  std::string lines = "\xef\xbb\xbf";
+  for (const char c : text) lines += c == '\n' ? "\r\n" : std::string(1, c);
+  return lines;
+}
+constexpr const char* kGreen = "body/green new2 x";
+
+TEST(Session, WhatIsOpenedTellsOfItsScene) {
+  Page page;
+  const json opened = page.open(unusual());
+  ASSERT_FALSE(opened.contains("refused")) << opened.dump();
+  EXPECT_EQ(opened["steps"], 3);
+  EXPECT_EQ(opened["frames"], 6);
+  EXPECT_EQ(opened["level"], false);
+  EXPECT_EQ(opened["world"], true);
+  EXPECT_EQ(page.frame(0)["facts"][0][0]["leaf"], json({"cell", "cells"}));
+  EXPECT_EQ(page.open(shipped("doom_level_bsp.toml"))["level"], true);
+  EXPECT_EQ(page.frame(0)["facts"][0][0]["leaf"], json({"leaf", "leaves"}));
+  EXPECT_EQ(page.open(shipped("ui_atlas.toml"))["world"], false);
+}
+
+// Of the frame, its bodies by name.
+std::vector<std::string> cast_of(const json& frame, std::size_t side = 0) {
+  std::vector<std::string> names;
+  for (const json& body : frame["facts"][0][side]["bodies"]) names.push_back(body[1]);
+  return names;
+}
+
+TEST(Session, BodiesComeAndGoBehindTheFrame) {
+  using Names = std::vector<std::string>;
+  Page page;
+  page.open(unusual());
+  const json added = page.ask({{"do", "add"}, {"frame", 0}});
+  EXPECT_EQ(added["entity"], "body/new3");  // the second is a part of another's name
+  EXPECT_EQ(added["index"], 1);
+  const std::string text = added["text"];
+  EXPECT_EQ(text, with(with(unusual(), " ]\r\n[[ step ]]",
+                            ",\r\n  { name = \"new3\", radius = 1.6, position = " +
+                                value_at(text, "body[2].position") + " } ]\r\n[[ step ]]"),
+                       "\"\"\"\r\n[[step]]\r\n'do'",
+                       "\"\"\"\r\n\r\n[[step]]\r\ndo = \"insert\"\r\nbodies = "
+                       "[\"new3\"]\r\n[[step]]\r\n'do'"));
+  ASSERT_EQ(page.open(text)["steps"], 4);
+  EXPECT_EQ(cast_of(page.frame(0)).size(), 2u);
+  EXPECT_EQ(cast_of(page.frame(1)), Names({"new1", "green new2 x", "new3"}));
+
+  // The step that was the ending is none any more.
+  const json removed = page.ask({{"do", "remove"}, {"frame", 6}, {"entity", kGreen}});
+  EXPECT_EQ(removed["index"], 7);
+  ASSERT_FALSE(page.open(removed["text"]).contains("refused")) << removed["text"];
+  EXPECT_EQ(cast_of(page.frame(6)).size(), 3u);
+  EXPECT_EQ(cast_of(page.frame(7)), Names({"new1", "new3"}));
+  for (const char* entity : {"body/nobody", "body/", "new1", "left/body/new1"})
+    EXPECT_TRUE(page.ask({{"do", "remove"}, {"frame", 7}, {"entity", entity}}).contains("refused"));
+  EXPECT_TRUE(page.ask({{"do", "remove"}, {"frame", 7}, {"entity", kGreen}}).contains("refused"));
+
+  // Into an empty world, however that is written; and no wall or body is near.
+  for (const std::string& empty :
+       {std::string("title = 'x'\nworld = { size = [64, 32] }\nstep = [ { do = 'show' } ]"),
+        std::string("title = 'x'\nworld = { size = [64, 32] }\nbody = []\n[[step]]\ndo = 'show'"),
+        std::string("title = 'x'\n[[step]]\ndo = 'show'\n[world]\nsize = [64, 32]")}) {
+    ASSERT_FALSE(page.open(empty).contains("refused"));
+    const std::string first = page.ask({{"do", "add"}, {"frame", 0}})["text"];
+    ASSERT_FALSE(page.open(first).contains("refused")) << first;
+    EXPECT_EQ(cast_of(page.frame(1)), Names({"new1"}));
+    ASSERT_FALSE(page.open(page.ask({{"do", "add"}, {"frame", 1}})["text"]).contains("refused"));
+    EXPECT_EQ(cast_of(page.frame(2)), Names({"new1", "new2"}));
+    const json bodies = page.frame(2)["facts"][0][0]["bodies"];
+    EXPECT_GT(std::abs(bodies[0][2][0].get<double>() - bodies[1][2][0].get<double>()), 10);
+  }
+  // On each side, and in three dimensions.
+  const json two = page.open(shipped("octree_split.toml"));
+  const std::string side = page.frame(0)["facts"][0][0]["name"];
+  const json solid = page.ask({{"do", "add"}, {"frame", 0}});
+  EXPECT_EQ(solid["entity"], side + "/body/new1");
+  ASSERT_EQ(page.open(solid["text"])["steps"], two["steps"].get<int>() + 1);
+  for (const std::size_t i : {0u, 1u})
+    EXPECT_EQ(cast_of(page.frame(solid["index"]), i).back(), "new1");
+  const json gone =
+      page.ask({{"do", "remove"}, {"frame", solid["index"]}, {"entity", solid["entity"]}});
+  ASSERT_FALSE(page.open(gone["text"]).contains("refused"));
+  EXPECT_NE(cast_of(page.frame(gone["index"])).back(), "new1");
+  // Where there is no world there is no place.
+  page.open(shipped("ui_atlas.toml"));
+  EXPECT_TRUE(page.ask({{"do", "add"}, {"frame", 0}}).contains("refused"));
+}
+
+TEST(Session, AFlightStopsEveryFewMomentsOfItsWorld) {
+  const std::string sides =
+      "\n[[side]]\nname = \"a\"\n[[side]]\nname = \"b\"\nstructure.capacity = 1\n";
+  struct Flight {
+    std::string text, entity;
+    int frames;
+    double seconds;
+  };
+  const std::string rarely = with(kTwo, "seconds = 1", "seconds = 1\nevery = 60");
+  for (const auto& [text, entity, frames, seconds] :
+       {Flight{unusual(), kGreen, 1 + 20 + 1, 0.05}, Flight{rarely, "body/red", 32, 1.0 / 30},
+        Flight{rarely + sides, "a/body/red", 32, 1.0 / 30}}) {
+    Page page;
+    page.open(text);
+    EXPECT_TRUE(page.ask({{"do", "fly"}}).contains("refused"));
+    ASSERT_EQ(page.grab(0, entity, {500, 300})["grabbed"], "position") << text;
+    page.drag({{"x", 510}, {"y", 300}});
+    page.grab(0, entity, {500, 300});
+    EXPECT_TRUE(page.ask({{"do", "fly"}}).contains("refused"));
+    const json thrown = page.drag({{"x", 520}, {"y", 300}, {"vx", 300}});
+    const json flight = page.ask({{"do", "fly"}});
+    EXPECT_EQ(flight["frames"], frames) << flight.dump();
+    EXPECT_DOUBLE_EQ(flight["seconds"], seconds);
+    for (int i = 1; i + 1 < frames; ++i)
+      EXPECT_NEAR(page.frame(i)["lesson"]["frames"][0]["time"], i * seconds, 1e-9);
+    // It ends as that text does, which is the one that is open.
+    const json last = page.frame(frames - 1);
+    EXPECT_EQ(page.ask({{"do", "set"}, {"path", "title"}, {"value", "1"}})["text"],
+              with_value(thrown["text"].get<std::string>(), "title", "1"));
+    const json opened = page.open(thrown["text"]);
+    const json whole = page.frame(opened["frames"].get<int>() - 1);
+    EXPECT_EQ(last["facts"][0][0]["bodies"], whole["facts"][0][0]["bodies"]);
+  }
+}
+
+TEST(Session, AHandMovesWhatIsWrittenOtherwise) {
+  const std::string text = unusual();
+  Page page;
+  page.open(text);
+  const Vec<2> before = Looked(page.frame(0)).middle(std::string("world/") + kGreen);
+  ASSERT_EQ(page.grab(0, kGreen, before)["grabbed"], "position");
+  const json moved = page.drag({{"x", before.x + 40}, {"y", before.y}});
+  EXPECT_EQ(moved["text"],
+            with(text, "[20, 12]", value_at(moved["text"].get<std::string>(), "body[0].position")));
+  EXPECT_EQ(moved["steps"], 3);
+  ASSERT_EQ(page.grab(2, "body/new1", {800, 300})["grabbed"], "move");
+  const json later = page.drag({{"x", 700}, {"y", 300}});
+  EXPECT_EQ(later["steps"], 4);
+  EXPECT_EQ(page.open(later["text"])["steps"], 4);
+}
+
 TEST(Session, ATextureGrowsWithItsCorner) {
   const std::string text = shipped("kdtree_atlas.toml");
   Page page;
