@@ -162,6 +162,14 @@ TEST(Mistakes, OfSyntaxAreSaidPlainly) {
       {"x = { a = 1, @}", "no comma may stand before '}'"},
       {"seed = 99999999999999999999@", "too large"},
       {"title = \"a\\@q\"", "an unknown \\ sequence"},
+      {"seed = 4@x", "a value is a number, a \"text\", true"},
+      {"seed = 1_@_0", "this is no number"},
+      {"seed = n@ul", "this is no value"},
+      {"seed = inf@f", "this is no value"},
+      {"seed = 1979-13@-01", "no such date"},
+      {"x = [1,@,2]", "a value is missing before this comma"},
+      {"x = { a =@}", "a value is missing"},
+      {"x = { a = 1 @b = 2 }", "two pairs in { } need a comma"},
   };
   for (const auto& [text, words] : cases) {
     SCOPED_TRACE(text);

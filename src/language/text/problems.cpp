@@ -159,6 +159,8 @@ struct Plain {
   std::string_view message;
   std::string_view hint;
 };
+constexpr std::string_view kValues =
+    "a value is a number, a \"text\", true, false, [a list] or { a = table }";
 constexpr std::array kPlain = {
     Plain{"string: encountered end-of-file", "the file ends inside a text",
           "a closing quote is missing"},
@@ -196,6 +198,14 @@ constexpr std::array kPlain = {
     Plain{"nested value depth", "lists within lists, far too deep", ""},
     Plain{"floating-point: expected decimal digit, saw '.'",
           "a number needs a digit before its dot", "write 0.5, not .5"},
+    Plain{"closing ']', saw comma", "a value is missing before this comma", ""},
+    Plain{"expected value, saw", "a value is missing", ""},
+    Plain{"expected comma or closing '}'", "two pairs in { } need a comma between them", ""},
+    Plain{"inclusive", "there is no such date or time", ""},
+    Plain{"digit", "this is no number", kValues},
+    Plain{"underscores", "this is no number", kValues},
+    Plain{"expected value-terminator", "this is no value", kValues},
+    Plain{"expected '", "this is no value", kValues},
 };
 
 // "cannot redefine existing integer 'a' as table": the name is all that matters.
