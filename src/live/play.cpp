@@ -4,7 +4,6 @@
 #include <iterator>
 
 #include "base/check.hpp"
-#include "publish/lesson_frames.hpp"
 #include "run/director.hpp"
 #include "run/shown.hpp"
 #include "run/warnings.hpp"
@@ -94,8 +93,20 @@ Play::Group& Play::group_of(std::size_t index) {
 
 const draw::Staging& Play::staging_of(std::size_t index) {
   Group& group = group_of(index);
-  if (!group.staging) group.staging = std::make_unique<draw::Staging>(group.frames, axes_);
+  if (!group.staging) group.staging = std::make_unique<draw::Staging>(frames_beside(group), axes_);
   return *group.staging;
+}
+
+std::vector<const Frame*> Play::frames_beside(const Group& group) const {
+  std::vector<const Frame*> all;
+  const auto add = [&](const Group& some) {
+    for (const Frame& frame : some.frames) all.push_back(&frame);
+  };
+  if (lesson)
+    for (const Group& its : lesson->groups_)
+      if (draw::Staging::is_one_group(its.frames.front(), group.frames.front())) add(its);
+  add(group);
+  return all;
 }
 
 draw::DrawList Play::picture(std::size_t index) {
@@ -109,8 +120,7 @@ draw::DrawList Play::page(std::size_t index, int width, int height) {
 draw::DrawList Play::picture(const Frame& frame, std::size_t beside, const Scenario& of) {
   const Group& group = group_of(beside);
   std::vector<const Frame*> all;
-  if (draw::Staging::is_one_group(frames_.at(beside), frame))
-    for (const Frame& other : group.frames) all.push_back(&other);
+  if (draw::Staging::is_one_group(frames_.at(beside), frame)) all = frames_beside(group);
   all.push_back(&frame);
   return drawn(frame, draw::Staging(std::move(all), axes_), of);
 }
@@ -119,7 +129,7 @@ draw::DrawList Play::drawn(const Frame& frame, const draw::Staging& staging, con
   Frame bare = frame;
   if (!held.empty() && !traits_of(of.steps.at(frame.step).verb).asks) light_held(held, bare);
   bare.display.title = bare.display.caption = bare.display.counters = false;
-  return draw_frame(bare, staging, publish::lesson_page(), work_);
+  return draw_frame(bare, staging, sheet, work_);
 }
 
 }  // namespace lantern::live

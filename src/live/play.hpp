@@ -11,6 +11,7 @@
 #include "draw/page.hpp"
 #include "draw/staging.hpp"
 #include "language/scenario.hpp"
+#include "publish/lesson_frames.hpp"
 #include "rooms.hpp"
 #include "run/director.hpp"
 
@@ -61,6 +62,13 @@ class Play {
   // lit on all pictures, and nothing that the script lights.
   std::string held;
 
+  // Of its pictures, in page units.
+  Vec<2> sheet = publish::lesson_page();
+
+  // That this one's text was made from; null: none. What a picture of it needs has room on this
+  // one's pictures, too, where they show the same kinds of things.
+  std::shared_ptr<const Play> lesson;
+
  private:
   draw::DrawList drawn(const frame::Frame& frame, const draw::Staging& staging,
                        const language::Scenario& of);
@@ -71,6 +79,8 @@ class Play {
     std::unique_ptr<draw::Staging> staging;  // made when it is first asked for
   };
   Group& group_of(std::size_t index);
+  // The lesson's before its own.
+  std::vector<const frame::Frame*> frames_beside(const Group& group) const;
 
   // False if no more are wanted.
   bool keep(const frame::Frame& frame);

@@ -14,6 +14,7 @@
 #include "live/edit.hpp"
 #include "live/grip.hpp"
 #include "live/play.hpp"
+#include "live/retold.hpp"
 #include "publish/lesson_frames.hpp"
 #include "render/image.hpp"
 #include "render/svg.hpp"
@@ -40,21 +41,28 @@ std::string refusal(const std::string& message) {
 // Frames as a lesson page holds them.
 class Pictures {
  public:
+  // `like`: of each step, which of the lesson's it is; empty where there is no lesson.
+  explicit Pictures(const std::vector<int>& like) : like_(like) {}
+
   void add(const Frame& frame, const Frame* before, const draw::DrawList& list,
            const language::Scenario& scenario) {
     frames_.add(frame, list, publish::words_of(before ? *before : Frame(), frame, scenario));
+    if (!like_.empty())
+      likes_ += fmt::format("{}[{},{}]", facts_.empty() ? "" : ",", like_.at(frame.step),
+                            scenario.steps.at(frame.step).caption.empty() ? 0 : 1);
     facts_ += (facts_.empty() ? "" : ",") + publish::facts_for_page(frame, list);
     hashes_ += fmt::format("{}\"{:016x}\"", hashes_.empty() ? "" : ",", frame.hash);
   }
   // Members of an object.
   std::string json() const {
-    return fmt::format("\"lesson\": {}, \"facts\": [{}], \"hashes\": [{}]", frames_.json(), facts_,
-                       hashes_);
+    return fmt::format("\"lesson\": {}, \"facts\": [{}], \"hashes\": [{}], \"like\": [{}]",
+                       frames_.json(), facts_, hashes_, likes_);
   }
 
  private:
+  const std::vector<int>& like_;
   publish::LessonFrames frames_;
-  std::string facts_, hashes_;
+  std::string facts_, hashes_, likes_;
 };
 
 }  // namespace
@@ -63,7 +71,7 @@ class Session::Engine {
  public:
   std::string answer(const json& q) {
     const std::string what = q.at("do");
-    if (what == "open") return open(q.at("text"), q.at("name"), q.value("held", ""));
+    if (what == "open") return open(q);
     if (what == "complete")
       return complete_json(q.at("text").get<std::string>(), whole_in(q, "line"),
                            whole_in(q, "column"));
@@ -106,26 +114,51 @@ class Session::Engine {
     return index;
   }
 
-  std::string open(const std::string& text, const std::string& name, const std::string& held) {
-    begin(language::parse_scenario(text, name), held);
-    text_ = text;
+  static Vec<2> sheet_in(const json& q) {
+    constexpr int kLeast = 300, kMostUnits = 5000;
+    const int width = whole_in(q, "width"), height = whole_in(q, "height");
+    if (std::min(width, height) < kLeast || std::max(width, height) > kMostUnits)
+      throw Refused("a page is {} to {} units wide and high", kLeast, kMostUnits);
+    return {width, height};
+  }
+
+  std::string open(const json& q) {
+    const std::string text = q.at("text"), name = q.at("name"), lesson = q.value("lesson", "");
+    const Vec<2> sheet = q.contains("width") ? sheet_in(q) : publish::lesson_page();
+    std::shared_ptr<Play> its;
+    if (!lesson.empty())
+      its = lesson_ && lesson_->scenario().text == lesson
+                ? lesson_
+                : std::make_shared<Play>(parsed(lesson, name, nullptr));
+    std::vector<int> like;
+    auto own = parsed(text, name, its.get(), &like);
+    auto play = its && text == lesson ? its : std::make_shared<Play>(std::move(own));
+    if (its && play != its && is_same_world(*play, *its))
+      play = std::make_shared<Play>(parsed(text, name, nullptr));
+    lesson_ = std::move(its);
+    begin(std::move(play), std::move(like), sheet, q.value("held", ""));
     name_ = name;
+    text_ = text;
     const language::Scenario& scenario = play_->scenario();
     return object_of("frames", play_->frames().size(), "steps", scenario.steps.size(), "world",
                      scenario.has_world(), "level", scenario.level.has_value(), "warnings",
                      play_->warnings(), "unmet", play_->unmet());
   }
 
-  void begin(language::Scenario scenario, std::string held) {
-    play_ = std::make_unique<Play>(std::move(scenario));
-    play_->held = std::move(held);
+  void begin(std::shared_ptr<Play> play, std::vector<int> like, const Vec<2>& sheet,
+             std::string held) {
+    if (play != lesson_) play->lesson = lesson_;
+    play->sheet = sheet;
+    play->held = std::move(held);
+    play_ = std::move(play);
+    like_ = std::move(like);
     grip_.reset();
     begun_.reset();
     left_.clear();
   }
 
   std::string lesson() {
-    Pictures all;
+    Pictures all(like_);
     JsonWriter questions;
     questions.begin_array();
     const auto& frames = play_->frames();
@@ -139,11 +172,12 @@ class Session::Engine {
             .value(q->predict)
             .end_array();
     }
-    return fmt::format("{{{}, \"questions\": {}}}", all.json(), questions.end_array().text());
+    return fmt::format("{{{}, \"title\": {}, \"questions\": {}}}", all.json(),
+                       json_string(play_->scenario().title), questions.end_array().text());
   }
 
   std::string picture(std::size_t index) {
-    Pictures one;
+    Pictures one(like_);
     one.add(play_->frames()[index], nullptr, play_->picture(index), play_->scenario());
     return one.json();
   }
@@ -173,7 +207,8 @@ class Session::Engine {
     left_.clear();
     begun_.reset();
     // As of any place but that one: a text for each place is then as good as made.
-    if (grip_->only_from_there) begun_ = begun(parsed(grip_->text({at + Vec<2>(1, 0)})));
+    if (grip_->only_from_there)
+      begun_ = begun(parsed(grip_->text({at + Vec<2>(1, 0)}), name_, lesson_.get()));
     if (begun_ && !begun_->is_long()) begun_.reset();
     return object_of("grabbed", grip_->what(), "kept", bool(begun_));
   }
@@ -182,7 +217,8 @@ class Session::Engine {
     if (!grip_) throw Refused("nothing is grabbed");
     const std::string text =
         grip_->text({point_in(q, "x", "y"), number_in(q, "turn"), point_in(q, "vx", "vy")});
-    language::Scenario changed = parsed(text);
+    std::vector<int> like;
+    language::Scenario changed = parsed(text, name_, lesson_.get(), &like);
     auto now = std::exchange(begun_, nullptr);
     const bool goes_on = now && now->scenario().steps.size() == changed.steps.size();
     if (!goes_on) now = begun(std::move(changed));
@@ -190,7 +226,7 @@ class Session::Engine {
     now->go_on(scenario, grip_->moment);
     const std::size_t index = now->index_of(grip_->moment);
     const Frame& frame = now->frames()[index];
-    Pictures one;
+    Pictures one(like);
     one.add(frame, nullptr, play_->picture(frame, grabbed_, scenario), scenario);
     left_ = text;
     return fmt::format("{{\"text\": {}, \"index\": {}, \"steps\": {}, {}}}", json_string(text),
@@ -199,13 +235,13 @@ class Session::Engine {
 
   std::string fly() {
     if (left_.empty()) throw Refused("nothing was moved");
-    language::Scenario scenario = parsed(left_);
+    std::vector<int> like;
+    language::Scenario scenario = parsed(left_, name_, lesson_.get(), &like);
     const double step = scenario.world.time_step;
     const double every = std::clamp(std::round(kFlight / step), 1.0, double{kMost});
     stop_every(static_cast<int>(every), grip_->moment.step, scenario);
-    const std::string text = left_;
-    begin(std::move(scenario), play_->held);
-    text_ = text;
+    text_ = left_;
+    begin(std::make_shared<Play>(std::move(scenario)), std::move(like), play_->sheet, play_->held);
     return object_of("frames", play_->frames().size(), "seconds", every * step);
   }
 
@@ -218,15 +254,24 @@ class Session::Engine {
     return object_of("text", text, "entity", entity, "index", play_->index_of({frame.step}) + 1);
   }
 
-  language::Scenario parsed(const std::string& text) const {
-    return language::parse_scenario(text, name_);
+  // Of another text than the lesson's what is its own, and which steps of the lesson its steps are.
+  static language::Scenario parsed(const std::string& text, const std::string& name,
+                                   const Play* lesson, std::vector<int>* like = nullptr) {
+    language::Scenario scenario = language::parse_scenario(text, name);
+    if (!lesson) return scenario;
+    const language::Scenario& its = lesson->scenario();
+    if (like) *like = steps_in(its, scenario);
+    if (text != its.text) keep_own_words(scenario, its);
+    return scenario;
   }
   std::unique_ptr<Play> begun(language::Scenario scenario) const {
     return std::make_unique<Play>(std::move(scenario), grip_->moment);
   }
 
-  std::unique_ptr<Play> play_;   // of what was opened last
-  std::unique_ptr<Play> begun_;  // what stays the same of a hand's texts, until it has gone on
+  std::shared_ptr<Play> lesson_;  // that texts are made from; null: none was told
+  std::shared_ptr<Play> play_;    // of what was opened last
+  std::vector<int> like_;         // of its steps
+  std::unique_ptr<Play> begun_;   // what stays the same of a hand's texts, until it has gone on
   std::string text_, name_;
   std::string left_;  // by the last drag; empty if there was none since then
   std::unique_ptr<Grip> grip_;

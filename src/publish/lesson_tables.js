@@ -27,6 +27,7 @@ class Words {
     for (const spare of document.querySelectorAll("#words .spare:not(.kept)")) spare.remove();
     document.getElementById("words").append(...this.spares());
     document.documentElement.style.setProperty("--ratio", lesson.ratio);
+    document.documentElement.classList.toggle("upright", lesson.ratio < 1.2);
   }
 
   // Unseen words of all frames, in the place of those that are seen: the room for words is that of
@@ -34,8 +35,8 @@ class Words {
   // that differ in their digits alone need the same room.
   spares() {
     const distinct = new Map();
-    for (const { caption, told, counters = [], ending } of this.lesson.frames) {
-      if (told !== undefined) continue;
+    for (const { caption, isTold, counters = [], ending } of this.lesson.frames) {
+      if (isTold) continue; // it is short
       const words = JSON.stringify([caption, counters, ending]).replace(/\d/g, "0");
       distinct.set(words, JSON.parse(words));
     }
@@ -49,11 +50,11 @@ class Words {
       }));
   }
 
-  // `lesson`: what was told of this frame before the reader made a world of their own.
-  show({ step, caption, told: lesson, part, counters, ending }) {
+  // `beside`: what else there is to say of the frame, in small letters.
+  show({ step, caption, beside, part, counters, ending }) {
     const [told, numbers] = ["caption", "counters"].map((id) => document.getElementById(id));
     if (told.textContent !== caption) told.textContent = caption;
-    lesson === undefined ? delete told.dataset.lesson : (told.dataset.lesson = lesson);
+    told.dataset.beside = beside ?? "";
     numbers.replaceChildren(...counterList(document, counters));
     told.parentNode.classList.toggle("ending", Boolean(ending));
     document.getElementById("part").textContent = part ?? "";

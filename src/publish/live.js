@@ -6,7 +6,7 @@ const MOST_LETTERS = 1 << 20; // of a text in an address
 class Live {
   // `scene`: what the engine has told of the text that it has opened.
   constructor(page, engine, scenario, scene, recorded) {
-    Object.assign(this, { page, engine, scene, waiting: new Map() });
+    Object.assign(this, { page, engine, scene, waiting: new Map(), sheet: sheet() });
     this.begin(scenario, recorded);
     engine.first = () => [this.opening(this.good)];
     this.editor = new Editor(this);
@@ -17,7 +17,7 @@ class Live {
 
   // `drawn`: the lesson's own frames, if they are there.
   begin({ name, text, title = document.title }, drawn = null) {
-    Object.assign(this, { name, text, title, good: text, own: { text, drawn }, past: [], future: [], cause: null });
+    Object.assign(this, { name, text, title, good: text, own: { text, drawn, isOfSheet: Boolean(drawn) }, past: [], future: [], cause: null });
     for (const kept of document.querySelectorAll("#words .kept")) kept.remove();
     if (drawn) this.keepRoom();
   }
@@ -48,6 +48,10 @@ class Live {
       if (event.key === "Escape" && !event.defaultPrevented) this.close();
     });
     window.addEventListener("hashchange", () => this.openLink());
+    UPRIGHT.addEventListener("change", () => {
+      [this.sheet, this.own.isOfSheet] = [sheet(), false];
+      this.soon("run", () => this.run({ index: this.page.index }));
+    });
     const facts = $("facts-panel"); // it stands in the same place
     new MutationObserver(() => facts.hidden || this.close()).observe(facts, { attributeFilter: ["hidden"] });
   }
@@ -129,10 +133,12 @@ class Live {
     $("redo").disabled = !this.future.length;
   }
 
-  // In one's own world what a hand holds is lit, in place of what the lesson points out.
+  // In one's own world what a hand holds is lit, in place of what the lesson points out; and what the
+  // lesson says word for word need not be true there.
   opening(text) {
-    const held = text === this.own.text ? "" : nameOf(this.page.watched ?? "");
-    return { do: "open", text, name: this.name, held };
+    const lesson = this.own.text;
+    const held = text === lesson ? "" : nameOf(this.page.watched ?? "");
+    return { do: "open", text, name: this.name, held, lesson, ...this.sheet };
   }
 
   // Refused text leaves the picture of the last good one.
@@ -143,45 +149,60 @@ class Live {
     if (opened.refused) return;
     [this.good, this.scene] = [text, opened];
     const isOwn = text === this.own.text;
-    const drawn = (isOwn && this.own.drawn) || (await this.engine.ask({ do: "lesson" }));
+    const { drawn: known, isOfSheet } = this.own;
+    const drawn = isOwn && isOfSheet ? known : await this.engine.ask({ do: "lesson" });
     if (!(drawn.lesson instanceof Lesson)) drawn.lesson = new Lesson(drawn.lesson, page.lesson);
-    if (isOwn) this.own.drawn = drawn;
-    else this.retold(drawn.lesson, drawn.facts);
+    if (isOwn) Object.assign(this.own, { drawn, isOfSheet: true });
+    else this.retold(drawn);
     if (isOwn) this.hand.watch(null);
     if (moment) index = leadsTo(drawn.lesson, moment);
     page.load(drawn.lesson, drawn.facts, index ?? this.near(drawn.lesson));
     if (isOwn) this.keepRoom();
-    const { title, questions } = drawn.card ?? { title: this.title, questions: questionsOf(drawn) };
+    const { title, questions } = drawn.card ?? { title: drawn.title, questions: questionsOf(drawn) };
     $("title").textContent = document.title = title;
-    fillQuestions(page, questions, isOwn);
+    fillQuestions(page, questions, isOwn ? [] : this.questions);
     await this.controls.refresh();
   }
 
+  // The lesson's own.
+  get questions() {
+    const { drawn } = this.own;
+    return drawn?.card?.questions ?? questionsOf(drawn ?? {});
+  }
+
   // Captions were written for the lesson's world. Another one's frames are each like one of the lesson,
-  // of the same place in the same step; like none where the steps are others.
-  retold(lesson, facts) {
+  // of the same place in the same step; like none where a step was added.
+  retold({ lesson, facts, like }) {
     const told = this.own.drawn?.lesson.frames ?? [];
-    const isSame = told.at(-1)?.step === lesson.frames.at(-1).step;
-    const its = byStep(isSame ? told : []);
+    const its = byStep(told);
     for (const [step, frames] of byStep(lesson.frames)) {
-      const own = its.get(step) ?? [];
+      const own = its.get(like[lesson.frames.indexOf(frames[0])][0]) ?? [];
       frames.forEach((frame, i) => (frame.like = told.indexOf(own[frames.length === own.length ? i : own.length - 1])));
     }
-    lesson.frames.forEach((_, index) => this.tellOf(lesson, index, facts[index]));
+    lesson.frames.forEach((_, index) => this.tellOf(lesson, index, facts[index], like[index]));
   }
 
   // The same of one frame that is looked at in the place of the one shown.
-  retoldAlone(lesson, [facts]) {
-    const [now, [frame]] = [this.page.lesson.frames[this.page.index], lesson.frames];
-    frame.like = frame.step === now.step ? now.like ?? this.page.index : -1;
-    return this.tellOf(lesson, 0, facts);
+  retoldAlone(lesson, [facts], [[step, isOwn]]) {
+    const told = this.own.drawn?.lesson.frames ?? [];
+    const { index, lesson: { frames } } = this.page;
+    const like = frames[index].like ?? index;
+    lesson.frames[0].like = told[like]?.step === step ? like : told.findLastIndex((one) => one.step === step);
+    return this.tellOf(lesson, 0, facts, [step, isOwn]);
   }
 
-  // What this world's facts say, of the body that was moved or of all; the lesson's words stand beside.
-  tellOf(lesson, index, facts) {
+  // What somebody has written for this world; or what its facts say, of the body that was moved or of
+  // all, with the lesson's words beside it.
+  tellOf(lesson, index, facts, [, isOwn]) {
     const [frame, { lesson: its, facts: known }] = [lesson.frames[index], this.own.drawn || {}];
-    const caption = this.hand.sentence(lesson, index, facts) || countsTold(facts, known?.[frame.like], showsNodes(lesson, index));
-    Object.assign(frame, { caption, told: its?.frames[frame.like]?.caption ?? "", ending: false });
+    const sentence = this.hand.sentence(lesson, index, facts);
+    if (isOwn && frame.caption) frame.beside = sentence;
+    else {
+      const words = its?.frames[frame.like]?.caption ?? "";
+      const caption = sentence || frame.caption || countsTold(facts, known?.[frame.like], showsNodes(lesson, index));
+      const beside = words && words !== caption ? `in the lesson: ${words}` : "";
+      Object.assign(frame, { caption, beside, isTold: true, ending: false });
+    }
     return lesson;
   }
 
@@ -206,13 +227,15 @@ class Live {
     return frames[last].time > frames[this.page.index].time;
   }
 
-  // The facts of all frames of a text.
+  // The facts of all frames of a text, with all that it says.
   async runAll(text) {
-    await this.change(text, "run");
-    if (this.good !== text) throw new Error(this.editor.told || $("hint").textContent);
+    await this.working;
+    const { frames, refused } = await this.engine.ask({ do: "open", text, name: this.name });
     const all = [];
-    for (let index = 0; index <= this.page.lesson.last; index++)
+    for (let index = 0; index < frames; index++)
       all.push(JSON.parse((await this.engine.ask({ do: "facts", index })).facts));
+    await this.change(text, "run");
+    if (refused) throw new Error(this.editor.told || $("hint").textContent);
     return all;
   }
 

@@ -118,14 +118,15 @@ function putIn(field, control, isSetting) {
 // --- questions: say first, then look
 
 // A question that has `predict`, a count's name, shows its answer when the reader has said a number.
-// What the lesson answers need not hold of a world that is the reader's own.
-function fillQuestions(page, questions, isOwn = true) {
+// What the lesson answered in these words need not hold of a world that is the reader's own.
+function fillQuestions(page, questions, known = []) {
   for (const old of $("question-dialog").querySelectorAll("details")) old.remove();
   $("question-dialog").prepend(...questions.map((question) => {
     const { asked, answer, frame, predict } = question;
     const link = element(document, "a", { href: `#${frame}`, text: "Look at it." });
     link.addEventListener("click", (event) => { event.preventDefault(); page.go(frame); });
-    const told = element(document, "p", { children: [`${isOwn ? "" : "In the lesson: "}${answer} `, link] });
+    const its = known.find((one) => one.asked === asked)?.answer;
+    const told = element(document, "p", { children: [answer || its ? `${answer || `In the lesson: ${its}`} ` : "", link] });
     return element(document, "details", {
       children: [element(document, "summary", { text: predict ? `At step ${page.lesson.frames[frame].step + 1}: ${asked}` : asked }), ...(predict ? askFirst(page, question, told) : []), told],
     });

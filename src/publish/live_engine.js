@@ -3,6 +3,16 @@
 
 const MOST_SECONDS = 10; // for a run
 
+const UPRIGHT = matchMedia("(max-width: 50rem) and (orientation: portrait)");
+
+// How large pictures are, in page units: of an upright phone as high as there is room beside the
+// words, else as a lesson is recorded.
+function sheet() {
+  if (!UPRIGHT.matches || new URLSearchParams(location.search).has("embed")) return {};
+  const ratio = Math.max(0.65, Math.min(1.15, innerWidth / (innerHeight - 380)));
+  return { width: 900, height: Math.round(900 / ratio) };
+}
+
 // What the engine could not bear.
 class Ended extends Error {}
 
@@ -66,4 +76,4 @@ class Engine {
 const textIn = (id) => document.getElementById(id)?.textContent;
 const firstScenario = JSON.parse(textIn("scenario"));
 const engine = new Engine(textIn("engine-packed") ?? window.lanternEngine, textIn("worker-script"), () =>
-  [{ do: "open", text: firstScenario.text, name: firstScenario.name }, { do: "frame", index: 0 }]);
+  [{ do: "open", text: firstScenario.text, name: firstScenario.name, lesson: firstScenario.text, ...sheet() }, { do: "frame", index: 0 }]);

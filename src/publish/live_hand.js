@@ -219,9 +219,9 @@ class Hand {
   }
 
   // One frame that the engine has drawn.
-  look({ lesson, facts }) {
+  look({ lesson, facts, like }) {
     const { live, page } = this;
-    page.look(live.retoldAlone(new Lesson(lesson, page.lesson), facts), facts);
+    page.look(live.retoldAlone(new Lesson(lesson, page.lesson), facts, like), facts);
     page.pointing.light();
   }
 

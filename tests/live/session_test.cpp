@@ -782,5 +782,132 @@ TEST(Session, RequestsThatAreNoneAreRefused) {
   EXPECT_FALSE(page.drag({{"x", 510}, {"y", 300}}).contains("refused"));  // all is as before
 }
 
+// What a text says as the lesson does was written for another world.
+class InALesson : public testing::Test {
+ protected:
+  InALesson() { open(lesson); }
+
+  json open(const std::string& text) {
+    return page.ask({{"do", "open"}, {"text", text}, {"name", "page.toml"}, {"lesson", lesson}});
+  }
+  json all(const std::string& text) {
+    const json opened = open(text);
+    EXPECT_FALSE(opened.contains("refused")) << opened.dump();
+    return page.ask({{"do", "lesson"}});
+  }
+  static std::vector<std::string> captions(const json& answer) {
+    std::vector<std::string> all;
+    for (const json& frame : answer["lesson"]["frames"]) all.push_back(frame["caption"]);
+    return all;
+  }
+  // Somewhere on the pictures.
+  static bool writes(const json& answer, const std::string& words) {
+    return std::ranges::any_of(answer["lesson"]["texts"],
+                               [&](const json& text) { return text[0] == words; });
+  }
+
+  const std::string lesson = R"(title = "Two discs"
+panels = ["world", "tree", "chart"]
+[world]
+size = [64, 32]
+[chart]
+bars = "pairs"
+[structure]
+kind = "quadtree"
+capacity = 1
+[[body]]
+name = "red"
+radius = 3
+position = [20, 12]
+[[body]]
+name = "blue"
+radius = 3
+position = [44, 20]
+[[step]]
+do = "insert"
+name = "in"
+bodies = ["red", "blue"]
+plot = "far away"
+caption = "They are apart: {pairs:pair}."
+question = "How many?"
+answer = "There are {pairs:pair}."
+lit = ["red"]
+expect = { bodies = 2 }
+note = [{ text = "here is red", body = "red" }]
+[[step]]
+do = "show"
+name = "end"
+caption = "So they stay: {pairs:pair}."
+ending = true
+)";
+  const std::string moved = with(lesson, "[20, 12]", "[40, 18]");
+  Page page;
+};
+
+TEST_F(InALesson, AnotherWorldKeepsItsOwnWordsAlone) {
+  const json first = all(lesson);
+  EXPECT_EQ(captions(first),
+            (std::vector<std::string>{"They are apart: 0 pairs.", "So they stay: 0 pairs."}));
+  EXPECT_TRUE(writes(first, "here is red") && writes(first, "far away"));
+  EXPECT_EQ(first["like"], json::parse("[[0,1],[1,1]]"));
+
+  const json other = all(moved);
+  EXPECT_EQ(captions(other), (std::vector<std::string>{"", ""}));
+  EXPECT_EQ(other["questions"], json::parse(R"([["How many?", "", 0, ""]])"));
+  EXPECT_FALSE(writes(other, "here is red") || writes(other, "far away"));
+  EXPECT_TRUE(writes(other, "step 1"));
+  EXPECT_EQ(other["like"], json::parse("[[0,0],[1,0]]"));
+
+  const json told = all(with(with(moved, "So they stay", "They meet"), "here is red", "red came"));
+  EXPECT_EQ(captions(told), (std::vector<std::string>{"", "They meet: 1 pair."}));
+  EXPECT_TRUE(writes(told, "red came"));
+  EXPECT_EQ(told["like"], json::parse("[[0,0],[1,1]]"));
+}
+
+TEST_F(InALesson, TheSameWorldIsToldAsBefore) {
+  const json told = all(with(lesson, "So they stay", "Still"));
+  EXPECT_EQ(captions(told),
+            (std::vector<std::string>{"They are apart: 0 pairs.", "Still: 0 pairs."}));
+  EXPECT_TRUE(writes(told, "here is red") && writes(told, "far away"));
+}
+
+TEST_F(InALesson, AStepThatWasAddedIsLikeNoneAndThoseBehindItAreAsBefore) {
+  const std::string added =
+      "[[step]]\ndo = \"move\"\nbody = \"red\"\nto = [9, 9]\n[[step]]\ndo = \"show\"";
+  EXPECT_EQ(all(with(lesson, "[[step]]\ndo = \"show\"", added))["like"],
+            json::parse("[[0,0],[-1,0],[1,0]]"));
+}
+
+TEST_F(InALesson, WhatAHandMovesIsToldInItsOwnWords) {
+  page.grab(0, "body/red", {400, 300});
+  const json dragged = page.drag({{"x", 430}, {"y", 310}});
+  EXPECT_EQ(captions(dragged), std::vector<std::string>{""});
+  EXPECT_FALSE(writes(dragged, "here is red"));
+  EXPECT_EQ(dragged["like"], json::parse("[[0,0]]"));
+}
+
+TEST_F(InALesson, ATreeKeepsTheRoomThatTheLessonsHas) {
+  const auto root = [](const json& answer) { return Looked(answer).shapes_of("tree/node/root"); };
+  const auto before = root(page.frame(1));
+  const json opened = open(with(lesson, "capacity = 1", "capacity = 2"));
+  ASSERT_FALSE(opened.contains("refused")) << opened.dump();
+  const auto now = root(page.frame(1));
+  ASSERT_FALSE(now.empty());
+  const auto place = [](const std::string& shape) {
+    const json row = json::parse(shape);
+    return std::vector<int>{row[3], row[4], row[6]};
+  };
+  EXPECT_EQ(place(now[0]), place(before[0]));
+}
+
+TEST_F(InALesson, APictureIsAsLargeAsThePageAsks) {
+  json question = {
+      {"do", "open"}, {"text", lesson}, {"name", "n"}, {"width", 900}, {"height", 1200}};
+  page.ask(question);
+  EXPECT_EQ(page.frame(0)["lesson"]["page"], json::parse("[90000, 120000]"));
+  question["width"] = 20;
+  EXPECT_EQ(said(page.ask(question)), "a page is 300 to 5000 units wide and high");
+}
+
 }  // namespace
 }  // namespace lantern::live
