@@ -105,7 +105,8 @@ class Page {
     $("slider").value = place - 1;
     $("slider").setAttribute("aria-label", this.byEvent ? "Frame" : "Step");
     $("slider").setAttribute("aria-valuetext", `${place} of ${count}, step ${step + 1}: ${caption}`);
-    $("number").textContent = `${place} / ${count}`;
+    const areFrames = this.byEvent && this.stops.length > this.lesson.stepStops.length;
+    $("number").textContent = `${areFrames ? "frame " : ""}${place} / ${count}`;
   }
 
   // --- stepping
@@ -134,12 +135,13 @@ class Page {
 
   // --- playing
 
-  // With in-betweens, to a frame; what was said is left to be read before it goes on.
-  play(until = this.lesson.last) {
+  // With in-betweens, to a frame; what was said is left to be read before it goes on. `rest`: seconds
+  // before it begins.
+  play(until = this.lesson.last, rest = 0) {
     if (this.index >= until) return;
     this.pointing?.light(null);
     $("play").setAttribute("aria-pressed", "true");
-    let from = performance.now();
+    let from = performance.now() + 1000 * rest;
     const tick = (now) => {
       this.playing = requestAnimationFrame(tick);
       const speed = Number($("speed").value);
@@ -165,8 +167,9 @@ class Page {
 
   togglePlay() {
     if (this.playing) return this.pause();
-    if (this.index === this.lesson.last) this.show(0);
-    this.play();
+    const isOver = this.index === this.lesson.last;
+    if (isOver) this.show(0);
+    this.play(this.lesson.last, isOver ? this.lesson.secondsToRead(0) / Number($("speed").value) : 0);
   }
 
   // --- what stands beside

@@ -53,11 +53,12 @@ class Lesson {
     return this.frames[this.last].step + 1;
   }
 
-  // How long a caption is left to be read when it comes.
+  // How long words are left to be read when they come.
   secondsToRead(index) {
-    const { caption } = this.frames[index];
-    if (index === this.last || this.frames[index + 1].caption === caption) return 0;
-    return Math.min(7, 1 + 0.05 * caption.length);
+    const wordsOf = ({ caption, beside = "" }) => caption + beside;
+    const words = wordsOf(this.frames[index]);
+    if (index === this.last || wordsOf(this.frames[index + 1]) === words) return 0;
+    return Math.min(7, 1 + 0.05 * words.length);
   }
 
   // A row as { kind, key, style, text, at }: `at` are its measures in page units, of a rectangle

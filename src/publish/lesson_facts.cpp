@@ -57,7 +57,8 @@ class FactsWriter {
   }
 
   static std::string texture(const FrameTexture& t) {
-    return fmt::format("[{},{}]", t.id, json_string(t.name));
+    return fmt::format("[{},{},{},{},{}]", t.id, json_string(t.name), t.width, t.height,
+                       t.refused ? 1 : 0);
   }
 
   std::string body(const FrameBody& b) const {

@@ -139,7 +139,7 @@ class LessonFrames {
 // A list of objects, one for the frame or one for each of its sides:
 //   name, title    of the side; empty without sides
 //   counts         [["pairs", 3], ...], and measures likewise
-//   textures       [id, "name"]
+//   textures       [id, "name", width, height, refused]
 //   bodies         [id, "name", [x, y], speed, "static" | "outside" its world | "asleep" | ""]
 //   nodes          ["root.0", "label", depth, leaf, [body ids], outline, pool slot]: the outline on
 //                  the page, [x, y, ...] in page units, of a flat world; the slot or -1

@@ -120,36 +120,47 @@ function putIn(field, control, isSetting) {
 // A question that has `predict`, a count's name, shows its answer when the reader has said a number.
 // What the lesson answered in these words need not hold of a world that is the reader's own.
 function fillQuestions(page, questions, known = []) {
-  for (const old of $("question-dialog").querySelectorAll("details")) old.remove();
+  const opened = new Set();
+  for (const old of $("question-dialog").querySelectorAll("details")) {
+    if (old.open) opened.add(old.dataset.asked);
+    old.remove();
+  }
   $("question-dialog").prepend(...questions.map((question) => {
     const { asked, answer, frame, predict } = question;
     const link = element(document, "a", { href: `#${frame}`, text: "Look at it." });
     link.addEventListener("click", (event) => { event.preventDefault(); page.go(frame); });
     const its = known.find((one) => one.asked === asked)?.answer;
     const told = element(document, "p", { children: [answer || its ? `${answer || `In the lesson: ${its}`} ` : "", link] });
-    return element(document, "details", {
+    const details = element(document, "details", {
+      "data-asked": asked,
       children: [element(document, "summary", { text: predict ? `At step ${page.lesson.frames[frame].step + 1}: ${asked}` : asked }), ...(predict ? askFirst(page, question, told) : []), told],
     });
+    details.open = opened.has(asked) || ANSWERED.has(asked);
+    return details;
   }));
   if ($("question")) $("question").hidden = !questions.length;
 }
 
-function askFirst(page, { predict, frame }, answer) {
+const ANSWERED = new Set(); // questions to which the reader has said something
+
+function askFirst(page, { asked, predict, frame }, answer) {
   const number = element(document, "input", { type: "number", min: 0 });
   const words = element(document, "label", { children: [`Your number of ${predict.replaceAll("_", " ")}: `, number] });
   const form = element(document, "form", { children: [words, element(document, "button", { text: "Check" })] });
   const said = element(document, "p", { role: "status" });
-  answer.hidden = true;
+  answer.hidden = !ANSWERED.has(asked);
   form.addEventListener("submit", (event) => {
     event.preventDefault();
     if (!number.value) return (said.textContent = "Say a number first.");
     const found = page.facts[frame].map(({ counts }) => new Map(counts).get(predict) ?? 0);
     said.textContent = `${found.includes(Number(number.value)) ? "Right" : "Wrong"}: you said ${number.value}; it is ${found.join(" and ")}.`;
+    ANSWERED.add(asked);
     answer.hidden = false;
+    form.closest("details").open = true;
     page.go(frame);
   });
   const choose = (word) => {
-    page.live.guess = { predict, word };
+    page.live.guess = { asked, predict, word };
     $("question-dialog").close();
     page.go(frame);
     page.live.say(`You say ${word}. Now drag a body.`);
@@ -166,9 +177,10 @@ const CHANGES = ["fewer", "as many", "more"];
 const countOf = (page, name) => page.facts[page.index].reduce((sum, { counts }) => sum + (new Map(counts).get(name) ?? 0), 0);
 
 // What a move was said to make of a count, and what it has made of it.
-function judge(live, { predict, word, before }) {
+function judge(live, { asked, predict, word, before }) {
   const now = countOf(live.page, predict);
   const found = CHANGES[Math.sign(now - before) + 1];
   live.guess = null;
+  ANSWERED.add(asked);
   live.say(`${found === word ? "Yes" : "No"}, ${found}: ${before} ${predict.replaceAll("_", " ")} before, ${now} now.`);
 }

@@ -6,12 +6,15 @@ const ATLAS = /(^|\/)atlas\//;
 const WALL = ""; // what the engine calls the corner of a wall that is near
 const DRAG_SECONDS = 2;
 const REACH = 16; // pixels to a corner, or beside a body for a finger
+const FINGER = 24; // pixels to a corner, for one
 const THROWN = 250; // page units a second: slower is let go
 const FLIGHT = -1; // what plays
 const COUNTS = ["pairs", "leaves", "entries", "textures", "refused", "awake"];
 const FEW = 4; // names that a sentence has room for
 const STEPS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 const INVITATIONS = { wall: "Drag the corner of a wall", texture: "Drag the corner of a texture", body: "Drag a body", throw: "Drag a body, or throw it" };
+const FIRST_COLOR = 14; // the role of body colour 1, of draw/theme.hpp
+const COLORS = ["red", "pink", "yellow", "blue", "green", "light blue", "orange", "violet"];
 const TURNS = { ",": 15, ".": -15 }; // degrees, counter-clockwise
 
 class Hand {
@@ -43,7 +46,6 @@ class Hand {
     };
     this.handle = this.page.picture.make("circle");
     this.handle.setAttribute("class", "handle");
-    this.handle.setAttribute("r", 9);
   }
 
   get lesson() {
@@ -57,6 +59,9 @@ class Hand {
 
   // What can be moved at a place of the window.
   at({ clientX, clientY, pointerType }) {
+    const { x, y } = this.page.placeOf({ clientX, clientY });
+    const corner = this.cornerAt({ x, y }, { pointerType });
+    if (corner) return corner;
     const ways = pointerType === "touch" ? [[0, 0], [-REACH, 0], [REACH, 0], [0, -REACH], [0, REACH]] : [[0, 0]];
     for (const [dx, dy] of ways)
       for (const found of document.elementsFromPoint(clientX + dx, clientY + dy)) {
@@ -64,7 +69,6 @@ class Hand {
         const [key, one] = (found.parentNode === this.page.picture.layer && this.lesson.keys[found.thing]) || [];
         if (one && MOVED.test(key)) return one;
       }
-    const { x, y } = this.page.placeOf({ clientX, clientY });
     const hollow = [...this.page.picture.layer.children].findLast(({ thing, kind, at }) =>
       kind === KIND.polygon && MOVED.test(this.lesson.keys[thing][0]) && holds(at, x, y));
     if (hollow) return this.lesson.keys[hollow.thing][1];
@@ -84,9 +88,21 @@ class Hand {
   }
 
   // Of a texture it is the lower right corner that moves, and with it its size.
-  isCorner(one, { x, y }) {
+  isCorner(one, { x, y }, event) {
+    if (this.cornerAt({ x, y }, event) === one) return true;
     const [left, upper, right, lower] = this.boxOf(one);
-    return Math.hypot(right - x, lower - y) < Math.max(REACH / this.scale, Math.min(3 * REACH, 0.4 * (right - left), 0.4 * (lower - upper)));
+    return Math.hypot(right - x, lower - y) < Math.min(3 * REACH, 0.4 * (right - left), 0.4 * (lower - upper));
+  }
+
+  // The texture whose corner is nearest, if that is within reach.
+  cornerAt({ x, y }, { pointerType }) {
+    let [found, least] = [null, (pointerType === "touch" ? FINGER : REACH) / this.scale];
+    for (const { thing, at } of this.page.picture.layer.children) {
+      const [key, one] = this.lesson.keys[thing];
+      const way = /(^|\/)atlas\/texture\//.test(key) ? Math.hypot(at[0] + at[2] - x, at[1] + at[3] - y) : Infinity;
+      if (way < least) [found, least] = [one, way];
+    }
+    return found;
   }
 
   // What is drawn of a body, without its name.
@@ -119,7 +135,7 @@ class Hand {
     if (one === null) return;
     const { x, y } = this.page.placeOf(event);
     const sizes = this.sizes(one);
-    if (sizes && !this.isCorner(one, { x, y })) return (this.beside = true);
+    if (sizes && !this.isCorner(one, { x, y }, event)) return (this.beside = true);
     const turns = !sizes && (event.altKey || event.target === this.handle);
     const place = { from: { x, y }, at: { x, y }, turn: 0 };
     this.held = { one, ...place, pointer: event.pointerId, turns, start: event, track: [] };
@@ -156,7 +172,7 @@ class Hand {
   hover(event) {
     const one = event.pointerType === "touch" || event.buttons ? null : this.at(event);
     const sizes = one && this.sizes(one);
-    const isCorner = sizes && this.isCorner(one, this.page.placeOf(event));
+    const isCorner = sizes && this.isCorner(one, this.page.placeOf(event), event);
     $("stage").dataset.hand = one === null ? "" : isCorner ? "size" : sizes ? "texture" : one && this.live.passes ? "throw" : "grab";
     if (one) this.offer(one, sizes);
     else if (event.target.parentNode === this.page.picture.layer) this.handle.remove();
@@ -169,6 +185,7 @@ class Hand {
     this.handled = one;
     this.handle.setAttribute("cx", sizes ? right : right + 8);
     this.handle.setAttribute("cy", sizes ? lower : upper - 8);
+    this.handle.setAttribute("r", Math.max(9, 8 / this.scale));
     this.page.picture.svg.append(this.handle);
   }
 
@@ -184,7 +201,7 @@ class Hand {
     page.pause();
     this.welcome();
     if (live.guess) live.guess.before = countOf(page, live.guess.predict);
-    this.watch(kindOf(held.one) === "body" ? held.one : null, "hold");
+    this.watch(held.one === WALL ? null : held.one, "hold");
     $("stage").dataset.hand = "grabbing";
     live.editor.flush();
     live.soon("grab", async () => {
@@ -307,14 +324,17 @@ class Hand {
 
   told(lesson, index, facts, one, isShort) {
     const name = nameOf(one);
+    const texture = facts.textures.find(([, known]) => known === name);
+    if (texture) return `${name} is ${texture[2]} × ${texture[3]}${texture[4] ? ", and is refused" : ""}.`;
     const body = facts.bodies.find(([, known]) => known === name);
     if (!body) return "";
-    const named = new Set(lesson.lists[index].map((row) => lesson.shape(row)).filter(({ kind }) => kind === KIND.text)
-      .map(({ key }) => lesson.keys[key]).flatMap(([key, one]) => (/(^|\/)world\/name\//.test(key) ? [nameOf(one)] : [])));
-    const called = named.has(name) ? name : `the body you ${this.deed}`;
+    const texts = lesson.lists[index].map((row) => lesson.shape(row)).filter(({ kind }) => kind === KIND.text);
+    const named = new Set(texts.map(({ key }) => lesson.keys[key]).flatMap(([key, one]) => (/(^|\/)world\/name\//.test(key) ? [nameOf(one)] : [])));
+    const written = new Set(texts.map(({ text }) => lesson.texts[text][0]));
+    const called = named.has(name) ? name : this.looksOf(one, lesson, index) ?? `the body you ${this.deed}`;
     if (body[4] === "outside") return `${called} has left the world.`;
     const side = new Relations(facts);
-    const stored = showsNodes(lesson, index) ? this.stored(side.leavesWith(name), this.boxOf(one, lesson, index), facts.leaf) : "";
+    const stored = showsNodes(lesson, index) ? this.stored(side.leavesWith(name), this.boxOf(one, lesson, index), written, facts.leaf) : "";
     const all = new Map(facts.counts).get("pairs");
     const others = side.pairs.flatMap((pair) => (pair.includes(name) ? pair.filter((other) => other !== name) : []));
     const shares = all === undefined || all !== side.pairs.length ? "" : shareOf(others.length, all);
@@ -323,9 +343,25 @@ class Hand {
     return [stored && `${called} ${stored}.`, where && `${stored ? "It" : called} is ${where}.`].filter(Boolean).join(" ");
   }
 
-  stored(leaves, box, word) {
+  // "the yellow box", where no other body has its colour.
+  looksOf(one, lesson, index) {
+    const colors = new Map();
+    for (const { key, kind, style, at } of lesson.lists[index].map((row) => lesson.shape(row))) {
+      const [name, whose] = lesson.keys[key];
+      const color = COLORS[lesson.styles[style][0] - FIRST_COLOR];
+      if (!color || kind === KIND.text || !/(^|\/)world\/body\//.test(name)) continue;
+      const isBox = kind === KIND.rect ? at[4] < at[2] / 2 : kind === KIND.polygon && at.length === 8;
+      listIn(colors, color).push([whose, isBox]);
+    }
+    const [color, looks] = [...colors].find(([, looks]) => looks.some(([whose]) => whose === one)) ?? [];
+    if (!color || looks.some(([whose]) => whose !== one)) return null;
+    return `the ${color} ${looks.length === 1 && looks[0][1] ? "box" : "body"}`;
+  }
+
+  // `written`: all that is drawn as a text, so that no leaf is named whose name nobody can find.
+  stored(leaves, box, written, word) {
     const labels = leaves.map(({ label }) => label).filter(Boolean);
-    const named = labels.length === leaves.length && labels.length <= FEW ? ` ${listed(labels)}` : "";
+    const named = labels.length === leaves.length && labels.length <= FEW && labels.every((label) => written.has(label)) ? ` ${listed(labels)}` : "";
     if (!leaves.length) return "";
     if (leaves.length === 1) return named === " root" ? "is stored in the root" : `is stored in ${named ? `${word[0]}${named}` : `one ${word[0]}`}`;
     const lies = leaves.every(({ outline }) => isBox(outline) && meets(boxAround(outline), box));

@@ -110,6 +110,48 @@ def check_keys(page):
 
 
 BODIES = "return window.lantern.facts[window.lantern.index][0].bodies.map(([, name]) => name)"
+WORDS = """const { caption, undo } = Object.fromEntries(['caption', 'undo'].map((id) => [id, document.getElementById(id)]));
+return [caption.textContent, caption.dataset.beside, undo.getBoundingClientRect().x]"""
+KEYS = "return [...window.lantern.picture.layer.children].map((e) => window.lantern.lesson.keys[e.thing][0])"
+
+
+# What the lesson says word for word steps back in another world; what somebody else has written stays.
+def check_words(page):
+    change = "return window.lantern.live.change(window.lantern.live.text.replace(arguments[0], arguments[1]), 'text')"
+    page.run("window.lantern.go(0)")
+    caption, _, place = page.run(WORDS)
+    page.promise(change, "A leaf holds", "Now a leaf holds")
+    at_rest(page)
+    expect("an author's own caption is shown, and undo where it always is", page.run(WORDS),
+           [f"Now a{caption[1:]}", "", place])
+    page.run("window.lantern.go(6)")
+    expect("in the same world the other captions stay", page.run(WORDS)[:2],
+           ["The tree is rebuilt, and node 1 no longer needs to split. Red is now in node 4 with the player: they are a candidate pair.", ""])
+    page.run("window.lantern.go(5)")
+    expect("so do the notes", any(key.startswith("note/") for key in page.run(KEYS)))
+    page.run("window.lantern.go(0)")
+    drag(page, "red", 20, 20)
+    expect("in another world it stays, with what is said of a body", page.run(WORDS)[:2],
+           [f"Now a{caption[1:]}", "Red is stored in the root. It is in the only candidate pair, with pink."])
+    page.run("window.lantern.go(5)")
+    expect("and what is the lesson's is told as such", page.run(WORDS)[1],
+           "in the lesson: Red catches the player in cell 4. The tree still has red in 1.2, so it misses their collision.")
+    expect("but for its notes", any(key.startswith("note/") for key in page.run(KEYS)), False)
+    expect("each frame is left to be read", page.run(
+        "const { lesson } = window.lantern; return lesson.frames.every((_, i) => i === lesson.last || lesson.secondsToRead(i) > 1)"))
+    page.run("window.lantern.live.again()")
+    at_rest(page)
+    expect("undo stays where it is", page.run(WORDS)[2], place)
+    page.run("window.lantern.go(0); document.getElementById('add').click()")
+    at_rest(page)
+    page.run("window.lantern.go(window.lantern.lesson.last)")
+    expect("behind a step that was added the lesson's words are there", page.run(WORDS)[1],
+           "in the lesson: Rebuilt every step, the tree misses no collision, and names only pairs that share a leaf: 2 of 6.")
+    page.run("document.getElementById('again').click()")
+    at_rest(page)
+    page.run("window.lantern.setPace(true); window.lantern.go(arguments[0])", STEP)
+    expect("frames are counted as such", text_of(page, "number"), "frame 4 / 9")
+    page.run("window.lantern.setPace(false)")
 
 
 def check_controls(page):
@@ -139,10 +181,13 @@ def check_prediction(page):
         page.run("const form = document.querySelector('#question-dialog details form');"
                  " form.querySelector('input').value = arguments[0]; form.requestSubmit()", number)
         expect("an answer is judged", page.run("return document.querySelector('#question-dialog [role=status]').textContent"), said)
+    answers = "const [one] = document.querySelectorAll('#question-dialog details'); return [one.open, one.lastElementChild.hidden]"
+    expect("an answer that was asked for is there", page.run(answers), [True, False])
     page.run("[...document.querySelectorAll('#question-dialog button')].find((one) => one.textContent === 'more').click()")
     drag(page, "red", -60, 60)
     expect("a prediction is judged by the engine's count", text_of(page, "hint"),
            "Yes, more: 0 pairs before, 2 now.")
+    expect("it stays there", page.run(answers), [True, False])
     page.run("document.getElementById('again').click(); window.lantern.go(arguments[0])", STEP)
     at_rest(page)
 
@@ -217,10 +262,16 @@ def check_throw(page):
     expect("no script fails in a flight", page.errors(), [])
 
 
-# A picture that is wider than the phone scrolls sideways, but not under a body that is dragged.
+# A phone that is held upright has a picture of its own: all of it is seen.
 def check_finger(address):
     with Browser((390, 844), device={"width": 390, "height": 844, "pixelRatio": 2, "touch": True}) as page:
         open_live(page, address)
+        expect("nothing is off the screen", page.run(
+            "const [stage, bar] = ['stage', 'bar'].map((id) => document.getElementById(id));"
+            " return [stage.scrollWidth > stage.clientWidth, bar.getBoundingClientRect().bottom > innerHeight,"
+            " [...window.lantern.picture.layer.children].some((e) => { const r = e.getBoundingClientRect();"
+            " return r.left < 0 || r.right > innerWidth || r.bottom > innerHeight }), window.lantern.lesson.ratio < 1]"),
+            [False, False, False, True])
         x, y = middle_of(page, "b5")
         for i, kind in enumerate(["touchStart"] + 13 * ["touchMove"]):
             page.cdp("Input.dispatchTouchEvent", type=kind, touchPoints=[{"x": x + 8 * i, "y": y - i}])
@@ -275,6 +326,25 @@ def check_unusual(page):
     at_rest(page)
 
 
+# The corner of a texture can be caught from outside, too, and its size is told while it is dragged.
+def check_corner(page):
+    page.run("window.lantern.go(4)")
+    x, y = page.run("const p = window.lantern.picture; for (const e of p.layer.children) if (p.lesson.keys[e.thing][1] === 'body/A')"
+                    " { const r = e.getBoundingClientRect(); return [r.right, r.bottom] }")
+    page.move_to(x + 20, y + 20)
+    page.move_to(x + 9, y + 9)
+    expect("a corner has room around it", page.run("return document.getElementById('stage').dataset.hand"), "size")
+    page.mouse("pointerDown", x + 9, y + 9)
+    for i in range(1, 7):
+        page.mouse("pointerMove", x + 9 - 5 * i, y + 9 - 5 * i)
+    at_rest(page)
+    size = page.run("return document.getElementById('source').value.match(/name = \"A\"\\nsize = \\[(\\d+), (\\d+)\\]/).slice(1)")
+    expect("its size is told", text_of(page, "caption"), f"A is {size[0]} × {size[1]}.")
+    expect("and is another one", size != ["200", "300"])
+    page.mouse("pointerUp", x - 21, y - 21)
+    at_rest(page)
+
+
 # What the program says of the file that the page saves.
 def check_download(page, lantern, folder):
     page.run("window.lantern.go(arguments[0])", STEP)
@@ -302,6 +372,7 @@ def check(browser, address, lantern, folder):
         started = page.run("return performance.now()")
         check_hand(page)
         check_keys(page)
+        check_words(page)
         check_controls(page)
         check_prediction(page)
         check_text(page)
@@ -314,6 +385,8 @@ def check(browser, address, lantern, folder):
         expect("no script fails", page.errors(), [])
         open_live(page, address.replace("live.html", "throw.html"))
         check_throw(page)
+        open_live(page, address.replace("live.html", "atlas.html"))
+        check_corner(page)
         page.before_load("delete window.Worker")
         page.open("about:blank")
         page.open(address)
@@ -331,7 +404,7 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     file = folder / "live.html"
     engine = ["--engine", words[3]] if len(words) > 3 else []
-    for name, page in (("ghost_quadtree", file), ("falling_boxes", folder / "throw.html")):
+    for name, page in (("ghost_quadtree", file), ("falling_boxes", folder / "throw.html"), ("kdtree_atlas", folder / "atlas.html")):
         subprocess.run([lantern, "render", root / f"scenarios/{name}.toml", "-o", page, "--live", *engine], check=True, capture_output=True)
     if len(words) == len(sys.argv) - 1:
         check(Browser, file.as_uri(), lantern, folder)
