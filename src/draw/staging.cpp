@@ -211,6 +211,11 @@ void AxisRanges::see(const frame::Frame& frame) {
   for (const frame::Frame& side : frame.sides) see(side);
 }
 
+void AxisRanges::forget_names() {
+  for (auto& [part, bars] : bars_)
+    for (frame::FrameBar& bar : bars) bar.label.clear();
+}
+
 const std::vector<frame::FrameBar>& AxisRanges::bars(int part) const {
   static const std::vector<frame::FrameBar> none;
   const auto found = bars_.find(part);

@@ -58,6 +58,8 @@ class AxisRanges {
   double trace() const { return trace_; }             // the most of a sparkline
   // All that come to be in the chart, or in this part of one that begins anew with each.
   const std::vector<frame::FrameBar>& bars(int part) const;
+  // What is to come has no names: other bars may come than those that were seen.
+  void forget_names();
   // That a part's sparkline goes on for.
   std::optional<double> seconds_of(const std::string& part) const;
 

@@ -122,7 +122,10 @@ draw::DrawList Play::picture(const Frame& frame, std::size_t beside, const Scena
   std::vector<const Frame*> all;
   if (draw::Staging::is_one_group(frames_.at(beside), frame)) all = frames_beside(group);
   all.push_back(&frame);
-  return drawn(frame, draw::Staging(std::move(all), axes_), of);
+  draw::AxisRanges axes = axes_;
+  if (!std::ranges::equal(of.steps, scenario_.steps, {}, &Step::plot, &Step::plot))
+    axes.forget_names();
+  return drawn(frame, draw::Staging(std::move(all), axes), of);
 }
 
 draw::DrawList Play::drawn(const Frame& frame, const draw::Staging& staging, const Scenario& of) {

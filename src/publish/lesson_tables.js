@@ -73,7 +73,7 @@ class Words {
       const { clientWidth, clientHeight } = document.getElementById("stage");
       const scale = Math.min(clientWidth / width, clientHeight / height);
       const found = Math.round(Math.min((clientWidth - scale * width) / 2 + margin * scale, Words.MOST_EDGE * clientWidth));
-      if (found <= edge) return;
+      if (found <= edge || width < height) return;
       edge = found;
     }
   }

@@ -120,23 +120,17 @@ function putIn(field, control, isSetting) {
 // A question that has `predict`, a count's name, shows its answer when the reader has said a number.
 // What the lesson answered in these words need not hold of a world that is the reader's own.
 function fillQuestions(page, questions, known = []) {
-  const opened = new Set();
-  for (const old of $("question-dialog").querySelectorAll("details")) {
-    if (old.open) opened.add(old.dataset.asked);
-    old.remove();
-  }
+  for (const old of $("question-dialog").querySelectorAll("details")) old.remove();
   $("question-dialog").prepend(...questions.map((question) => {
     const { asked, answer, frame, predict } = question;
     const link = element(document, "a", { href: `#${frame}`, text: "Look at it." });
     link.addEventListener("click", (event) => { event.preventDefault(); page.go(frame); });
     const its = known.find((one) => one.asked === asked)?.answer;
     const told = element(document, "p", { children: [answer || its ? `${answer || `In the lesson: ${its}`} ` : "", link] });
-    const details = element(document, "details", {
-      "data-asked": asked,
+    return element(document, "details", {
+      ...(ANSWERED.has(asked) && { open: "" }),
       children: [element(document, "summary", { text: predict ? `At step ${page.lesson.frames[frame].step + 1}: ${asked}` : asked }), ...(predict ? askFirst(page, question, told) : []), told],
     });
-    details.open = opened.has(asked) || ANSWERED.has(asked);
-    return details;
   }));
   if ($("question")) $("question").hidden = !questions.length;
 }

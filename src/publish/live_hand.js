@@ -240,6 +240,8 @@ class Hand {
     const { live, page } = this;
     page.look(live.retoldAlone(new Lesson(lesson, page.lesson), facts, like), facts);
     page.pointing.light();
+    const [{ step, caption }] = page.picture.lesson.frames;
+    page.tellStop(step, caption);
   }
 
   // The hand lets go: the whole is run from the text that came of it, and what was thrown flies first.
@@ -289,7 +291,6 @@ class Hand {
         moment = frame;
         seen = page.index = leadsTo(page.lesson, { ...frame, step: frame.step - page.words.grown });
         this.look(drawn);
-        page.tellStop(frame.step, frame.caption);
       }
     } finally {
       ends.abort();

@@ -79,6 +79,10 @@ def check_hand(page):
     expect("and where it is stored is lit", page.run(
         "return [...new Set([...document.querySelectorAll('#picture .lit')].map((e) => window.lantern.lesson.keys[e.thing][0]))]"
         ".filter((key) => key.startsWith('tree/node/'))"), ["tree/node/root.0", "tree/node/root.1"])
+    expect("a leaf is named where its name is drawn", page.run(
+        "const leaf = { label: '1.2', outline: [0, 0, 9, 0, 9, 9, 0, 9] };"
+        " return [['1.2'], ['1']].map((written) => window.lantern.live.hand.stored([leaf], [1, 1, 2, 2], new Set(written)))"),
+        ["is stored in leaf 1.2", "is stored in one leaf"])
     page.run("window.lantern.live.undo()")
     at_rest(page)
     expect("undone", page.run(STATE), {"index": STEP, "own": True, "past": 0, "shown": True, "marked": False})
@@ -244,6 +248,16 @@ def throw(page, name, dx, dy, past=3):
 def check_throw(page):
     page.run("window.lantern.go(1)")
     expect("that one can throw is said", text_of(page, "invitation"), "Drag a body, or throw it: the engine answers.")
+    x, y = middle_of(page, "b5")
+    page.mouse("pointerDown", x, y)
+    page.mouse("pointerMove", x + 20, y - 20)
+    page.mouse("pointerMove", x + 90, y - 40)
+    page.wait_for("window.lantern.live.hand.held?.last && !window.lantern.live.working")
+    expect("a step that the hand adds is counted", page.run(PLACE)[:2], ["step 3 of 11", "3 / 11"])
+    expect("what has no name has a colour", text_of(page, "caption"), "The green box is in none of the 4 candidate pairs.")
+    page.press("escape")
+    page.mouse("pointerUp", x, y)
+    at_rest(page)
     for end in ("play", "next"):
         throw(page, "b5", 240, -120)
         place, number, plays = page.run(PLACE)
