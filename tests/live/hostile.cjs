@@ -105,7 +105,7 @@ const DAMAGES = {
 function caseOf(seed, number, texts) {
   const dice = new Dice(seed, number);
   const [name, other] = [dice.of(Object.keys(texts)), dice.of(Object.keys(texts))];
-  const told = { name, what: "hands", text: texts[name], number };
+  const told = { name, what: "hands", text: texts[name], lesson: texts[name], number };
   if (dice.part() < 0.25) return told;
   const kinds = Object.keys(DAMAGES);
   told.what = "";
@@ -120,7 +120,7 @@ function caseOf(seed, number, texts) {
 
 const PLACES = [0, 1, -1, 800, 450, 2000, -5000, 1e9, -1e300, 1e300, 1e-300, NaN, "x", [], 2 ** 53];
 
-function* wildQuestions(dice, opened) {
+function* wildQuestions(dice, opened, beside) {
   const frame = () => (dice.part() < 0.9 ? dice.below(opened.frames) : dice.of([-1, opened.frames, 1e99, 2 ** 32, 0.5, "0", null]));
   const place = () => (dice.part() < 0.7 ? dice.between(-200, 2200) : dice.of(PLACES));
   const index = dice.below(opened.frames);
@@ -138,7 +138,7 @@ function* wildQuestions(dice, opened) {
     const { text } = yield dice.of([{ do: "add", frame: frame() }, { do: "remove", frame: frame(), entity: dice.of(entities) },
       { do: "set", path: dice.of(paths), value: dice.of([...WILD, "1 # x", "1\n[x]", '"a'])}]);
     if (text !== undefined && dice.part() < 0.5) {
-      const again = yield { do: "open", text, name: "set.toml" };
+      const again = yield { do: "open", text, name: "set.toml", ...beside };
       if (again.refused === undefined) yield { do: "frame", index: dice.below(again.frames) };
     }
     yield { do: dice.of(["svg", "svg", "facts", "frame", "nothing", 7, null]), index: frame(), width: dice.of([1600, 1600, 1, 0, -1, 64, 40000, 1e12, "x"]), height: dice.of([900, 900, 1, 0, -5, 1e9]) };
@@ -148,9 +148,10 @@ function* wildQuestions(dice, opened) {
 const wordsAt = (dice, text) => ({ do: "complete", text, line: dice.of([dice.below(text.split("\n").length) + 1, 0, -1, 2 ** 31 - 1, 1e99]), column: dice.of([1, dice.below(40), 0, -7, 2 ** 31 - 1]) });
 
 // All that is asked; answers come back in.
-function* questionsOf({ name, what, text, number, halfLetter }, seed) {
+function* questionsOf({ name, what, text, lesson, number, halfLetter }, seed) {
   const dice = new Dice(seed, number, 7);
-  const opened = yield { do: "open", text, name };
+  const beside = dice.part() < 0.5 ? {} : { lesson, width: dice.of([900, 900, 900, 20, 1e12]), height: 1200 };
+  const opened = yield { do: "open", text, name, ...beside };
   if (halfLetter) {
     const bytes = Buffer.from(JSON.stringify({ do: "open", text: text + "é", name }));
     const at = bytes.lastIndexOf(0xc3);
@@ -158,7 +159,7 @@ function* questionsOf({ name, what, text, number, halfLetter }, seed) {
   }
   yield wordsAt(dice, text);
   if (opened.refused !== undefined) return;
-  if (what === "hands") return yield* wildQuestions(dice, opened);
+  if (what === "hands") return yield* wildQuestions(dice, opened, beside);
   yield { do: "lesson" };
   yield { do: "controls" };
   yield { do: "facts", index: dice.below(opened.frames) };
@@ -166,7 +167,7 @@ function* questionsOf({ name, what, text, number, halfLetter }, seed) {
 }
 
 // Without the text, which the case has.
-const shown = (question) => (question instanceof Uint8Array ? `${question.length} bytes` : JSON.stringify({ ...question, text: question.text && "…" }).slice(0, 200));
+const shown = (question) => (question instanceof Uint8Array ? `${question.length} bytes` : JSON.stringify({ ...question, text: question.text && "…", lesson: question.lesson && "…" }).slice(0, 200));
 
 // An answer is what was asked for, or says why not.
 function requireSound(question, answer) {
