@@ -10,6 +10,7 @@ const FINGER = 24; // pixels to a corner, for one
 const THROWN = 250; // page units a second: slower is let go
 const FLIGHT = -1; // what plays
 const COUNTS = ["pairs", "leaves", "entries", "textures", "refused", "awake"];
+const MEASURES = ["gap", "overlap", "distance"];
 const FEW = 4; // names that a sentence has room for
 const STEPS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 const INVITATIONS = { wall: "Drag the corner of a wall", texture: "Drag the corner of a texture", body: "Drag a body", throw: "Drag a body, or throw it" };
@@ -69,8 +70,9 @@ class Hand {
         const [key, one] = (found.parentNode === this.page.picture.layer && this.lesson.keys[found.thing]) || [];
         if (one && MOVED.test(key)) return one;
       }
+    const isIn = { [KIND.polygon]: (at) => holds(at, x, y), [KIND.rect]: ([left, upper, width, height]) => x > left && y > upper && x < left + width && y < upper + height };
     const hollow = [...this.page.picture.layer.children].findLast(({ thing, kind, at }) =>
-      kind === KIND.polygon && MOVED.test(this.lesson.keys[thing][0]) && holds(at, x, y));
+      MOVED.test(this.lesson.keys[thing][0]) && isIn[kind]?.(at));
     if (hollow) return this.lesson.keys[hollow.thing][1];
     return this.live.scene.level && this.isVertex({ x, y }) ? WALL : null;
   }
@@ -331,7 +333,7 @@ class Hand {
     if (!body) return "";
     const texts = lesson.lists[index].map((row) => lesson.shape(row)).filter(({ kind }) => kind === KIND.text);
     const named = new Set(texts.map(({ key }) => lesson.keys[key]).flatMap(([key, one]) => (/(^|\/)world\/name\//.test(key) ? [nameOf(one)] : [])));
-    const written = new Set(texts.map(({ text }) => lesson.texts[text][0]));
+    const written = new Set(texts.flatMap(({ key, text }) => (/(name|node)\//.test(lesson.keys[key][0]) ? [lesson.texts[text][0]] : [])));
     const called = named.has(name) ? name : this.looksOf(one, lesson, index) ?? `the body you ${this.deed}`;
     if (body[4] === "outside") return `${called} has left the world.`;
     const side = new Relations(facts);
@@ -359,7 +361,7 @@ class Hand {
     return `the ${color} ${looks.length === 1 && looks[0][1] ? "box" : "body"}`;
   }
 
-  // `written`: all that is drawn as a text, so that no leaf is named whose name nobody can find.
+  // `written`: the names that are drawn, so that no leaf has one that nobody can find.
   stored(leaves, box, written, word) {
     const labels = leaves.map(({ label }) => label).filter(Boolean);
     const named = labels.length === leaves.length && labels.length <= FEW && labels.every((label) => written.has(label)) ? ` ${listed(labels)}` : "";
@@ -473,12 +475,13 @@ const counted = (n, word) => `${n} ${n === 1 ? singular(word) : word}`;
 
 // What a frame counts, and what the lesson's frame like it did.
 function countsTold(sides, before, hasNodes) {
-  return sides.flatMap(({ title, counts }, i) => {
-    const known = new Map(before?.[i]?.counts);
-    const all = counts.filter(([name, n]) => COUNTS.includes(name) && (n || name !== "refused") && (hasNodes || !/leaves|entries/.test(name)));
+  return sides.flatMap(({ title, counts, measures }, i) => {
+    const known = new Map([...(before?.[i]?.counts ?? []), ...(before?.[i]?.measures ?? [])]);
+    const all = [...counts.filter(([name, n]) => COUNTS.includes(name) && (n || name !== "refused") && (hasNodes || !/leaves|entries/.test(name))),
+      ...measures.filter(([name, n]) => MEASURES.includes(name) && n)];
     if (!all.length) return [];
     const told = all.map(([name, n]) => {
-      const [now, then] = [counted(n, name === "pairs" ? "candidate pairs" : name), known.get(name)];
+      const [now, then] = [MEASURES.includes(name) ? `${name} ${n}` : counted(n, name === "pairs" ? "candidate pairs" : name), known.get(name)];
       return then === undefined || then === n ? now : `${now} (${then} in the lesson)`;
     }).join(", ");
     const isSame = known.size && !told.includes("(");

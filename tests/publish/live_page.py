@@ -359,6 +359,17 @@ def check_corner(page):
     at_rest(page)
 
 
+# A body that is drawn as an outline is held anywhere within it; what the narrow phase measures is told.
+def check_outline(page):
+    page.run("window.lantern.go(5)")
+    drag(page, "plank", 60, -25)
+    expect("a gap is told", text_of(page, "caption"), "Gap 2.94 (1.2 in the lesson).")
+    page.run("document.getElementById('again').click()")
+    at_rest(page)
+    page.run("window.lantern.go(0)")
+    drag(page, "ball", 20, -20)
+
+
 # What the program says of the file that the page saves.
 def check_download(page, lantern, folder):
     page.run("window.lantern.go(arguments[0])", STEP)
@@ -401,6 +412,8 @@ def check(browser, address, lantern, folder):
         check_throw(page)
         open_live(page, address.replace("live.html", "atlas.html"))
         check_corner(page)
+        open_live(page, address.replace("live.html", "axes.html"))
+        check_outline(page)
         page.before_load("delete window.Worker")
         page.open("about:blank")
         page.open(address)
@@ -418,7 +431,7 @@ def main():
     folder.mkdir(parents=True, exist_ok=True)
     file = folder / "live.html"
     engine = ["--engine", words[3]] if len(words) > 3 else []
-    for name, page in (("ghost_quadtree", file), ("falling_boxes", folder / "throw.html"), ("kdtree_atlas", folder / "atlas.html")):
+    for name, page in (("ghost_quadtree", file), ("falling_boxes", folder / "throw.html"), ("kdtree_atlas", folder / "atlas.html"), ("separating_axes", folder / "axes.html")):
         subprocess.run([lantern, "render", root / f"scenarios/{name}.toml", "-o", page, "--live", *engine], check=True, capture_output=True)
     if len(words) == len(sys.argv) - 1:
         check(Browser, file.as_uri(), lantern, folder)
