@@ -16,8 +16,8 @@ class Live {
   }
 
   // `drawn`: the lesson's own frames, if they are there.
-  begin({ name, text, title = document.title }, drawn = null) {
-    Object.assign(this, { name, text, title, good: text, own: { text, drawn, isOfSheet: Boolean(drawn) }, past: [], future: [], cause: null });
+  begin({ name, text }, drawn = null) {
+    Object.assign(this, { name, text, good: text, own: { text, drawn, isOfSheet: Boolean(drawn) }, past: [], future: [], cause: null });
     for (const kept of document.querySelectorAll("#words .kept")) kept.remove();
     if (drawn) this.keepRoom();
   }
