@@ -281,7 +281,7 @@ def check_finger(address):
     with Browser((390, 844), device={"width": 390, "height": 844, "pixelRatio": 2, "touch": True}) as page:
         open_live(page, address)
         expect("nothing is off the screen", page.run(
-            "const [stage, bar] = ['stage', 'bar'].map((id) => document.getElementById(id));"
+            "const [stage, bar] = ['stage', 'theme'].map((id) => document.getElementById(id));"
             " return [stage.scrollWidth > stage.clientWidth, bar.getBoundingClientRect().bottom > innerHeight,"
             " [...window.lantern.picture.layer.children].some((e) => { const r = e.getBoundingClientRect();"
             " return r.left < 0 || r.right > innerWidth || r.bottom > innerHeight }), window.lantern.lesson.ratio < 1]"),
@@ -292,6 +292,8 @@ def check_finger(address):
         at_rest(page)
         expect("a body follows a finger sideways", middle_of(page, "b5")[0] > x + 60)
         page.cdp("Input.dispatchTouchEvent", type="touchEnd", touchPoints=[])
+        at_rest(page)
+        expect("nor is it in a world of one's own", page.run("return document.getElementById('theme').getBoundingClientRect().bottom > innerHeight"), False)
         expect("a finger has no error", page.errors(), [])
 
 
