@@ -86,10 +86,12 @@ function fieldOf({ path, key, means, type, least, most, step, choices, unit, val
 const coded = (words) => words.split("`").map((text, i) => (i % 2 ? element(document, "code", { text }) : text));
 const withUnit = (value, unit) => (unit?.length > 2 ? counted(Number(value), unit) : `${value} ${unit ?? ""}`);
 
-// A choice has words of its own where those of its key come to it first; else theirs begin with a sentence.
-function meaningOf({ type, means, value }) {
+// A choice's own words, where those of its key come to it first; or what is said of all of them.
+function meaningOf({ type, means, value, choices }) {
   const own = type === "choice" && means.match(new RegExp(`(?:^|[;.] )((?:an? )?\`${value}\`:? [^;.]*)`));
-  return own ? `${asSentence(own[1])}.` : means.match(/^.{1,140}?\.(?=\s|$)|^.*?([.;](?=\s)|$)/)[0].replace(/;$/, ".");
+  if (own) return `${asSentence(own[1])}.`;
+  const first = means.match(/^.{1,140}?\.(?=\s|$)|^.*?([.:;](?=\s)|$)/)[0].replace(/[:;]$/, ".");
+  return choices?.some((one) => first.startsWith(`\`${one}\``)) ? "" : first;
 }
 
 function valueIn(field) {

@@ -161,6 +161,8 @@ def check_words(page):
 def check_controls(page):
     page.press("c")
     page.wait_for("document.querySelector('[data-path=\"structure.capacity\"] input') !== null")
+    expect("a choice has its own words", page.run("return document.querySelector('[data-path=\"structure.kind\"] small').textContent"),
+           "A quadtree cuts a 3D world along x and z, an octree along all three.")
     expect("nothing was moved", page.run("return document.getElementById('remove').disabled"))
     page.run("const i = document.querySelector('[data-path=\"structure.capacity\"] input'); i.focus(); i.value = 4;"
              " i.dispatchEvent(new Event('input', {bubbles: true}))")

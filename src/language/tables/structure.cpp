@@ -129,13 +129,15 @@ TableDoc structure_table() {
                     "as another one."};
   table.keys = {
       key(&S::kind, "kind",
-          "`brute_force` tests every pair; `bsp` cuts along the lines in `planes`; a `quadtree` "
-          "cuts a 3D world along x and z, an `octree` along all three; `lecture_quadtree` is the "
-          "lecture's own code, which makes all children at a split and has no stop but the depth "
-          "limit; a `grid` has equal cells; an `aabb_tree` has a leaf for each body and the "
-          "smallest box around what lies below each node, and goes on from where its bodies were; "
-          "`auto` takes what suits the bodies as the file places them, and `explain` says why. A "
-          "program may be given structures of a user's own, by their names "
+          "`brute_force` tests every pair; `sort_and_sweep` sorts boxes along an axis and "
+          "compares those that overlap on it; `bsp` cuts along the lines in `planes`; a "
+          "`quadtree` cuts a 3D world along x and z, an `octree` along all three; a `kd_tree` "
+          "cuts at a body's face, with about half of the bodies on either side; "
+          "`lecture_quadtree` is the lecture's own code, which makes all children at a split and "
+          "has no stop but the depth limit; a `grid` has equal cells; an `aabb_tree` has a leaf "
+          "for each body and the smallest box around what lies below each node, and goes on from "
+          "where its bodies were; `auto` takes what suits the bodies as the file places them, and "
+          "`explain` says why. A program may be given structures of a user's own, by their names "
           "(`src/spatial/own_structure.hpp`). At most 2000000 pairs may be met on one frame.",
           must(), advising("for a structure of your own see src/spatial/own_structure.hpp"),
           by_hand()),
