@@ -86,6 +86,31 @@ TEST(Controls, OfAnAtlas) {
                    R"(texture_pattern[0].order = "tallest_first" as_made tallest_first)"}));
 }
 
+TEST(Controls, TellValuesHoweverTheyAreWritten) {
+  const json controls = controls_of(R"(title = "x"
+structure = { "kind" = '''quadtree''', max_depth = 0x3, capacity = +1_0 }
+[world]
+size = [64, 32]
+"gravity" = [ 0,  # none
+  -1_0.5e0, ]
+[[body]]
+name = "red"
+radius = 1
+position = [5, 5]
+[[step]]
+do = "insert"
+bodies = ["red"]
+[[step]]
+do = "run"
+seconds = 1
+)");
+  std::vector<std::string> values;
+  for (const json& control : controls)
+    if (control["written"])
+      values.push_back(control["key"].get<std::string>() + control["value"].dump());
+  EXPECT_EQ(values, Lines({"kind\"quadtree\"", "capacity10", "max_depth3", "gravity[0,-10.5]"}));
+}
+
 TEST(Controls, OfALevel) {
   EXPECT_EQ(
       all_told(lesson_text("doom_level_bsp")),
