@@ -116,11 +116,10 @@ void unroll(const BodySpec& like, const PatternSpec& pattern, const TableReader&
 }  // namespace
 
 Occupied::Occupied(const Box<3>& region, int dimension, std::size_t expected) : region_(region) {
-  const auto n = static_cast<double>(expected);
-  const double along =
-      dimension == 2 ? std::min(std::sqrt(n), 128.0) : std::min(std::cbrt(n), 24.0);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(dimension); ++i)
-    cells_[i] = 1 + static_cast<std::size_t>(along);
+  const std::size_t most = dimension == 2 ? 128 : 24;  // cells along an axis
+  std::size_t along = 1;
+  while (along < most && along * along * (dimension == 2 ? 1 : along) < expected) ++along;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(dimension); ++i) cells_[i] = along;
   grid_.resize(cells_[0] * cells_[1] * cells_[2]);
 }
 
