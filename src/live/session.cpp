@@ -140,8 +140,10 @@ class Session::Engine {
     name_ = name;
     text_ = text;
     const language::Scenario& scenario = play_->scenario();
-    return object_of("frames", play_->frames().size(), "steps", scenario.steps.size(), "world",
-                     scenario.has_world(), "level", scenario.level.has_value(), "warnings",
+    const std::vector page{publish::hundredths(play_->sheet.x),
+                           publish::hundredths(play_->sheet.y)};
+    return object_of("page", page, "frames", play_->frames().size(), "steps", scenario.steps.size(),
+                     "world", scenario.has_world(), "level", scenario.level.has_value(), "warnings",
                      play_->warnings(), "unmet", play_->unmet());
   }
 

@@ -12,15 +12,14 @@ namespace lantern::live {
 // What is asked, by "do", with what, and what is answered. D is {"severity", "line", "column",
 // "message", "suggestion"}, with line 0 for the file as a whole; lines and columns count from 1. A
 // picture is {"lesson": frames as a lesson page has them, "facts": [...], "hashes": ["..."],
-// "like":
-// [[of which step of the lesson each is, or -1; whether its caption is the text's own]]}.
+// "like": [[of which step of the lesson each is, or -1; whether its caption is the text's own]]}.
 //
-// open: text, name, held, lesson, width, height. {"frames": n, "steps": n, "world": b, "level": b,
-// "warnings": [D], "unmet": [D]}; the text is parsed, and run whole. Pictures light what is of the
-// body `held`, if that is given, in place of what the text lights; so they do from a grab of a body
-// on. Where another world comes of the text than of `lesson`, if that is given, what it says as the
-// lesson does is left out, in drags, too. Pictures are so many page units wide and high, or as a
-// recorded lesson's.
+// open: text, name, held, lesson, width, height. {"page": its size in hundredths, "frames": n,
+// "steps": n, "world": b, "level": b, "warnings": [D], "unmet": [D]}; the text is parsed, and run
+// whole. Pictures light what is of the body `held`, if that is given, in place of what the text
+// lights; so they do from a grab of a body on. Where another world comes of the text than of
+// `lesson`, if that is given, what it says as the lesson does is left out, in drags, too. Pictures
+// are so many page units wide and high, or as a recorded lesson's.
 //
 // lesson. The picture of all frames, "title", and "questions": [[asked, answer, frame, predict]].
 //

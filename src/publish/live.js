@@ -355,14 +355,14 @@ function fillChoice(live, scenarios) {
 async function startLive(page) {
   document.documentElement.dataset.live = "loading";
   const scenarios = JSON.parse(textIn("scenarios") ?? "[]");
-  const [scene, { lesson: first }] = await engine.started;
+  const [scene] = await engine.started;
   if (scene.refused) throw new Error(scene.refused[0].message);
   $("facts").before($("live-buttons").content);
   $("place").before($("live-marks").content);
   $("help-dialog").querySelector("dl").append($("live-keys").content);
   const { lesson, facts } = page;
   // All frames, and as large as the engine draws them: else those are not what a hand would move.
-  const isRecorded = scene.frames === lesson.frames.length && `${first?.page}` === `${lesson.page}`;
+  const isRecorded = scene.frames === lesson.frames.length && `${scene.page}` === `${lesson.page}`;
   const card = JSON.parse(textIn("card") ?? "{}");
   const live = new Live(page, engine, firstScenario, scene, isRecorded && { lesson, facts, card });
   page.live = live;
@@ -373,6 +373,7 @@ async function startLive(page) {
   document.documentElement.dataset.live = "ready";
   live.openLink();
   live.hand.invite();
+  engine.ask({ do: "frame", index: 0 }); // what draws is compiled before a hand needs it
 }
 
 opened.then(startLive).catch((error) => {

@@ -1,5 +1,5 @@
-// The engine of a live page. It starts before the rest of the page is read, with the frame that is
-// seen first.
+// The engine of a live page. It starts, and runs the scenario that is seen first, before the rest of
+// the page is read.
 
 const MOST_SECONDS = 10; // for a run
 
@@ -76,4 +76,4 @@ class Engine {
 const textIn = (id) => document.getElementById(id)?.textContent;
 const firstScenario = JSON.parse(textIn("scenario"));
 const engine = new Engine(textIn("engine-packed") ?? window.lanternEngine, textIn("worker-script"), () =>
-  [{ do: "open", text: firstScenario.text, name: firstScenario.name, lesson: firstScenario.text, ...sheet() }, { do: "frame", index: 0 }]);
+  [{ do: "open", text: firstScenario.text, name: firstScenario.name, lesson: firstScenario.text, ...sheet() }]);

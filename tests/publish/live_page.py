@@ -327,7 +327,8 @@ def check_unusual(page):
         at_rest(page)
         expect("it is there", page.run("return [window.lantern.live.good === arguments[0], window.lantern.lesson.frames.length]", text), [True, 3])
         drag(page, "red", 30, 10, hand="throw")
-        expect("a grid's leaves are cells", " cell" in text_of(page, "caption") and "lea" not in text_of(page, "caption"))
+        beside = page.run(WORDS)[1]
+        expect("a grid's leaves are cells", " cell" in beside and "lea" not in beside)
         expect("one line has changed", page.run("return window.lantern.live.text.split('\\n').length"), text.count("\n") + 1)
         page.press("c")
         for button, names in (("add", ["red", "new1"]), ("add", ["red", "new1", "new2"]), ("remove", ["red", "new1"])):
