@@ -112,6 +112,7 @@ class Live {
 
   // To the frame in which it was left.
   again() {
+    this.say("");
     const [, index] = this.past.findLast(([text]) => text === this.own.text) ?? [];
     this.change(this.own.text, "again", { index });
   }

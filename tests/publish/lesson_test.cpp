@@ -229,7 +229,11 @@ TEST(LessonEntities, SayOfWhomAThingIs) {
 TEST(LessonFacts, SayWhereACellLiesOnThePage) {
   DrawList list;
   list.maps.push_back({"", {{100, 100}, {900, 500}}, {100, 500}, 100});
-  const json facts = json::parse(facts_for_page(frame_of(0), list));
+  Frame frame = frame_of(0);
+  frame.bounds = {{0, 0, 0}, {1, 4, 0}};
+  EXPECT_EQ(json::parse(facts_for_page(frame, list))[0]["bodies"][0][4], "outside");
+  frame.bounds.hi.x = 8;
+  const json facts = json::parse(facts_for_page(frame, list));
   ASSERT_EQ(facts.size(), 1u);
   EXPECT_EQ(facts[0]["counts"].dump(), R"([["pairs",3]])");
   EXPECT_EQ(facts[0]["bodies"].dump(), R"([[7,"ann",[1.5,2],0,""]])");

@@ -141,19 +141,19 @@ std::string names_of(const Frame& frame, const Stand& stand) {
 }
 
 // On its side, or below, above, beside; first where no body is covered and inside the bounds, then
-// anywhere in the panel. Among many bodies a name that covers one would be read as its name, so it
-// is left out.
+// also outside of them, then anywhere in the panel. Among many bodies a name that covers one would
+// be read as its name, so it is left out.
 void name_stand(const World2D& w, const std::string& text, const Stand& stand,
                 const NameSides& sides) {
   constexpr std::size_t kFew = 12;
   TextStyle style;
   const auto anchors =
       on_its_side(anchors_around(stand.box, kNameGap, style), sides, stand.bodies.front()->name);
-  for (const bool strict : {true, false}) {
-    if (!strict && w.covered.size() > kFew) return;
+  for (const int pass : {0, 1, 2}) {
+    if (pass > 0 && w.covered.size() > kFew) return;
     const Anchor* free = w.labels.free_anchor(
-        text, anchors, style, strict ? shrunk(w.map.picture(), 5) : w.map.panel(),
-        [&](const Box<2>& extent) { return !strict || !touches(w.covered, extent); });
+        text, anchors, style, pass == 0 ? shrunk(w.map.picture(), 5) : w.map.panel(),
+        [&](const Box<2>& extent) { return pass == 2 || !touches(w.covered, extent); });
     if (!free) continue;
     style.halo = ground_at(w.grounds, Labels::extent(text, *free, style).center());
     return w.labels.add(text, *free, style, w.map.panel());
