@@ -257,7 +257,7 @@ std::vector<std::string> leaf_names(const Frame& frame, const FrameNode& leaf) {
 }
 
 bool shows_id(const Staging& staging, const FrameNode& node) {
-  return node.mark != Mark::quiet || staging.leaves() <= kFewLeaves;
+  return node.mark != Mark::quiet || staging.most_leaves() <= kFewLeaves;
 }
 
 const NameSides& name_sides(const Staging& staging, const Box<2>& panel) {

@@ -112,6 +112,8 @@ Staging::Staging(std::vector<const Frame*> frames, const AxisRanges& axes)
       const auto found = most_.try_emplace(name, n).first;
       found->second = std::max(found->second, n);
     }
+    most_leaves_ =
+        std::max<std::size_t>(most_leaves_, std::ranges::count_if(frame.nodes, &FrameNode::leaf));
     add_nodes(frame);
   }
   for (UnionTree& tree : trees_) put_in_order(tree);

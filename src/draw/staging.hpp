@@ -100,8 +100,9 @@ class Staging {
 
   // Of the structure: the tree of what moves, the one of what never does; those that there are.
   const std::vector<UnionTree>& trees() const { return trees_; }
-  // Leaves that the trees come to have together.
+  // Leaves that the trees come to have together, and the most that they have on one frame.
   std::uint32_t leaves() const;
+  std::size_t most_leaves() const { return most_leaves_; }
 
   // Is this frame the first with its settings?
   bool tells_settings(const Frame& frame) const { return settings_told_.contains(frame.index); }
@@ -140,6 +141,7 @@ class Staging {
   std::map<std::string, std::string, std::less<>> structure_of_;  // by side
   std::map<std::string, Staging, std::less<>> sides_;             // by structure
   std::vector<UnionTree> trees_;
+  std::size_t most_leaves_ = 0;
   std::set<std::uint32_t> settings_told_;
   std::map<std::string, std::int64_t> most_;
   mutable std::map<Place, std::any> made_;

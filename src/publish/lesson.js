@@ -82,7 +82,7 @@ class Page {
   // What comes next is made while nobody waits for it.
   prepareNext() {
     cancelWhenIdle(this.preparing);
-    this.preparing = whenIdle(() => this.picture.prepare(this.following));
+    this.preparing = whenIdle(() => this.picture.lesson === this.lesson && this.picture.prepare(this.following));
   }
 
   tell() {

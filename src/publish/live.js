@@ -200,7 +200,8 @@ class Live {
     if (isOwn && frame.caption) frame.beside = sentence;
     else {
       const words = its?.frames[frame.like]?.caption ?? "";
-      const caption = sentence || frame.caption || countsTold(facts, known?.[frame.like], showsNodes(lesson, index));
+      const counts = () => countsTold(facts, known?.[frame.like], showsNodes(lesson, index));
+      const caption = sentence.endsWith(GONE) ? `${sentence} ${counts()}` : sentence || frame.caption || counts();
       const beside = words && words !== caption ? `in the lesson: ${words}` : "";
       Object.assign(frame, { caption, beside, isTold: true, ending: false });
     }

@@ -11,6 +11,7 @@ const THROWN = 250; // page units a second: slower is let go
 const FLIGHT = -1; // what plays
 const COUNTS = ["pairs", "leaves", "entries", "textures", "refused", "awake"];
 const MEASURES = ["gap", "overlap", "distance"];
+const GONE = " has left the world.";
 const FEW = 4; // names that a sentence has room for
 const STEPS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
 const INVITATIONS = { wall: "Drag the corner of a wall", texture: "Drag the corner of a texture", body: "Drag a body", throw: "Drag a body, or throw it" };
@@ -328,14 +329,16 @@ class Hand {
   told(lesson, index, facts, one, isShort) {
     const name = nameOf(one);
     const texture = facts.textures.find(([, known]) => known === name);
-    if (texture) return `${name} is ${texture[2]} × ${texture[3]}${texture[4] ? ", and is refused" : ""}.`;
+    const refused = facts.textures.flatMap(([, other, , , isRefused]) => (isRefused && other !== name ? [other] : []));
+    const without = refused.length ? ` There is no room for ${listed(refused)}.` : "";
+    if (texture) return `${name} is ${texture[2]} × ${texture[3]}${texture[4] ? ", and is refused" : ""}.${without}`;
     const body = facts.bodies.find(([, known]) => known === name);
     if (!body) return "";
     const texts = lesson.lists[index].map((row) => lesson.shape(row)).filter(({ kind }) => kind === KIND.text);
     const named = new Set(texts.map(({ key }) => lesson.keys[key]).flatMap(([key, one]) => (/(^|\/)world\/name\//.test(key) ? [nameOf(one)] : [])));
     const written = new Set(texts.flatMap(({ key, text }) => (/(name|node)\//.test(lesson.keys[key][0]) ? [lesson.texts[text][0]] : [])));
     const called = named.has(name) ? name : this.looksOf(one, lesson, index) ?? `the body you ${this.deed}`;
-    if (body[4] === "outside") return `${called} has left the world.`;
+    if (body[4] === "outside") return called + GONE;
     const side = new Relations(facts);
     const stored = showsNodes(lesson, index) ? this.stored(side.leavesWith(name), this.boxOf(one, lesson, index), written, facts.leaf) : "";
     const all = new Map(facts.counts).get("pairs");
@@ -423,9 +426,14 @@ class Hand {
   invite() {
     this.done = ""; // kinds of things
     try {
-      this.done = localStorage.getItem("lantern-hand") ?? "";
+      this.done = localStorage.getItem(this.remembered) ?? "";
     } catch {} // a page may be kept from remembering
     this.beckon();
+  }
+
+  // Where it is kept that somebody has, of each page.
+  get remembered() {
+    return `lantern-hand ${location.pathname}`;
   }
 
   // The first thing of the frame that can be moved.
@@ -459,7 +467,7 @@ class Hand {
     if (!this.done.includes(what)) this.done += ` ${what}`;
     this.beckon();
     try {
-      localStorage.setItem("lantern-hand", this.done);
+      localStorage.setItem(this.remembered, this.done);
     } catch {}
   }
 }

@@ -83,6 +83,10 @@ def check_hand(page):
         "const leaf = { label: '1.2', outline: [0, 0, 9, 0, 9, 9, 0, 9] };"
         " return [['1.2'], ['1']].map((written) => window.lantern.live.hand.stored([leaf], [1, 1, 2, 2], new Set(written), ['leaf', 'leaves']))"),
         ["is stored in leaf 1.2", "is stored in one leaf"])
+    page.promise("return (async () => { const p = window.lantern;"
+                 " const drawn = await p.live.engine.ask({ do: 'frame', index: 0 });"
+                 " p.show(p.index); p.live.hand.look(drawn); await new Promise((then) => setTimeout(then, 500)); p.show(p.index) })()")
+    expect("what comes next is not made of a frame that is looked at", page.errors(), [])
     page.run("window.lantern.live.undo()")
     at_rest(page)
     expect("undone", page.run(STATE), {"index": STEP, "own": True, "past": 0, "shown": True, "marked": False})
