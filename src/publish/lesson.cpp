@@ -263,8 +263,8 @@ std::string Lesson::part(std::string_view name) const {
         page::lesson_tables_js, page::lesson_js})
     script += file;
   if (live_)
-    for (const std::string_view file :
-         {page::live_editor_js, page::live_controls_js, page::live_hand_js, page::live_js})
+    for (const std::string_view file : {page::live_editor_js, page::live_controls_js,
+                                        page::live_words_js, page::live_hand_js, page::live_js})
       script += file;
   return script;
 }

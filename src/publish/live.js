@@ -196,7 +196,7 @@ class Live {
   // all, with the lesson's words beside it.
   tellOf(lesson, index, facts, [, isOwn]) {
     const [frame, { lesson: its, facts: known }] = [lesson.frames[index], this.own.drawn || {}];
-    const sentence = this.hand.sentence(lesson, index, facts);
+    const sentence = this.hand.words.sentence(lesson, index, facts);
     if (isOwn && frame.caption) frame.beside = sentence;
     else {
       const words = its?.frames[frame.like]?.caption ?? "";

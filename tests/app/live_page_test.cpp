@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/process.hpp"
+#include "draw/theme.hpp"
 #include "embedded/version.hpp"
 
 namespace lantern::app {
@@ -86,6 +87,12 @@ TEST_F(LivePage, IsNoOtherThanRecordedWithoutTheWord) {
   const std::string few = page("c.html");
   EXPECT_EQ(element_text(few, "scenario"), element_text(live, "scenario"));
   EXPECT_EQ(json::parse(element_text(few, "card"))["frames"], 2);
+}
+
+TEST_F(LivePage, CallsBodiesByTheColoursOfTheTheme) {
+  const std::string words = read_text(repository("src/publish/live_words.js"));
+  EXPECT_NE(words.find(fmt::format("FIRST_COLOR = {};", static_cast<int>(draw::Role::body_1))),
+            words.npos);
 }
 
 TEST_F(LivePage, SharesTheEngineWithOthersOfItsFolder) {

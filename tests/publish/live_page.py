@@ -81,7 +81,7 @@ def check_hand(page):
         ".filter((key) => key.startsWith('tree/node/'))"), ["tree/node/root.0", "tree/node/root.1"])
     expect("a leaf is named where its name is drawn", page.run(
         "const leaf = { label: '1.2', outline: [0, 0, 9, 0, 9, 9, 0, 9] };"
-        " return [['1.2'], ['1']].map((written) => window.lantern.live.hand.stored([leaf], [1, 1, 2, 2], new Set(written), ['leaf', 'leaves']))"),
+        " return [['1.2'], ['1']].map((written) => window.lantern.live.hand.words.stored([leaf], [1, 1, 2, 2], new Set(written), ['leaf', 'leaves']))"),
         ["is stored in leaf 1.2", "is stored in one leaf"])
     page.promise("return (async () => { const p = window.lantern;"
                  " const drawn = await p.live.engine.ask({ do: 'frame', index: 0 });"
