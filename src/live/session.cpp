@@ -125,14 +125,15 @@ class Session::Engine {
   std::string open(const json& q) {
     const std::string text = q.at("text"), name = q.at("name"), lesson = q.value("lesson", "");
     const Vec<2> sheet = q.contains("width") ? sheet_in(q) : publish::lesson_page();
-    std::shared_ptr<Play> its;
-    if (!lesson.empty())
-      its = lesson_ && lesson_->scenario().text == lesson
-                ? lesson_
-                : std::make_shared<Play>(parsed(lesson, name, nullptr));
+    std::shared_ptr<Play> its = lesson.empty() ? nullptr : lesson_;
+    if (!lesson.empty() && (!its || its->scenario().text != lesson))
+      its = std::make_shared<Play>(parsed(lesson, name, nullptr));
     std::vector<int> like;
-    auto own = parsed(text, name, its.get(), &like);
-    auto play = its && text == lesson ? its : std::make_shared<Play>(std::move(own));
+    std::shared_ptr<Play> play = its;
+    if (!its || text != lesson)
+      play = std::make_shared<Play>(parsed(text, name, its.get(), &like));
+    else
+      like = steps_in(its->scenario(), its->scenario());
     if (its && play != its && is_same_world(*play, *its))
       play = std::make_shared<Play>(parsed(text, name, nullptr));
     lesson_ = std::move(its);
@@ -140,8 +141,7 @@ class Session::Engine {
     name_ = name;
     text_ = text;
     const language::Scenario& scenario = play_->scenario();
-    const std::vector page{publish::hundredths(play_->sheet.x),
-                           publish::hundredths(play_->sheet.y)};
+    const std::vector page{publish::hundredths(sheet.x), publish::hundredths(sheet.y)};
     return object_of("page", page, "frames", play_->frames().size(), "steps", scenario.steps.size(),
                      "world", scenario.has_world(), "level", scenario.level.has_value(), "warnings",
                      play_->warnings(), "unmet", play_->unmet());

@@ -8,7 +8,7 @@ class Live {
   constructor(page, engine, scenario, scene, recorded) {
     Object.assign(this, { page, engine, scene, waiting: new Map(), sheet: sheet() });
     this.begin(scenario, recorded);
-    engine.first = () => [this.opening(this.good)];
+    engine.first = () => this.opening(this.good);
     this.editor = new Editor(this);
     this.controls = new Controls(this);
     this.hand = new Hand(this);
@@ -357,7 +357,7 @@ function fillChoice(live, scenarios) {
 async function startLive(page) {
   document.documentElement.dataset.live = "loading";
   const scenarios = JSON.parse(textIn("scenarios") ?? "[]");
-  const [scene] = await engine.started;
+  const scene = await engine.started;
   if (scene.refused) throw new Error(scene.refused[0].message);
   $("facts").before($("live-buttons").content);
   $("place").before($("live-marks").content);

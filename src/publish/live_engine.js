@@ -16,8 +16,8 @@ function sheet() {
 // What the engine could not bear.
 class Ended extends Error {}
 
-// The Worker. Where it takes too long, or fails, it is made anew; what `first()` gives brings it to
-// where it was.
+// The Worker. Where it takes too long, or fails, it is made anew; the request that `first()` gives brings
+// it to where it was.
 class Engine {
   constructor(packed, script, first) {
     this.from = { packed };
@@ -27,12 +27,12 @@ class Engine {
     this.started.catch(() => {}); // for those who wait for it
   }
 
-  // The answers to the first requests.
+  // The answer to the first request.
   async start() {
     this.worker = new Worker(this.script);
-    const { module, answers } = await this.send({ ...this.from, first: this.first().map((one) => JSON.stringify(one)) }, 6 * MOST_SECONDS);
+    const { module, answer } = await this.send({ ...this.from, first: JSON.stringify(this.first()) }, 6 * MOST_SECONDS);
     this.from = { module };
-    return answers.map((answer) => JSON.parse(answer));
+    return JSON.parse(answer);
   }
 
   // One request after the other. The time is that of this one alone.
@@ -76,4 +76,4 @@ class Engine {
 const textIn = (id) => document.getElementById(id)?.textContent;
 const firstScenario = JSON.parse(textIn("scenario"));
 const engine = new Engine(textIn("engine-packed") ?? window.lanternEngine, textIn("worker-script"), () =>
-  [{ do: "open", text: firstScenario.text, name: firstScenario.name, lesson: firstScenario.text, ...sheet() }]);
+  ({ do: "open", text: firstScenario.text, name: firstScenario.name, lesson: firstScenario.text, ...sheet() }));

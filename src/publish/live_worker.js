@@ -48,8 +48,8 @@ async function unpacked(packed) {
   return WebAssembly.compileStreaming(new Response(body.pipeThrough(new DecompressionStream("deflate")), { headers }));
 }
 
-// With the answers to the first requests.
-async function start({ packed, module, first = [] }) {
+// With the answer to the first request, if there is one.
+async function start({ packed, module, first }) {
   module ??= await unpacked(packed);
   const engine = await instanceOf(module);
   const memory = () => new Uint8Array(engine.memory.buffer);
@@ -76,7 +76,7 @@ async function start({ packed, module, first = [] }) {
     if (kept) kept.used = true;
     return ask(request);
   };
-  return { module, answers: first.map(answer) };
+  return { module, answer: first && answer(first) };
 }
 
 onmessage = async ({ data }) => {
