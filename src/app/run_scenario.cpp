@@ -152,6 +152,20 @@ void add_missing_letters(const Scenario& scenario, std::vector<Diagnostic>& foun
       "Inter has Latin, Greek and Cyrillic letters"));
 }
 
+void add_missing_words(const Scenario& scenario, std::vector<Diagnostic>& found) {
+  constexpr std::size_t kMost = 5;
+  if (!scenario.words || scenario.words->missing.empty()) return;
+  const std::vector<std::string>& missing = scenario.words->missing;
+  const auto some = std::min(missing.size(), kMost);
+  found.push_back(warning(
+      scenario, {scenario.file, 0, 0},
+      fmt::format(
+          "the words for '{}' lack \"{}\"{}: they are said in English", scenario.words->language,
+          fmt::join(missing.begin(), missing.begin() + static_cast<std::ptrdiff_t>(some), "\", \""),
+          missing.size() > some ? fmt::format(" and {} more", missing.size() - some) : ""),
+      "`lantern reference --words de` prints a table that has them all"));
+}
+
 void add_needs(const Scenario& scenario, std::vector<Diagnostic>& found) {
   if (scenario.file == kStandardInput || scenario.is_quiet(Warning::needs)) return;
   std::vector<fs::path> folders = scenario_folders();
@@ -261,6 +275,11 @@ Pace pace_of(std::string_view word, const Scenario& scenario) {
   return word == word_for(Pace::event, kPaces) ? Pace::event : Pace::step;
 }
 
+language::Wording& wording() {
+  static language::Wording asked;
+  return asked;
+}
+
 std::optional<Scenario> load_or_complain(const std::string& file, int& code, std::string* why) {
   const auto refused = [&](const std::exception& error, int its_code) {
     code = std::max(code, its_code);
@@ -268,7 +287,7 @@ std::optional<Scenario> load_or_complain(const std::string& file, int& code, std
     return std::nullopt;
   };
   try {
-    Scenario scenario = load_scenario(scenario_file(file));
+    Scenario scenario = load_scenario(scenario_file(file), wording());
     if (!scenario.file_stem.empty())
       say(fmt::format("'{}' is called '{}': names are of a–z, 0–9 and _", file, scenario.name));
     return scenario;
@@ -286,6 +305,7 @@ RunResult run_scenario(const Scenario& scenario, Pace pace, FrameSink& sink, Wor
   RunExtent extent = extent_of(scenario, pace);
   extent.chosen = chosen;
   extent.in_betweens = in_betweens;
+  const Speaking speaking(scenario.words.get());
   Progress progress(scenario.name, extent, work, memory_budget(), [&] { return sink.waiting(); });
   Trials trials([&] { return progress.long_left(); }, work);
   RunWatch watch(scenario, shows_a_body, &trials);
@@ -305,6 +325,7 @@ RunResult run_scenario(const Scenario& scenario, Pace pace, FrameSink& sink, Wor
   add_problem(scenario, result.warnings);
   std::ranges::move(watch.warnings(), std::back_inserter(result.warnings));
   add_missing_letters(scenario, result.warnings);
+  add_missing_words(scenario, result.warnings);
   result.facts = watch.facts();
   return result;
 }

@@ -54,6 +54,9 @@ std::vector<std::string> listed_files(std::vector<std::string> words);
 // "step", "event", or nothing for the scenario's own.
 Pace pace_of(std::string_view word, const Scenario& scenario);
 
+// The words that the command line asks for in place of the files' own.
+language::Wording& wording();
+
 // Nothing if it cannot be read: why is said, and `code` becomes that exit code unless it is worse.
 // That goes to `why`, too, if it is wanted.
 std::optional<Scenario> load_or_complain(const std::string& file, int& code,

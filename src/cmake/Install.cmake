@@ -76,7 +76,7 @@ endfunction()
 
 # lantern_install(): after all rooms and the program.
 function(lantern_install)
-  foreach(embedded font shaders lecture_source examples lesson_files output_schema)
+  foreach(embedded font shaders lecture_source examples words lesson_files output_schema)
     lantern_installed_library(${embedded})
   endforeach()
   lantern_link_headers()

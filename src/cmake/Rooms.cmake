@@ -56,6 +56,8 @@ file(GLOB lecture_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/lecture/*.?p
 lantern_embed(lantern_lecture_source lecture_source lecture_source.hpp ${lecture_files})
 file(GLOB examples CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/language/examples/*.toml)
 lantern_embed(lantern_examples examples examples.hpp ${examples})
+file(GLOB words CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/language/words/*.toml)
+lantern_embed(lantern_words words words.hpp ${words})
 lantern_embed(lantern_output_schema output output_schema.hpp
   ${PROJECT_SOURCE_DIR}/scenarios/output.schema.json)
 

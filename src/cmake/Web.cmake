@@ -69,7 +69,7 @@ foreach(room base geometry lecture spatial atlas physics language frame run draw
   if(room STREQUAL base)
     list(FILTER sources EXCLUDE REGEX "/(child|file|machine_memory|streams)\\.cpp$")
   elseif(room STREQUAL language)
-    list(FILTER sources EXCLUDE REGEX "/load\\.cpp$")
+    list(FILTER sources EXCLUDE REGEX "/(load|shipped_words)\\.cpp$")
   elseif(room STREQUAL render)
     list(FILTER sources INCLUDE REGEX "/svg\\.cpp$")
   elseif(room STREQUAL publish)

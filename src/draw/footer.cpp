@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "base/number.hpp"
+#include "base/words.hpp"
 #include "draw/font.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
@@ -60,7 +61,7 @@ Counter counted(std::int64_t number, std::string noun, std::string widest,
 
 // With the words of its row.
 Counter counted(std::int64_t number, const std::string& name) {
-  return counted(number, count_words(name, number == 1), count_words(name, false), {name});
+  return counted(number, count_words(name, number), count_words(name, kMany), {name});
 }
 
 // What it is about when nobody says so: two at most.
@@ -74,30 +75,28 @@ std::vector<Counter> default_counters(const Frame& frame) {
     if (used > 0 && used < all) percent = std::clamp<std::int64_t>(percent, 1, 99);
     const auto known =
         std::ranges::count_if(frame.get<FrameTextures>().textures, &frame::FrameTexture::has_come);
-    return {counted(percent, "% used", "", {}),
-            counted(count("textures"), fmt::format("of {} textures", known), "", {"textures"})};
+    return {counted(percent, word("% used"), "", {}),
+            counted(count("textures"), say("of {} textures", known), "", {"textures"})};
   }
   // Of a ray, view or region: how few bodies it had to test.
   if (!frame.get<FrameFinding>().rays.empty() || !frame.get<FrameFinding>().views.empty() ||
       !frame.get<FrameFinding>().queries.empty())
-    return {
-        counted(count("objects_tested"), fmt::format("of {} bodies tested", frame.bodies.size()),
-                "", {"objects_tested", "bodies"}),
-        counted(count("hits"), "hits")};
+    return {counted(count("objects_tested"), say("of {} bodies tested", frame.bodies.size()), "",
+                    {"objects_tested", "bodies"}),
+            counted(count("hits"), "hits")};
   if (frame.count("sectors"))
     return {counted(count("sectors"), "sectors"), counted(count("walls"), "walls")};
   std::vector<Counter> counters;
   const auto pairs = frame.count("pairs"), bodies = frame.count("bodies");
-  const auto add = [&](std::int64_t n, const char* one, const char* many, const char* name) {
-    counters.push_back(counted(n, n == 1 ? one : many, many, {name}));
+  const auto add = [&](std::int64_t n, const char* forms, const char* name) {
+    counters.push_back(counted(n, noun(forms, n), noun(forms, kMany), {name}));
   };
   if (pairs)
     counters.push_back(counted(*pairs, "pairs"));
   else if (bodies)
-    add(*bodies, "body", "bodies", "bodies");
+    add(*bodies, "body/bodies", "bodies");
   if (const auto all = frame.count("testable_pairs"); all && !counters.empty())
-    add(*all, pairs ? "by brute force" : "pair", pairs ? "by brute force" : "pairs",
-        "testable_pairs");
+    add(*all, pairs ? "by brute force" : "pair/pairs", "testable_pairs");
   return counters;
 }
 
@@ -117,12 +116,11 @@ std::optional<Counter> counter_of(const std::string& name, const Frame& frame) {
   if (const auto n = frame.count(name)) {
     for (Counter& known : default_counters(frame))
       if (!own_words && known.depicts == std::vector{name}) return std::move(known);
-    return counted(*n, count_words(frame, what, *n == 1) + of, count_words(frame, what, false) + of,
+    return counted(*n, count_words(frame, what, *n) + of, count_words(frame, what, kMany) + of,
                    {name});
   }
   if (const auto number = frame.measure(name))
-    return Counter{
-        fmt::format("{:.4g}", *number), count_words(frame, what, false) + of, "", {name}};
+    return Counter{say("{:.4g}", *number), count_words(frame, what, kMany) + of, "", {name}};
   return std::nullopt;
 }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/stop.hpp"
+#include "base/words.hpp"
 #include "draw/font.hpp"
 #include "draw/pen.hpp"
 #include "draw/world/world2d_parts.hpp"
@@ -73,9 +74,9 @@ void count_free(const Frame& frame, const Box<2>& panel, Free& free) {
     const FrameBody& body = *stand.bodies.front();
     if (stand.bodies.size() > 1 || !shows_name(frame, body)) continue;
     const auto anchors = anchors_around(stand.box, kNameGap + kNameSpare, {});
-    std::array<int, 8>& counts = free[body.name];
+    std::array<int, 8>& counts = free[body.called()];
     for (std::size_t k = 0; k < anchors.size(); ++k) {
-      const Box<2> extent = Labels::extent(body.name, anchors[k], {});
+      const Box<2> extent = Labels::extent(body.called(), anchors[k], {});
       if (!holds(room, extent) || touches(covered, extent)) continue;
       counts[k] +=
           std::ranges::any_of(links,
@@ -226,7 +227,7 @@ bool shows_name(const Frame& frame, const FrameBody& body) {
   if (body.lit || frame.display.names == ShownNames::all) return true;
   const auto named = std::ranges::count_if(
       frame.bodies, [](const FrameBody& other) { return !other.name.empty(); });
-  return named <= kFewBodies || names(frame.caption, body.name);
+  return named <= kFewBodies || names(frame.caption, body.called());
 }
 
 std::string side_word(const FrameNode& parent, std::uint32_t slot) {
@@ -237,16 +238,16 @@ std::string side_word(const FrameNode& parent, std::uint32_t slot) {
   for (const int axis : {0, 1})
     if (is_along(axis)) {
       const bool less = (slot == 0) == (normal[axis] > 0);
-      return axis == 0 ? (less ? "left" : "right") : less ? "below" : "above";
+      return word(axis == 0 ? (less ? "left" : "right") : less ? "below" : "above");
     }
-  return slot == 0 ? "back" : "front";
+  return word(slot == 0 ? "back" : "front");
 }
 
 std::vector<std::string> leaf_names(const Frame& frame, const FrameNode& leaf) {
   if (traits_of(frame.structure).names != NodeNames::sides || leaf.parent == kNone)
-    return {leaf.label};
+    return {node_words(leaf.label)};
   if (is_level(frame) && std::isdigit(static_cast<unsigned char>(leaf.label[0])) != 0)
-    return leaf.mark == Mark::lit ? std::vector{"sector " + leaf.label, leaf.label}
+    return leaf.mark == Mark::lit ? std::vector{say("sector {}", leaf.label), leaf.label}
                                   : std::vector{leaf.label};
   const FrameNode& parent = frame.nodes[leaf.parent];
   const std::string side = side_word(parent, leaf.slot);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/words.hpp"
 #include "draw/body_shapes.hpp"
 #include "draw/keys.hpp"
 #include "draw/world/world3d_parts.hpp"
@@ -307,7 +308,7 @@ void mark_missed(const Frame& frame, const Marks& marks, Labels& labels) {
       for (const Vec<3>& corner : corners_of(body->box))
         if (const auto seen = marks.projection().seen(corner)) both = united(both, {*seen, *seen});
     const auto places = anchors_around(both, 6, style);
-    labels.try_add("missed", {places[1], places[0], places[4], places[5], places[2]}, style,
+    labels.try_add(word("missed"), {places[1], places[0], places[4], places[5], places[2]}, style,
                    marks.place());
     labels.block(box);
     marks.tell(MarkKind::missed);

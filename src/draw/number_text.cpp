@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/number.hpp"
+#include "base/words.hpp"
 #include "frame/frame.hpp"
 #include "language/counts.hpp"
 
@@ -25,7 +26,7 @@ std::string without_end_zeros(std::string text) {
 std::string as_power(double number) {
   const std::string text = fmt::format("{:.1e}", std::abs(number));
   const std::size_t e = text.find('e');
-  const std::string lead = without_end_zeros(text.substr(0, e));
+  const std::string lead = decimal(without_end_zeros(text.substr(0, e)));
   const std::string power = power_of_ten(std::stoi(text.substr(e + 1)));
   return (number < 0 ? "−" : "") + (lead == "1" ? power : lead + "·" + power);
 }
@@ -46,12 +47,13 @@ std::string number_text(double number, int decimals) {
   if (std::abs(number) >= kLongest) return as_power(number);
   const std::string plain = without_end_zeros(fmt::format("{:.{}f}", std::abs(number), decimals));
   const std::size_t whole = std::min(plain.find('.'), plain.size());
-  const std::string text = grouped(std::stoll(plain.substr(0, whole))) + plain.substr(whole);
+  const std::string text =
+      grouped(std::stoll(plain.substr(0, whole))) + decimal(plain.substr(whole));
   return number < 0 && text != "0" ? "−" + text : text;
 }
 
-std::string number_of(double number, std::string_view one) {
-  return fmt::format("{} {}{}", number_text(number), one, number == 1 ? "" : "s");
+std::string number_of(double number, std::string_view forms) {
+  return fmt::format("{} {}", number_text(number), noun(forms, std::llround(number)));
 }
 
 std::string short_number(double number) {
@@ -63,22 +65,33 @@ std::string short_number(double number) {
 }
 
 std::string chart_words(std::string name) {
-  std::ranges::replace(name, '_', ' ');
-  if (const std::size_t dot = name.find('.'); dot != std::string::npos) name.replace(dot, 1, ": ");
-  return name;
+  // In another language the noun serves: "pairs met" for "pair tests".
+  const auto said = [](std::string_view whole) {
+    if (const auto* count = spoken() ? language::find_count(whole) : nullptr)
+      return noun(count->forms(), kMany);
+    std::string words(whole);
+    std::ranges::replace(words, '_', ' ');
+    return word(words);
+  };
+  const std::size_t end = std::min(name.find(" ("), name.size());
+  const std::size_t dot = name.find('.');
+  const std::string rest = name.substr(end);
+  if (dot >= end) return said(name.substr(0, end)) + rest;
+  return said(name.substr(0, dot)) + ": " + said(name.substr(dot + 1, end - dot - 1)) + rest;
 }
 
-std::string count_words(std::string_view name, bool one) {
-  if (const language::CountDoc* count = language::find_count(name)) return count->words(one);
+std::string count_words(std::string_view name, std::int64_t number) {
+  if (const language::CountDoc* count = language::find_count(name))
+    return noun(count->forms(), number);
   const std::size_t dot = std::min(name.find('.'), name.size());
   const auto* of_body = find_in(language::known_body_measures(), name.substr(0, dot));
   if (!of_body || dot == name.size()) return chart_words(std::string(name));
-  return fmt::format("{}: {}", of_body->words(one), name.substr(dot + 1));
+  return fmt::format("{}: {}", noun(of_body->forms(), number), name.substr(dot + 1));
 }
 
-std::string count_words(const Frame& frame, std::string_view name, bool one) {
+std::string count_words(const Frame& frame, std::string_view name, std::int64_t number) {
   const auto own = frame.words.find(std::string(name));
-  return own == frame.words.end() ? count_words(name, one) : language::noun_form(own->second, one);
+  return own == frame.words.end() ? count_words(name, number) : own_noun(own->second, number);
 }
 
 }  // namespace lantern::draw

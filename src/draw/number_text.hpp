@@ -1,6 +1,7 @@
 // Numbers as a book prints them, and what they count.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -15,8 +16,8 @@ namespace lantern::draw {
 // finite becomes a dash.
 std::string number_text(double number, int decimals = 0);
 
-// "12 pairs", "1 pair".
-std::string number_of(double number, std::string_view one);
+// "12 pairs", "1 pair" of "pair/pairs".
+std::string number_of(double number, std::string_view forms);
 
 // With as many decimals as three figures need.
 std::string short_number(double number);
@@ -29,9 +30,9 @@ std::string power_of_ten(int power);
 std::string chart_words(std::string name);
 
 // What it is called beside its number: "leaf" or "leaves", "node visited" or "nodes visited",
-// "energy: bob", "leaves: taxi"; `one` asks for the singular, which a measure does not have.
-std::string count_words(std::string_view name, bool one);
+// "energy: bob", "leaves: taxi": the form that `number` takes, which a measure does not have.
+std::string count_words(std::string_view name, std::int64_t number);
 // The same as the headline calls it, if that has words of its own.
-std::string count_words(const frame::Frame& frame, std::string_view name, bool one);
+std::string count_words(const frame::Frame& frame, std::string_view name, std::int64_t number);
 
 }  // namespace lantern::draw

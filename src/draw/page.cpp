@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/number.hpp"
+#include "base/words.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 
@@ -124,13 +125,14 @@ std::vector<std::string> numbers_of(const Frame& frame) {
 std::string number_on(const Frame& side, const std::string& name) {
   if (const auto count = side.count(name)) return grouped(*count);
   const auto measured = side.measure(name);
-  return measured ? fmt::format("{:.3g}", *measured) : "";
+  return measured ? say("{:.3g}", *measured) : "";
 }
 
 // As the headline calls it on this side alone, or on all.
-std::string words_on(const Frame& side, const std::string& name, bool one, const Frame& page) {
+std::string words_on(const Frame& side, const std::string& name, std::int64_t n,
+                     const Frame& page) {
   const std::string own = side.get<FrameSide>().name + "." + name;
-  return count_words(page, page.words.contains(own) ? own : name, one);
+  return count_words(page, page.words.contains(own) ? own : name, n);
 }
 
 // Wide enough for the longest of all sides and for four digits, so that what can be compared stands
@@ -154,8 +156,8 @@ void draw_numbers(const Frame& frame, const Frame& side, const std::vector<std::
     const double noun = x + number_room(frame, name) + 9;
     x = noun;
     for (const Frame& other : frame.sides)
-      for (const bool one : {true, false})
-        x = std::max(x, noun + text_width(words_on(other, name, one, frame), kQuiet));
+      for (const std::int64_t n : {std::int64_t{1}, kMany})
+        x = std::max(x, noun + text_width(words_on(other, name, n, frame), kQuiet));
     if (x > line.hi.x) return;
     const auto count = side.count(name);
     if (count)
@@ -163,7 +165,7 @@ void draw_numbers(const Frame& frame, const Frame& side, const std::vector<std::
     else
       labels.add(number_on(side, name), {{noun - 9, y}, 1}, kNumber, line);
     if (side.number(name))
-      labels.add(words_on(side, name, count == 1, frame), {{noun, y}, 0}, kQuiet, line);
+      labels.add(words_on(side, name, count.value_or(kMany), frame), {{noun, y}, 0}, kQuiet, line);
     x += kBetweenNumbers;
   }
 }
@@ -207,8 +209,8 @@ void draw_sides(const Frame& frame, const Staging& staging, const Box<2>& area, 
     Box<2> inner = places[i];
     inner.lo.y += kTitleHeight;
     // Its time too, if that is not the others'.
-    write_title(side.get<FrameSide>().title, own_times ? fmt::format("{:.2f} s", side.time) : "",
-                28, {inner.lo.x, places[i].lo.y + kTitleBaseline}, inner.hi.x,
+    write_title(side.get<FrameSide>().title, own_times ? say("{:.2f} s", side.time) : "", 28,
+                {inner.lo.x, places[i].lo.y + kTitleBaseline}, inner.hi.x,
                 {places[i].lo, {inner.hi.x, inner.lo.y}}, labels);
     if (!numbers.empty()) inner.hi.y -= kNumbersHeight + 6;
     draw_panels(side, staging.of_side(side.get<FrameSide>().name), staging.largest_side(), inner,

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/words.hpp"
 #include "draw/font.hpp"
 #include "draw/pen.hpp"
 #include "geometry/elementary.hpp"
@@ -262,7 +263,7 @@ void draw_column(std::vector<ColumnName> names, std::size_t all, const PlotPaper
   }
   for (const ColumnName& line : names) draw_name(line, paper, list, labels);
   if (crowded)
-    labels.try_add(fmt::format("and {} more", all - most),
+    labels.try_add(say("and {} more", all - most),
                    {{{panel.hi.x, area.hi.y + paper.type.under_ticks()}, 1}}, paper.type.tick,
                    panel);
 }
@@ -437,7 +438,7 @@ void draw_plot_legend(const std::vector<LegendEntry>& entries, const Box<2>& pla
                {{at.x + c.sample + 8, at.y + 0.36 * size}, 0}, style, place);
   }
   if (left_out > 0)
-    labels.try_add(fmt::format("and {} more", left_out),
+    labels.try_add(say("and {} more", left_out),
                    {{{place.lo.x, place.lo.y + (static_cast<double>(rows) - 0.14) * c.line}, 0}},
                    style, place);
 }

@@ -292,6 +292,7 @@ class FrameWriter {
   void write(const FrameBody& body) {
     json_.begin_object();
     facts_.member("id", body.id).member("name", body.name);
+    if (!body.label.empty()) facts_.member("label", body.label);
     json_.key("shape").begin_object();
     std::visit([&](const auto& shape) { write(shape); }, body.shape);
     json_.end_object();

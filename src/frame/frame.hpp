@@ -134,6 +134,7 @@ struct FrameBody : BodyState {
   BodyId id = 0;
   std::uint32_t place = 0;  // among the scenario's bodies, there or not
   std::string name;
+  std::string label = {};  // what pictures call it; empty: its name
   Look look = Look::box;
   int color = 1;
   Shape<3> shape;
@@ -150,6 +151,8 @@ struct FrameBody : BodyState {
   bool lit = false;           // the step is about it
   bool dimmed = false;        // the step has ruled it out: culled, or not met by the ray
   bool refused = false;       // a ray, view or region has tested it in vain
+
+  const std::string& called() const { return label.empty() ? name : label; }
 };
 
 struct FrameNode {

@@ -228,11 +228,6 @@ bool CountDoc::for_world() const {
   return &rule != &when::with_atlas && rule.first != &when::with_atlas;
 }
 
-std::string noun_form(std::string_view noun, bool one) {
-  const std::size_t slash = noun.find('/');
-  return std::string(one || slash == noun.npos ? noun.substr(0, slash) : noun.substr(slash + 1));
-}
-
 Fronted fronted(std::string_view written) {
   const std::size_t colon = std::min(written.find(':'), written.size());
   std::string_view words = written.substr(std::min(colon + 1, written.size()));
@@ -240,12 +235,11 @@ Fronted fronted(std::string_view written) {
   return {std::string(written.substr(0, colon)), std::string(words)};
 }
 
-std::string CountDoc::words(bool one) const {
-  if (!noun.empty()) return noun_form(noun, one);
+std::string CountDoc::forms() const {
+  if (!noun.empty()) return std::string(noun);
   std::string words(name);
   std::ranges::replace(words, '_', ' ');
-  if (one && words.ends_with('s')) words.pop_back();
-  return words;
+  return words.ends_with('s') ? words.substr(0, words.size() - 1) + "/" + words : words;
 }
 
 std::span<const CountDoc> known_body_measures() { return kBodyMeasures; }

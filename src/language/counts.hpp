@@ -93,12 +93,9 @@ struct CountDoc {
 
   bool for_atlas() const;
   bool for_world() const;
-  // "leaf", "leaves", "pair tests".
-  std::string words(bool one) const;
+  // Its noun, or its name's words: "leaf/leaves", "pair test/pair tests".
+  std::string forms() const;
 };
-
-// "leaf" or "leaves" of "leaf/leaves"; without a slash the same for both.
-std::string noun_form(std::string_view noun, bool one);
 
 // What a headline puts in front: "pairs", or with words of its own "pairs: pair left/pairs left".
 struct Fronted {
@@ -145,7 +142,8 @@ inline bool is_of_body(std::string_view name) { return name.find('.') != std::st
 // Captions quote what the engine counted. Placeholders stand in braces:
 //   {pairs}               the count: "2"
 //   {pairs:pair}          the count and its noun, singular or plural: "1 pair", "2 pairs"
-//   {leaves:leaf/leaves}  the same for an irregular plural
+//   {leaves:leaf/leaves}  the same for an irregular plural, or for a language of more forms:
+//                         {leaves:liść/liście/liści}
 //   {texture}             a text
 //   {{ and }}             the braces themselves
 

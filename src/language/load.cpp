@@ -4,20 +4,59 @@
 #include <system_error>
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "base/file.hpp"
+#include "base/suggest.hpp"
 #include "language/language.hpp"
 #include "language/scenario.hpp"
 #include "language/tables/draft.hpp"
+#include "language/words.hpp"
 
 namespace lantern::language {
-Scenario load_scenario(const std::string& path) {
-  if (path == "-") return parse_scenario(read_stdin(kMostFileBytes), std::string(kStandardInput));
+namespace {
+
+WordTable read_words_file(const std::string& path, const WordTable& base) {
+  return read_words(read_input(path, kMostFileBytes), path, base);
+}
+
+// In the words that are asked for, if any are.
+Scenario worded(Scenario scenario, const Wording& wording) {
+  const std::string& language = wording.language.empty() ? scenario.language : wording.language;
+  const fs::path file(scenario.file);
+  std::string words = wording.words;
+  if (words.empty() && wording.language.empty() && !scenario.words_file.empty())
+    words = (file.parent_path() / scenario.words_file).string();
+  const bool foreign = !language.empty() && language != "en";
+  if (words.empty() && !foreign) return scenario;
+  const auto shipped = words_in(language);
+  if (words.empty() && !shipped) {
+    Diagnostic unknown = diagnose(scenario, {scenario.file, 0, 0},
+                                  fmt::format("there are no words for the language '{}'", language),
+                                  suggestion(language, languages()));
+    unknown.suggestion += "; others are read from a file: words = \"sv.toml\"";
+    throw ScenarioError(unknown);
+  }
+  WordTable table = shipped ? *shipped : WordTable();
+  if (!words.empty()) table = read_words_file(words, table);
+  const fs::path own = file.parent_path() / table.language / file.filename();
+  std::error_code error;
+  if (fs::is_regular_file(own, error)) table = read_words_file(own.string(), table);
+  translate(scenario, std::make_shared<const WordTable>(std::move(table)));
+  return scenario;
+}
+
+}  // namespace
+
+Scenario load_scenario(const std::string& path, const Wording& wording) {
+  if (path == "-")
+    return worded(parse_scenario(read_stdin(kMostFileBytes), std::string(kStandardInput)), wording);
   std::error_code error;
   if (fs::is_regular_file(path, error)) {
     const std::uintmax_t bytes = fs::file_size(path, error);
     if (!error && bytes > kMostFileBytes) refuse_size(path, bytes);
   }
-  return parse_scenario(read_input(path, kMostFileBytes), path);
+  return worded(parse_scenario(read_input(path, kMostFileBytes), path), wording);
 }
 
 Glance glance_at(const std::string& path) try {

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/words.hpp"
 #include "geometry/vec.hpp"
 #include "language/specs.hpp"
 
@@ -350,9 +351,12 @@ struct Noticed {
 // All that a file says. Each value has its type, but nothing is known to be right: a name may be
 // that of nobody, an index may lie beyond its list. Only diagnostics can be made of it.
 struct ScenarioSpec {
-  std::string name;       // [a-z0-9_]+, from the file's name unless given; names files and folders
-  std::string file_stem;  // from which the name was made, where it could not be taken as it is
-  std::string file;       // as it was given
+  std::string name;        // [a-z0-9_]+, from the file's name unless given; names files and folders
+  std::string file_stem;   // from which the name was made, where it could not be taken as it is
+  std::string file;        // as it was given
+  std::string language;    // of its frames' fixed words, "de"; empty: English
+  std::string words_file;  // a table of them, beside this file; may be empty
+  std::shared_ptr<const WordTable> words;  // in which they are said; null: in English
   std::string title;
   std::string source;                    // the part of the lecture it shows
   std::string idea;                      // the one that it is about, in a line; may be empty
@@ -416,7 +420,12 @@ inline constexpr std::string_view kStandardInput = "<stdin>";
 
 // Throws ScenarioError with every mistake found, IoError if the file cannot be read. "-" is
 // standard input; without a name of its own, the scenario from there is called `stdin`.
-Scenario load_scenario(const std::string& path);
+// With the table of words that it names, or the caller does in its place, and with the texts that
+// stand for its own in a file beside it: those of ghosts.toml in German in de/ghosts.toml.
+struct Wording {
+  std::string language, words;  // "de", "words/sv.toml"; empty: the file's own
+};
+Scenario load_scenario(const std::string& path, const Wording& wording = {});
 
 // Of a file of a folder, what must be known before it is read as a scenario.
 struct Glance {

@@ -148,6 +148,7 @@ struct StructureSpec {
 
 struct BodySpec {
   std::string name;
+  std::string label;  // what pictures call it; empty: its name
   Look look = Look::box;
   int color = 1;  // body 1 ... 8 of the theme
   Shape<3> shape;
@@ -175,6 +176,7 @@ struct BodySpec {
   double brain_speed = 0;   // units a second at most
   SourcePosition where;
 
+  const std::string& called() const { return label.empty() ? name : label; }
   const Vec<3>& axis_of_spin() const { return spin_axis ? *spin_axis : axis; }
 };
 

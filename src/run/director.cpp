@@ -71,7 +71,7 @@ EventWatch ScriptRun::watch_of_insertion() {
 
 std::string ScriptRun::name_of(BodyId id) const {
   for (std::size_t i = 0; i < scenario.bodies.size(); ++i)
-    if (stage.engine->id_of(i) == id) return scenario.bodies[i].name;
+    if (stage.engine->id_of(i) == id) return scenario.bodies[i].called();
   return {};
 }
 

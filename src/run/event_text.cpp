@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include "base/number.hpp"
+#include "base/words.hpp"
 
 namespace lantern::run {
 namespace {
 
 std::string place_of(const std::string& node) {
-  if (node.empty()) return "an inner node";
-  return node == "root" ? "the root" : "node " + node;
+  if (node.empty()) return word("an inner node");
+  return node == "root" ? word("the root") : say("node {}", node_words(node));
 }
 
 // What is said of events, in the order of Event::Kind: {0} is the body and {1} the node, {2} and
@@ -64,8 +65,7 @@ std::string event_text(const Event& e, const StructureSpec& structure, const std
                        const std::string& body) {
   const StructureTraits& traits = traits_of(structure.kind);
   if (!traits.is_tree)
-    return fmt::format("{} lists {}: {} in all.", capitalised(std::string(traits.words)), body,
-                       e.count);
+    return say("{} lists {}: {} in all.", capitalised(word(traits.words)), body, e.count);
   const auto kind = static_cast<std::size_t>(e.kind);
   const bool has_own = traits.holds_once && kFittingTexts[kind] != nullptr;
   const char* text = has_own ? kFittingTexts[kind] : kTexts[kind];
@@ -75,71 +75,66 @@ std::string event_text(const Event& e, const StructureSpec& structure, const std
     text = e.limit == 0 ? "{3} stores {0} and holds {4}."
                         : "{3} stores {0} and holds {4} of at most {5}.";
   const std::string place = place_of(node);
-  return fmt::format(fmt::runtime(text), body, place, capitalised(body), capitalised(place),
-                     e.count, e.limit, structure.max_depth);
+  return say(fmt::runtime(text), body, place, capitalised(body), capitalised(place), e.count,
+             e.limit, structure.max_depth);
 }
 
 std::string event_text(const AtlasEvent& e, const std::string& node, const std::string& texture,
                        int width, int height) {
   const std::string size = fmt::format("{} ({} × {})", texture, width, height);
-  return fmt::format(fmt::runtime(kAtlasTexts[static_cast<std::size_t>(e.kind)]), node, size);
+  return say(fmt::runtime(kAtlasTexts[static_cast<std::size_t>(e.kind)]), node_words(node), size);
 }
 
 std::string bind_text(const std::string& image, const std::string& bound, std::uint64_t bindings) {
-  const std::string count = fmt::format("binding {}", bindings);
-  if (bound.empty()) return fmt::format("Nothing is bound yet. Bind {}: {}.", image, count);
-  return fmt::format("Next comes {}, but {} is bound. Bind {}: {}.", image, bound, image, count);
+  const std::string count = say("binding {}", bindings);
+  if (bound.empty()) return say("Nothing is bound yet. Bind {}: {}.", image, count);
+  return say("Next comes {}, but {} is bound. Bind {}: {}.", image, bound, image, count);
 }
 
 std::string draw_text(const std::string& texture, bool from_atlas) {
-  if (!from_atlas) return fmt::format("{} is bound: draw it.", capitalised(texture));
-  return fmt::format("The atlas is bound: draw {} from its place in it.", texture);
+  if (!from_atlas) return say("{} is bound: draw it.", capitalised(texture));
+  return say("The atlas is bound: draw {} from its place in it.", texture);
 }
 
 std::string query_text(std::string_view event, const std::string& node, const std::string& body) {
   const std::string place = place_of(node);
-  if (event == "visit") return fmt::format("{} is reached: look inside.", capitalised(place));
+  if (event == "visit") return say("{} is reached: look inside.", capitalised(place));
   if (event == "skip")
-    return fmt::format("{} is not reached: it is skipped, with all below it.", capitalised(place));
-  if (event == "hit") return fmt::format("{} is tested: a hit.", capitalised(body));
-  return fmt::format("{} is tested: no hit.", capitalised(body));
+    return say("{} is not reached: it is skipped, with all below it.", capitalised(place));
+  if (event == "hit") return say("{} is tested: a hit.", capitalised(body));
+  return say("{} is tested: no hit.", capitalised(body));
 }
 
 std::string axis_text(const FrameSeparation& separation, const std::string& a,
                       const std::string& b) {
   const FrameAxis& axis = separation.axes.back();
   const std::string where =
-      axis.across
-          ? fmt::format("perpendicular to a side of {}", *axis.across == separation.a ? a : b)
-          : fmt::format("from {} to {}, where they are closest", a, b);
-  const std::string name = fmt::format("Axis {}, {}", separation.axes.size(), where);
+      axis.across ? say("perpendicular to a side of {}", *axis.across == separation.a ? a : b)
+                  : say("from {} to {}, where they are closest", a, b);
+  const std::string name = say("Axis {}, {}", separation.axes.size(), where);
   if (axis.separation > 0)
-    return fmt::format("{}: a gap of {:.4g}. One gap is enough: they are apart.", name,
-                       axis.separation);
-  return fmt::format("{}: the shadows overlap by {:.4g}.", name, -axis.separation);
+    return say("{}: a gap of {:.4g}. One gap is enough: they are apart.", name, axis.separation);
+  return say("{}: the shadows overlap by {:.4g}.", name, -axis.separation);
 }
 
 std::string search_text(const FrameSearch& search, const std::string& a, const std::string& b) {
   const GjkStep& step = search.steps.back();
   const std::size_t n = search.steps.size();
   if (step.ends)
-    return fmt::format(
-        "Search {} finds nothing farther that way: no point is nearer to the origin.", n);
+    return say("Search {} finds nothing farther that way: no point is nearer to the origin.", n);
   if (!search.taken && n == 1)
-    return fmt::format(
+    return say(
         "Search 1, from {} towards {}: farthest point of {}, minus farthest of {} the "
         "other way.",
         a, b, a, b);
   if (!search.taken)
-    return fmt::format("Search {}, straight at the origin: point {} is the farthest that way.", n,
-                       n);
+    return say("Search {}, straight at the origin: point {} is the farthest that way.", n, n);
   if (step.simplex.size() == 3)
-    return "The origin lies inside the triangle: the bodies have a point in common.";
+    return word("The origin lies inside the triangle: the bodies have a point in common.");
   const double distance = glm::length(step.nearest);
   if (step.simplex.size() == 1)
-    return fmt::format("It is {:.4g} from the origin. Search again, straight at the origin.",
-                       distance);
-  return fmt::format(
+    return say("It is {:.4g} from the origin. Search again, straight at the origin.", distance);
+  return say(
       "The line of the two points comes nearer: {:.4g}. Again, straight at the "
       "origin.",
       distance);
@@ -147,44 +142,43 @@ std::string search_text(const FrameSearch& search, const std::string& a, const s
 
 std::string look_text(const FrameLook& look) {
   if (look.meets)
-    return fmt::format("At {:.3f} of the step they touch: the time of impact, found by {} looks.",
-                       look.time, look.number);
+    return say("At {:.3f} of the step they touch: the time of impact, found by {} looks.",
+               look.time, look.number);
   // A guess, by how fast they come nearer.
   if (look.gap < 0)
-    return fmt::format("Do they meet by {:.2f} of the step? Yes, they would overlap: too late.",
-                       look.time);
+    return say("Do they meet by {:.2f} of the step? Yes, they would overlap: too late.", look.time);
   if (!(look.free_until > look.time))
-    return fmt::format("Do they meet by {:.2f} of the step? Not yet: the gap is {:.2g}.", look.time,
-                       look.gap);
-  return fmt::format("At {:.2f} of the step the gap is {:.2g}: it cannot close before {:.2f}.",
-                     look.time, look.gap, look.free_until);
+    return say("Do they meet by {:.2f} of the step? Not yet: the gap is {:.2g}.", look.time,
+               look.gap);
+  return say("At {:.2f} of the step the gap is {:.2g}: it cannot close before {:.2f}.", look.time,
+             look.gap, look.free_until);
 }
 
 std::string phase_text(std::string_view phase, const Frame& frame) {
   const auto pairs = static_cast<std::int64_t>(frame.pairs.size());
   const auto contacts = static_cast<std::int64_t>(frame.contacts.size());
   if (phase == "broad_phase")
-    return fmt::format("Broad phase: {}, instead of {} by brute force. These might touch.",
-                       counted(pairs, "candidate pair"), frame.count("testable_pairs").value_or(0));
+    return say("Broad phase: {}, instead of {} by brute force. These might touch.",
+               say_count(pairs, "candidate pair/candidate pairs"),
+               frame.count("testable_pairs").value_or(0));
   const std::int64_t overlaps = frame.count("overlaps").value_or(0);
   if (phase == "boxes")
-    return fmt::format(
-        "Broad phase, second part: of {}, {} overlap. Only their shapes need a test.",
-        counted(pairs, "candidate pair"),
-        overlaps == pairs ? "all" : fmt::format("the boxes of {}", overlaps));
+    return say("Broad phase, second part: of {}, {} overlap. Only their shapes need a test.",
+               say_count(pairs, "candidate pair/candidate pairs"),
+               overlaps == pairs ? word("all") : say("the boxes of {}", overlaps));
   if (phase == "narrow_phase") {
     const std::int64_t tested = frame.count("pairs_tested").value_or(0);
-    if (overlaps == 0) return "Narrow phase: no boxes overlap, so no shapes are tested.";
-    const std::string whose = tested != overlaps ? fmt::format("the true shapes of {}", tested)
-                              : overlaps == 1    ? "its true shapes"
-                                                 : "their true shapes";
-    return fmt::format("Narrow phase: the boxes of {} overlap; {} are tested. {} really {}.",
-                       counted(overlaps, "pair"), whose, contacts,
-                       contacts == 1 ? "touches" : "touch");
+    if (overlaps == 0) return word("Narrow phase: no boxes overlap, so no shapes are tested.");
+    const std::string whose = tested != overlaps
+                                  ? say("the true shapes of {}", tested)
+                                  : noun("its true shapes/their true shapes", overlaps);
+    return say("Narrow phase: the boxes of {} overlap; {} are tested. {}.",
+               say_count(overlaps, "pair/pairs"), whose,
+               say_count(contacts, "really touches/really touch"));
   }
-  return fmt::format(
+  return say(
       "Resolution: impulses at {} push the bodies apart. Each arrow shows how strong one is.",
-      counted(frame.count("contact_points").value_or(0), "contact point"));
+      say_count(frame.count("contact_points").value_or(0), "contact point/contact points"));
 }
 
 }  // namespace lantern::run

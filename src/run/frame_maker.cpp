@@ -7,6 +7,7 @@
 #include "base/check.hpp"
 #include "base/error.hpp"
 #include "base/stop.hpp"
+#include "base/words.hpp"
 #include "frame/frame.hpp"
 #include "frame/panel.hpp"
 #include "geometry/flat.hpp"
@@ -410,9 +411,9 @@ void FrameMaker::light_room(Frame& frame) const {
 
 std::optional<std::string> FrameMaker::text_of(std::string_view name, const Frame& frame) const {
   if (name == "texture") return texture;
-  if (name == "refused_names") return refused_names_.empty() ? "none" : refused_names_;
-  if (name == "time") return fmt::format("{:.2f}", frame.time);
-  if (const auto measured = frame.measure(name)) return fmt::format("{:.4g}", *measured);
+  if (name == "refused_names") return refused_names_.empty() ? word("none") : refused_names_;
+  if (name == "time") return say("{:.2f}", frame.time);
+  if (const auto measured = frame.measure(name)) return say("{:.4g}", *measured);
   return std::nullopt;
 }
 

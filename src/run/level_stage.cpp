@@ -5,6 +5,7 @@
 #include "base/check.hpp"
 #include "base/error.hpp"
 #include "base/number.hpp"
+#include "base/words.hpp"
 #include "frame/parts/level.hpp"
 #include "frame/parts/panels.hpp"
 #include "language/counts.hpp"
@@ -99,17 +100,17 @@ std::string LevelStage::told(const LevelEvent& event) const {
   using Kind = LevelEvent::Kind;
   switch (event.kind) {
     case Kind::consider:
-      return fmt::format("A region with {}. Does one of them lie behind another?",
-                         counted(event.line.front, "wall piece"));
+      return say("A region with {}. Does one of them lie behind another?",
+                 say_count(event.line.front, "wall piece/wall pieces"));
     case Kind::choose:
-      return fmt::format("Wall {} has the best line: {} in front, {} behind, {} cut. Score: {}.",
-                         event.line.wall + 1, event.line.front, event.line.back, event.line.cuts,
-                         score_text(event.line, spec_.balance, spec_.cuts));
+      return say("Wall {} has the best line: {} in front, {} behind, {} cut. Score: {}.",
+                 event.line.wall + 1, event.line.front, event.line.back, event.line.cuts,
+                 score_text(event.line, spec_.balance, spec_.cuts));
     case Kind::cut:
-      return fmt::format("The line cuts wall {} in two.", event.line.wall + 1);
+      return say("The line cuts wall {} in two.", event.line.wall + 1);
     case Kind::sector:
-      return fmt::format("No wall lies behind another: the region is convex. It becomes sector {}.",
-                         event.sector + 1);
+      return say("No wall lies behind another: the region is convex. It becomes sector {}.",
+                 event.sector + 1);
     case Kind::candidate:
     case Kind::divide:
       break;
@@ -170,13 +171,13 @@ void LevelStage::see(const std::optional<Vec<2>>& eye, const Watch& watch) {
 
 std::string LevelStage::told(const LevelVisibility& seen) const {
   if (viewer_ == kNone)
-    return fmt::format("{} between the sectors: openings that one can look through.",
-                       counted(seen.portals.size(), "portal"));
+    return say("{} between the sectors: openings that one can look through.",
+               say_count(seen.portals.size(), "portal/portals"));
   std::uint32_t others = 0;
   for (std::uint32_t s = 0; s < seen.sectors; ++s) others += s != viewer_ && seen.sees(viewer_, s);
-  const std::string sees = fmt::format("{} of {}", others, counted(seen.sectors - 1, "other"));
-  if (viewer_ > 0) return fmt::format("Sector {} sees {}.", viewer_ + 1, sees);
-  return fmt::format(
+  const std::string sees = say("{} of {}", others, say_count(seen.sectors - 1, "other/others"));
+  if (viewer_ > 0) return say("Sector {} sees {}.", viewer_ + 1, sees);
+  return say(
       "Sector 1 looks through one portal after another, as long as one straight line fits through "
       "all of them. It sees {}.",
       sees);

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "base/stop.hpp"
+#include "base/words.hpp"
 #include "frame/frame.hpp"
 #include "frame/parts/panels.hpp"
 #include "language/counts.hpp"
@@ -112,37 +113,56 @@ inline std::string level_label(const StructureSpec& spec, std::uint32_t id) {
 }
 
 // "spatial hash, cells of 4, 3 levels"
-inline std::string grid_text(const StructureSpec& s) {
-  return fmt::format("{}cells {}{}", s.open ? "spatial hash, " : "",
-                     s.cell == 0 ? "that suit the bodies" : fmt::format("of {:g}", s.cell),
-                     s.levels == 1 ? "" : fmt::format(", {} levels", s.levels));
+inline std::vector<std::string> grid_settings(const StructureSpec& s) {
+  std::vector<std::string> told;
+  if (s.open) told.push_back(word("spatial hash"));
+  told.push_back(s.cell == 0 ? word("cells that suit the bodies") : say("cells of {:g}", s.cell));
+  if (s.levels != 1) told.push_back(say("{} levels", s.levels));
+  return told;
 }
 
 // "capacity 2, depth limit 4, all children made"
 inline std::string settings_text(const StructureSpec& s, int sweep_axis) {
-  const std::string split = s.split_static ? ", static bodies apart" : "";
   const StructureTraits& traits = traits_of(s.kind);
-  if (s.kind == StructureKind::brute_force) return "every body with every other" + split;
-  if (traits.has(Setting::axis))
-    return fmt::format("sorted along {}, then swept{}", "xyz"[sweep_axis], split);
-  if (traits.has(Setting::planes))
-    return fmt::format("{} dividing line{}{}", s.planes.size(), s.planes.size() == 1 ? "" : "s",
-                       split);
-  if (traits.has(Setting::cell)) return grid_text(s) + split;
-  if (traits.has(Setting::margin))
-    return fmt::format(
-        "a leaf for each body, {}{}",
-        s.margin > 0 ? fmt::format("boxes enlarged by {}", s.margin) : "boxes not enlarged", split);
-  if (!traits.has(Setting::capacity)) return std::string(traits.words) + split;
-  const std::string limits = fmt::format("capacity {}, depth limit {}", s.capacity, s.max_depth);
-  if (traits.is_own) return fmt::format("{}, {}{}, events inferred", traits.words, limits, split);
-  if (traits.is_plain)
-    return fmt::format("the lecture's {}, {}{}", s.as_printed ? "code as printed" : "own code",
-                       limits, split);
-  if (traits.is_fitted) return "fitted to its bodies, " + limits + split;
-  return fmt::format("{}, {}{}{}", limits,
-                     s.eager_children ? "all children made" : "children on demand",
-                     s.no_progress_stop ? ", stops without progress" : "", split);
+  std::vector<std::string> told;
+  const auto tell = [&](std::string setting) { told.push_back(std::move(setting)); };
+  const auto tell_limits = [&] {
+    tell(say("capacity {}", s.capacity));
+    tell(say("depth limit {}", s.max_depth));
+  };
+  bool split_before_last = false;
+  if (s.kind == StructureKind::brute_force) {
+    tell(word("every body with every other"));
+  } else if (traits.has(Setting::axis)) {
+    tell(say("sorted along {}, then swept", "xyz"[sweep_axis]));
+  } else if (traits.has(Setting::planes)) {
+    tell(say_count(s.planes.size(), "dividing line/dividing lines"));
+  } else if (traits.has(Setting::cell)) {
+    told = grid_settings(s);
+  } else if (traits.has(Setting::margin)) {
+    tell(word("a leaf for each body"));
+    tell(s.margin > 0 ? say("boxes enlarged by {}", s.margin) : word("boxes not enlarged"));
+  } else if (!traits.has(Setting::capacity)) {
+    tell(word(traits.words));
+  } else if (traits.is_own) {
+    tell(word(traits.words));
+    tell_limits();
+    split_before_last = true;
+    tell(word("events inferred"));
+  } else if (traits.is_plain) {
+    tell(word(s.as_printed ? "the lecture's code as printed" : "the lecture's own code"));
+    tell_limits();
+  } else {
+    if (traits.is_fitted) tell(word("fitted to its bodies"));
+    tell_limits();
+    if (!traits.is_fitted) {
+      tell(word(s.eager_children ? "all children made" : "children on demand"));
+      if (s.no_progress_stop) tell(word("stops without progress"));
+    }
+  }
+  if (s.split_static)
+    told.insert(told.end() - (split_before_last ? 1 : 0), word("static bodies apart"));
+  return fmt::format("{}", fmt::join(told, ", "));
 }
 
 // Fills a frame with the nodes of one structure after another.

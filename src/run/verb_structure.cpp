@@ -7,6 +7,7 @@
 
 #include "base/error.hpp"
 #include "base/number.hpp"
+#include "base/words.hpp"
 #include "run/event_text.hpp"
 #include "run/script_run.hpp"
 
@@ -29,10 +30,11 @@ std::vector<BodyId> in_order(const Frame& frame) {
 
 // With what of those that begin later, and before it ends, it was compared.
 std::string text_of(const std::string& name, const std::vector<std::string>& others) {
-  if (others.empty())
-    return fmt::format("No later body begins before {} ends: nothing to compare.", name);
-  return fmt::format("Before {} ends, {} begin{}: {} to compare.", name, fmt::join(others, " and "),
-                     others.size() == 1 ? "s" : "", counted(others.size(), "pair"));
+  if (others.empty()) return say("No later body begins before {} ends: nothing to compare.", name);
+  const auto n = static_cast<std::int64_t>(others.size());
+  return say("Before {} ends, {} {}: {} to compare.", name,
+             fmt::format("{}", fmt::join(others, " " + word("and") + " ")), noun("begins/begin", n),
+             say_count(n, "pair/pairs"));
 }
 
 // What the walk of a finding has brought to light so far, event by event: hits, counts, how far a
@@ -139,7 +141,7 @@ void answer(const Finding& finding, std::string_view verb, ScriptRun& run) {
 }
 
 std::string own_name(const ScriptRun& run, std::size_t body) {
-  return run.scenario.bodies[body].name;
+  return run.scenario.bodies[body].called();
 }
 
 // What the verbs of a level and of an atlas do: `compile`, `locate`, `order` and `see`; `pack`,
@@ -163,14 +165,14 @@ void witness(const AtlasEvent& event, ScriptRun& run) {
     frames.asked = {texture.width, texture.height};
   frames.emit(now, event_name(event.kind),
               event_text(event, run.stage.atlas->label_of(event.node),
-                         texture.turned ? texture.name + ", turned" : texture.name, texture.width,
-                         texture.height));
+                         texture.turned ? say("{}, turned", texture.name) : texture.name,
+                         texture.width, texture.height));
   frames.asked = Vec<2>(0.0);
 }
 
 std::string refusal_text(const TextureSpec& texture) {
-  return fmt::format("No leaf has room for {} ({} × {}): it is refused, the rest is kept.",
-                     texture.name, texture.width, texture.height);
+  return say("No leaf has room for {} ({} × {}): it is refused, the rest is kept.", texture.name,
+             texture.width, texture.height);
 }
 
 // Leaves choose among all textures of the step: these enter in the order in which they are chosen.
@@ -235,7 +237,7 @@ void act(const language::Sweep&, ScriptRun& run) {
   const Frame whole = frames.picture(frames.touched, "sweep");
   std::vector<Pair> met;
   run.engine().each_swept([&](BodyId a, BodyId b) { met.push_back({a, b}); });
-  const auto name_of = [&](BodyId id) { return whole.body_of(id)->name; };
+  const auto name_of = [&](BodyId id) { return whole.body_of(id)->called(); };
   SweptSoFar& swept = frames.swept.emplace(SweptSoFar{whole.hash, 0, {}});
   std::size_t next = 0;
   for (const BodyId at : in_order(whole)) {
@@ -362,7 +364,7 @@ void act(const DrawScreen& draw, ScriptRun& run) {
     frames.texture = run.scenario.textures[texture].name;
     if (from_atlas && !run.stage.atlas->leaf_of(texture))
       throw Refused("the atlas has refused '{}', which its screen shows", frames.texture);
-    const std::string image = from_atlas ? "the atlas" : frames.texture;
+    const std::string image = from_atlas ? word("the atlas") : frames.texture;
     if (screen.bind(element))
       tell_draw(kBindEvent, texture, from_atlas, bind_text(image, bound, screen.bindings()), run);
     bound = image;

@@ -61,6 +61,7 @@ FrameBody frame_body(const Body<D>& body, const BodySpec& spec, std::size_t plac
   b.id = body.id;
   b.place = static_cast<std::uint32_t>(place);
   b.name = body.name;
+  b.label = spec.label;
   b.look = spec.look;
   b.color = spec.color;
   b.shape = in_dimension<3>(body.shape);

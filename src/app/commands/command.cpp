@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "app/run_scenario.hpp"
 #include "app/terminal.hpp"
 #include "base/memory.hpp"
 
@@ -134,6 +135,17 @@ Option memory_option() {
   return {"--memory", &read_memory,
           "memory to take at most, such as 800M or 4G; the default is half of the machine's",
           OptionTraits{.value = "SIZE"}};
+}
+
+Option language_option() {
+  return {"--language", &wording().language,
+          "language of a picture's fixed words in place of the scenario's, such as de",
+          OptionTraits{.value = "LANGUAGE"}};
+}
+
+Option words_option() {
+  return {"--words", &wording().words, "file with the words of another language",
+          OptionTraits{.value = "FILE"}};
 }
 
 Option tolerance_option(int& tolerance) {

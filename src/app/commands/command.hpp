@@ -67,6 +67,9 @@ Option pace_option(std::string& pace, const char* help = "as for render");
 Option engine_option(std::string& file);
 // Before a command, and after one that runs a scenario.
 Option memory_option();
+// The language of what is drawn, and a file of words for it.
+Option language_option();
+Option words_option();
 // How much pictures may differ.
 Option tolerance_option(int& tolerance);
 Option fraction_option(double& fraction);

@@ -44,6 +44,8 @@ Options golden_options(GoldenOptions& o) {
           {"--frames", &o.as.frames, "as for render", {.value = "A-B"}},
           {"--at", &o.as.at, "as for render", {.value = "EVENT|TIME"}},
           backend_option(o.as.backend),
+          language_option(),
+          words_option(),
           memory_option(),
           json_option(o.as.json)};
 }

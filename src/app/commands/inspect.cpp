@@ -34,6 +34,8 @@ struct CheckOptions {
 Options check_options(CheckOptions& o) {
   return {{"FILE", &o.files, kFilesHelp, {.required = true}},
           pace_option(o.pace),
+          language_option(),
+          words_option(),
           memory_option(),
           {"--strict", &o.strict, "turn warnings into errors (exit code 3)"},
           json_option(o.json),

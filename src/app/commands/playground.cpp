@@ -48,6 +48,8 @@ Options playground_options(PlaygroundOptions& o) {
           {"-o,--output", &o.output, "the page", {.value = "PATH"}},
           engine_option(o.engine),
           {"--theme", &o.theme, "colours", {.words = kThemes}},
+          language_option(),
+          words_option(),
           memory_option()};
 }
 

@@ -70,6 +70,8 @@ Options watch_options(RenderOptions& o) {
       {"--strict", &o.strict, "turn warnings into errors (exit code 3)"},
       {"-j,--threads", &o.threads, "encoding threads; the default is one per core",
        OptionTraits{.value = "N", .least = 1, .most = 256}},
+      language_option(),
+      words_option(),
       memory_option(),
       json_option(o.json)};
 }

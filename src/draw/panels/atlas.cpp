@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "base/words.hpp"
 #include "draw/body_shapes.hpp"
 #include "draw/marks.hpp"
 #include "draw/page.hpp"
@@ -75,7 +76,8 @@ class AtlasView : PanelPicture {
         const DrawList::Scope scope = shown("atlas/lit", node);
         list_.crisp_rect(on_page(flat(node.box)), Role::none, {Role::lit, 4});
       }
-    if (packed.size() == kMostTextures) labels_.add_note("not all textures are drawn", image_);
+    if (packed.size() == kMostTextures)
+      labels_.add_note(word("not all textures are drawn"), image_);
     for (const FrameTexture* texture : packed) draw_plate(texture->name, place_of(*texture));
     draw_asked();
     for (const FrameNode* node : free_leaves()) name_free(*node);
@@ -155,7 +157,7 @@ class AtlasView : PanelPicture {
     const std::string numbers = fmt::format("{:.0f} × {:.0f}", size.x, size.y);
     const Anchor anchor = centred(box.center(), style);
     for (const std::string& text :
-         {node.label.empty() ? "free " + numbers : node.label + "  " + numbers,
+         {node.label.empty() ? say("free {}", numbers) : node.label + "  " + numbers,
           node.label.empty() ? numbers : node.label}) {
       if (!holds(shrunk(box, 6), Labels::extent(text, anchor, style))) continue;
       if (try_write(text, {anchor}, style)) return;
@@ -189,8 +191,8 @@ class AtlasView : PanelPicture {
     list_.rect({corner, corner + size}, Role::none, {Role::panel, 8});
     list_.rect({corner, corner + size}, Role::none, {role, 4, 9});
     const TextStyle style{kLabel, Weight::semibold, fits ? Role::lit_ink : Role::warning};
-    const std::string words =
-        fmt::format("{:.0f} × {:.0f}{}", asked.x, asked.y, fits ? "" : " does not fit");
+    const std::string words = fits ? fmt::format("{:.0f} × {:.0f}", asked.x, asked.y)
+                                   : say("{:.0f} × {:.0f} does not fit", asked.x, asked.y);
     const double inside = image_.hi.x - corner.x;  // how much of it lies on the image
     const double middle = inside < size.x ? (inside + size.x) / 2 : size.x / 2;
     const Vec<2> at = corner + Vec<2>(middle, fits ? 24 : size.y / 2);
@@ -239,7 +241,7 @@ class AtlasView : PanelPicture {
     while (scale > 0.02 && single_rows(scale, false, 0) > room) scale *= 0.96;
     const double height = kAtlasHeading + single_rows(scale, false, 0);
     const double top = std::max(panel_.lo.y, panel_.center().y - height / 2);
-    try_write(fmt::format("{} texture{}, each an image of its own", n, n == 1 ? "" : "s"),
+    try_write(say("{}, each an image of its own", say_count(n, "texture/textures")),
               {{{panel_.lo.x + 6, top + 23}, 0}}, quiet);
     parts_ = n > 100 ? 0 : kMostPatternParts;
     single_rows(scale, true, top + kAtlasHeading);
@@ -254,9 +256,9 @@ class AtlasView : PanelPicture {
     choose_strip_scale();
     Box<2> upper = strip_;
     if (!refused.empty()) upper.hi.y -= 0.4 * strip_.size().y;
-    if (!waiting.empty() || refused.empty()) draw_queue("waiting", waiting, upper, false);
+    if (!waiting.empty() || refused.empty()) draw_queue(word("waiting"), waiting, upper, false);
     if (!refused.empty())
-      draw_queue("refused", refused, {{upper.lo.x, upper.hi.y}, strip_.hi}, true);
+      draw_queue(word("refused"), refused, {{upper.lo.x, upper.hi.y}, strip_.hi}, true);
   }
 
   // The atlas's own scale if all textures have room in the strip, else half of it or less. All of
@@ -279,7 +281,7 @@ class AtlasView : PanelPicture {
   }
 
   // In rows, first come first; what has no room is counted.
-  void draw_queue(const char* heading, const std::vector<const FrameTexture*>& queue,
+  void draw_queue(const std::string& heading, const std::vector<const FrameTexture*>& queue,
                   const Box<2>& area, bool crossed) {
     const TextStyle style{kLabel, Weight::semibold, crossed ? Role::warning : Role::quiet_ink};
     const double number = Labels::width_of(frame_.get<FrameTextures>().textures.size(), style);
@@ -290,7 +292,7 @@ class AtlasView : PanelPicture {
     const TextStyle note{kLabel, Weight::regular, Role::quiet_ink};
     const double name_line = crossed ? 30 : 0;
     if (strip_scale_ < scale_ && !queue.empty())
-      try_write(strip_scale_ < scale_ / 2 ? "(drawn smaller)" : "(half size)",
+      try_write(word(strip_scale_ < scale_ / 2 ? "(drawn smaller)" : "(half size)"),
                 {{{end + 10, area.lo.y + 23}, 0}}, note);
     Vec<2> at{area.lo.x, area.lo.y + kAtlasHeading};
     double row = 0;
@@ -301,7 +303,7 @@ class AtlasView : PanelPicture {
         at = {area.lo.x, at.y + row}, row = 0;
       const double last = area.hi.y - (i + 1 < queue.size() ? 32 : 4);
       if (at.y + size.y + name_line > last) {
-        try_write(fmt::format("and {} more", queue.size() - i),
+        try_write(say("and {} more", queue.size() - i),
                   {{{area.lo.x, at.y + row + 23}, 0}, {{area.lo.x, area.hi.y - 6}, 0}}, note);
         return;
       }

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/words.hpp"
 #include "draw/body_shapes.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
@@ -53,7 +54,7 @@ class AxesView : PanelPicture {
 
   void draw() {
     if (rows_ == 0 || row_ < kLeastAxisRow || !(scale_ > 0)) return;
-    heading("how far each reaches, axis by axis", 24);
+    heading(word("how far each reaches, axis by axis"), 24);
     const std::size_t known = frame_.get<FrameSeparation>().axes.size();
     for (std::size_t i = 0; i < rows_; ++i) {
       const DrawList::Scope scope(list_, fmt::format("axes/{}", i));
@@ -97,7 +98,7 @@ class AxesView : PanelPicture {
     const TextStyle& style = front ? kStrong : kPlain;
     // Where one shadow lies within the other, what is told is how far it must go to leave it.
     const bool within = s.b_hi < s.a_hi || s.b_lo < s.a_lo;
-    const char* what = apart ? "gap" : within ? "depth" : "overlap";
+    const std::string what = word(apart ? "gap" : within ? "depth" : "overlap");
     write(fmt::format("{} {}", what, short_number(std::abs(axis.separation))),
           centred({panel_.hi.x - 8, y}, style, 1), style);
   }

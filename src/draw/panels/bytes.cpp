@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "base/words.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 #include "language/panel_rules.hpp"
@@ -17,7 +18,7 @@ constexpr double kBytesBar = 34;
 constexpr double kBytesRow = 50;
 
 struct BytesBar {
-  const char* name = "";
+  std::string name = {};
   double bytes = 0;  // of all nodes
   double boxes = 0;  // of these, for stored boxes
 };
@@ -32,7 +33,8 @@ class BytesView : PanelPicture {
     if (!nodes || !bytes || !with_boxes || *nodes <= 0) return;
     nodes_ = static_cast<double>(*nodes);
     const auto derived = static_cast<double>(*bytes), stored = static_cast<double>(*with_boxes);
-    const BytesBar bars[] = {{"box derived", derived, 0}, {"box stored", stored, stored - derived}};
+    const BytesBar bars[] = {{word("box derived"), derived, 0},
+                             {word("box stored"), stored, stored - derived}};
     // A node has at most so many bytes: the scale stays while the tree grows.
     constexpr double kScale = 32;
     const double scale = kScale * std::max(2.0, std::ceil(stored / nodes_ / kScale));
@@ -51,8 +53,8 @@ class BytesView : PanelPicture {
 
  private:
   std::string numbers(const BytesBar& bar) const {
-    return fmt::format("{} bytes a node, {} in all", number_text(bar.bytes / nodes_, 1),
-                       number_text(bar.bytes));
+    return say("{} bytes a node, {} in all", number_text(bar.bytes / nodes_, 1),
+               number_text(bar.bytes));
   }
 
   void draw_bar(const BytesBar& bar, double y) {
@@ -67,8 +69,9 @@ class BytesView : PanelPicture {
       const Box<2> box = part(own, all);
       list_.rect(box, Role::lit_fill, {Role::lit, 2.2});
       const TextStyle style{kLabel, Weight::regular, Role::lit_ink};
-      if (text_width("its box", style) < box.size().x - 8)
-        try_write("its box", {centred(box.center(), style)}, style);
+      const std::string its_box = word("its box");
+      if (text_width(its_box, style) < box.size().x - 8)
+        try_write(its_box, {centred(box.center(), style)}, style);
     }
     // Every fourth byte: one number of single length.
     for (double at = 4; at < own - 0.5; at += 4)

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/words.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 #include "draw/plot_parts.hpp"
@@ -81,10 +82,10 @@ class Bars : PanelPicture {
 
   std::string title() const {
     const std::string name = chart_.y_unit.empty() && !chart_.y_name.empty()
-                                 ? count_words(frame_, chart_.y_name, false)
+                                 ? count_words(frame_, chart_.y_name, kMany)
                                  : title_of(chart_);
     if (!chart_.logarithmic) return name;
-    return name + (name.empty() ? "" : ", ") + "logarithmic scale";
+    return name + (name.empty() ? "" : ", ") + word("logarithmic scale");
   }
 
   // What the pieces of bars are called.
@@ -144,8 +145,7 @@ class Bars : PanelPicture {
     }
     if (!fits(kLeastRow)) bars_.clear();
     if (bars_.size() < all)
-      note_ =
-          shortened(fmt::format("and {} more", all - bars_.size()), panel_.size().x, type_.tick);
+      note_ = shortened(say("and {} more", all - bars_.size()), panel_.size().x, type_.tick);
   }
 
   void measure() {
@@ -248,9 +248,11 @@ Plot plot_of(const FrameChart& chart, const AxisRanges& axes) {
   if (!chart.over_time) plot.x_range = axes.chart_x();
   plot.log_y = chart.logarithmic;
   plot.log_x = chart.logarithmic && !chart.over_time;
-  plot.x_name = chart.over_time ? "time, s" : chart_words(chart.x_name);
+  plot.x_name = chart.over_time ? word("time, s") : chart_words(chart.x_name);
   if (!chart.x_unit.empty()) plot.x_name += ", " + chart.x_unit;
-  if (plot.log_x) plot.x_note = plot.x_name.empty() ? "both logarithmic" : "  (both logarithmic)";
+  if (plot.log_x)
+    plot.x_note = plot.x_name.empty() ? word("both logarithmic")
+                                      : fmt::format("  ({})", word("both logarithmic"));
   plot.title = title_of(chart);
   const bool of_structures = std::ranges::all_of(chart.series, [](const FrameSeries& series) {
     return look_of_structure(chart_words(series.name)).has_value();
@@ -265,7 +267,8 @@ Plot plot_of(const FrameChart& chart, const AxisRanges& axes) {
     for (const Vec<2>& p : series.points) line.points.push_back({p});
   }
   if (plot.series.size() == 1 && plot.title.empty()) plot.title = plot.series[0].name;
-  if (plot.over_time && plot.log_y && !plot.title.empty()) plot.title += "  (logarithmic)";
+  if (plot.over_time && plot.log_y && !plot.title.empty())
+    plot.title += fmt::format("  ({})", word("logarithmic"));
   return plot;
 }
 

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "base/words.hpp"
 #include "draw/body_shapes.hpp"
 #include "draw/panel.hpp"
 #include "draw/pen.hpp"
@@ -113,22 +114,22 @@ class CollisionsView : PanelPicture {
     const bool begins = moment.begins;
     const double x = column_at(moment.step) + (begins ? 0 : column_);
     list_.crisp_line({x, from_to[0] + 4}, {x, from_to[1]}, {Role::ink, 2.6});
-    const char* const word = begins ? "begin" : "end";
+    const std::string called = word(begins ? "begin" : "end");
     const double gap = 7;
-    try_write(word, {{{x + gap, from_to[0] + 22}, 0}, {{x - gap, from_to[0] + 22}, 1}}, kStrong);
+    try_write(called, {{{x + gap, from_to[0] + 22}, 0}, {{x - gap, from_to[0] + 22}, 1}}, kStrong);
   }
 
   void draw_heading() {
     const double y = panel_.lo.y + 0.8 * kLabel;
     double x = panel_.lo.x;
-    const auto say = [&](const std::string& text, const TextStyle& style) {
+    const auto put = [&](const std::string& text, const TextStyle& style) {
       write(text, {{x, y}, 0}, style);
       x += text_width(text, style) + 14;
     };
-    say("allCollisions", kStrong);
+    put("allCollisions", kStrong);
     const auto left = frames_left();
-    if (left) say(fmt::format("framesLeft {}", *left), kPlain);
-    if (!left) say("empty", kQuiet);
+    if (left) put(fmt::format("framesLeft {}", *left), kPlain);
+    if (!left) put(word("empty"), kQuiet);
     draw_key(y);
   }
 
@@ -143,15 +144,15 @@ class CollisionsView : PanelPicture {
   }
 
   void draw_key(double y) {
-    const double words = text_width("one frame left", kQuiet),
-                 touch = text_width("touching", kQuiet);
+    const double words = text_width(word("one frame left"), kQuiet),
+                 touch = text_width(word("touching"), kQuiet);
     double x = panel_.hi.x - words - touch - 100;
     if (x < panel_.lo.x + 420) return;
     list_.disc({x, y - 8}, 7, Role::contact);
-    write("touching", {{x + 16, y}, 0}, kQuiet);
+    write(word("touching"), {{x + 16, y}, 0}, kQuiet);
     x += touch + 44;
     list_.rect({{x, y - 13}, {x + 26, y - 4}}, Role::cell_line_2, {}, 1.5);
-    write("one frame left", {{x + 36, y}, 0}, kQuiet);
+    write(word("one frame left"), {{x + 36, y}, 0}, kQuiet);
   }
 
   const FrameCollisions& told_ = frame_.get<FrameCollisions>();

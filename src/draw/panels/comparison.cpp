@@ -20,6 +20,7 @@
 
 #include <fmt/format.h>
 
+#include "base/words.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 #include "frame/parts/panels.hpp"
@@ -76,7 +77,7 @@ class ComparisonView : PanelPicture {
     list_.referents.insert(
         {"least_work", "least_lecture_work", "compared_bodies", "compared_pairs"});
     if (frame_.ending && table_.rows.size() > 1)
-      return draw_all(comparisons, "comparisons a step; " + std::string(kBest));
+      return draw_all(comparisons, word("comparisons a step") + "; " + word(kBest));
     const Row& row = table_.rows.back();
     const double middle = panel_.lo.x + kPictureShare * panel_.size().x;
     draw_world(row, {panel_.lo, {middle - 24, panel_.hi.y}}, true);
@@ -85,8 +86,8 @@ class ComparisonView : PanelPicture {
 
   void draw_clock() {
     if (table_.rows.empty()) return;
-    draw_all(microseconds, "microseconds a step; " + std::string(kBest) + "; processor time, " +
-                               table_.rows.back().machine);
+    draw_all(microseconds, word("microseconds a step") + "; " + word(kBest) + "; " +
+                               say("processor time, {}", table_.rows.back().machine));
   }
 
  private:
@@ -142,7 +143,8 @@ class ComparisonView : PanelPicture {
     const DrawList::Scope scope(list_, "comparison/row/" + row.name);
     const double width = place.size().x, y = place.lo.y + 0.8 * kLabel;
     write(shortened(row.name, width, kStrong), {{place.lo.x, y}, 0}, kStrong);
-    const std::string bodies = text_of(row.bodies) + " " + count_words("bodies", row.bodies == 1);
+    const std::string bodies =
+        text_of(row.bodies) + " " + count_words("bodies", static_cast<std::int64_t>(row.bodies));
     const double after = text_width(row.name, kStrong) + 12;
     if (after + text_width(bodies, kQuiet) < 1.8 * width)
       write(bodies, {{place.lo.x + after, y}, 0}, kQuiet);
@@ -162,24 +164,25 @@ class ComparisonView : PanelPicture {
         std::min(kMostBarLine, place.size().y / static_cast<double>(row.cells.size() + 4));
     const double bars = place.hi.x - (keeps ? kColumn : 0);
     double y = place.lo.y + 0.45 * kLabel;
-    const char* const what = "comparisons a step:";
+    const std::string what = word("comparisons a step") + ":";
     write(what, centred({place.lo.x, y}, kQuiet, 0), kQuiet);
     double x = place.lo.x + text_width(what, kQuiet) + 16;
-    for (const auto& [words, role] : {std::pair{"to build", kBuild}, {"to find pairs", kPair}}) {
+    for (const auto& [words, role] :
+         {std::pair{word("to build"), kBuild}, {word("to find pairs"), kPair}}) {
       list_.rect({{x, y - 11}, {x + 22, y + 11}}, role);
       write(words, centred({x + 32, y}, kQuiet, 0), kQuiet);
       x += 50 + text_width(words, kQuiet);
     }
-    if (keeps) write("built once", centred({place.hi.x, y}, kQuiet, 1), kQuiet);
+    if (keeps) write(word("built once"), centred({place.hi.x, y}, kQuiet, 1), kQuiet);
     for (const bool of_lecture : {true, false}) {
-      const char* const group = of_lecture ? "the lecture's structures" : "others";
+      const std::string group = word(of_lecture ? "the lecture's structures" : "others");
       write(group, centred({place.lo.x, y += line}, kQuiet, 0), kQuiet);
       list_.crisp_line({place.lo.x + text_width(group, kQuiet) + 12, y}, {place.hi.x, y},
                        {Role::rule, 1.6});
       for (const Cell& cell : row.cells) {
         if (is_of_lecture(cell) != of_lecture) continue;
         y += line;
-        write(traits_of(cell.kind).words, centred({place.lo.x, y}, kPlain, 0));
+        write(word(traits_of(cell.kind).words), centred({place.lo.x, y}, kPlain, 0));
         const double left = place.lo.x + kNames;
         const double end =
             draw_bar(row, cell, {left, y}, bars - kNumbers - left, comparisons, scale_of(row));
@@ -187,7 +190,7 @@ class ComparisonView : PanelPicture {
         if (keeps) write(text_of(cell.work.build), centred({place.hi.x, y}, kQuiet, 1), kQuiet);
       }
     }
-    write(kBest, centred({place.hi.x, y + line}, kQuiet, 1), kQuiet);
+    write(word(kBest), centred({place.hi.x, y + line}, kQuiet, 1), kQuiet);
   }
 
   // From there, so long at most, which `scale` is; gives the x where it ends.

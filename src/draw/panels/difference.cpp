@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "base/words.hpp"
 #include "draw/body_shapes.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
@@ -49,8 +50,8 @@ class DifferenceView : PanelPicture {
 
   void draw() {
     if (difference_.corners.empty()) return;
-    heading(fmt::format("every point of {} minus every point of {}", name_of(difference_.a),
-                        name_of(difference_.b)),
+    heading(say("every point of {} minus every point of {}", name_of(difference_.a),
+                name_of(difference_.b)),
             22);
     draw_axes();
     draw_shape();
@@ -59,7 +60,7 @@ class DifferenceView : PanelPicture {
     list_.marks.add(MarkKind::origin);
     labels_.block(Box<2>::around(origin_, Vec<2>(11)));
     try_write(
-        "origin",
+        word("origin"),
         {centred(origin_ + Vec<2>(20, 26), kOwn, 0), centred(origin_ - Vec<2>(20, 26), kOwn, 1),
          centred(origin_ + Vec<2>(20, -26), kOwn, 0), centred(origin_ + Vec<2>(-20, 26), kOwn, 1)},
         kOwn);
@@ -71,7 +72,7 @@ class DifferenceView : PanelPicture {
 
   std::string name_of(BodyId id) const {
     const FrameBody* body = frame_.body_of(id);
-    return body ? body->name : "";
+    return body ? body->called() : "";
   }
 
   // Lines through the origin, and numbers at the rim.

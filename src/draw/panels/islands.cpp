@@ -14,6 +14,7 @@
 
 #include <fmt/format.h>
 
+#include "base/words.hpp"
 #include "draw/body_shapes.hpp"
 #include "draw/panel.hpp"
 #include "draw/projection.hpp"
@@ -76,7 +77,7 @@ class IslandGraph : PanelPicture {
         draw_node(body);
     keep_within(list_, first, place_);
     list_.crisp_rect(place_, Role::none, {Role::cell_line_2, 1.8});
-    if (nodes > kMostIslandNodes) labels_.add_note("not all bodies are drawn", place_);
+    if (nodes > kMostIslandNodes) labels_.add_note(word("not all bodies are drawn"), place_);
     name_islands();
     list_.referents.insert({"islands", "largest_island", "islands_asleep", "asleep", "awake"});
   }
@@ -184,8 +185,8 @@ class IslandGraph : PanelPicture {
                              [](const FrameIsland* island) { return island->bodies.size(); });
     if (order.size() > kMostNumbered) order.resize(kMostNumbered);
     for (const FrameIsland* island : order) {
-      const std::string text =
-          fmt::format("island {}{}", island->number, island->asleep ? ", asleep" : "");
+      const std::string text = island->asleep ? say("island {}, asleep", island->number)
+                                              : say("island {}", island->number);
       const Box<2> box = box_of_island(*island);
       if (!(box.size().x > 0)) continue;
       const DrawList::Scope scope(list_, fmt::format("islands/name/{}", island->number));

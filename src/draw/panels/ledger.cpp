@@ -16,6 +16,7 @@
 
 #include <fmt/format.h>
 
+#include "base/words.hpp"
 #include "draw/body_shapes.hpp"
 #include "draw/marks.hpp"
 #include "draw/number_text.hpp"
@@ -46,17 +47,14 @@ std::string key_text(PairState state, std::uint64_t n, const Frame& frame) {
   const bool looked = frame.structure != StructureKind::none;
   const bool compared =
       frame.count("contacts").has_value() && frame.phase != frame::StepPhase::broad;
-  const bool one = n == 1;
-  const char* const overlap = one ? "box overlap" : "box overlaps";
-  const char* const candidate = one ? "candidate pair" : "candidate pairs";
-  const char* const words[] = {"static, never tested",
-                               looked ? "ruled out" : "not looked at",
-                               compared ? overlap : candidate,
-                               "apart by box",
-                               "apart by shape",
-                               one ? "contact" : "contacts"};
-  return fmt::format("{} {}", number_text(static_cast<double>(n)),
-                     words[static_cast<std::size_t>(state)]);
+  const char* const words[] = {
+      "static, never tested",
+      looked ? "ruled out" : "not looked at",
+      compared ? "box overlap/box overlaps" : "candidate pair/candidate pairs",
+      "apart by box",
+      "apart by shape",
+      "contact/contacts"};
+  return number_of(static_cast<double>(n), words[static_cast<std::size_t>(state)]);
 }
 
 // The states that pairs of this scene may be in, in the order of a step.
@@ -143,7 +141,7 @@ class Ledger : PanelPicture {
   }
 
   void draw() {
-    heading(number_of(static_cast<double>(pairs_.all()), "pair"));
+    heading(number_of(static_cast<double>(pairs_.all()), "pair/pairs"));
     if (rows_ < 2) return;
     if (rows_ > kMostLedgerBodies) {
       draw_density({area().lo, panel_.hi - Vec<2>(0, key_height(false) + 14)});
@@ -232,7 +230,7 @@ class Ledger : PanelPicture {
       const Box<2> box = cell_at(row_of(i), row_of(i), plan.cell);
       draw_icon(&body, shrunk(box, 0.04 * plan.cell), list_);
       if (!plan.named) continue;
-      write(body.name, centred({box.hi.x + kLedgerNameGap, box.center().y}, kPlain, 0));
+      write(body.called(), centred({box.hi.x + kLedgerNameGap, box.center().y}, kPlain, 0));
     }
   }
 
@@ -274,7 +272,7 @@ class Ledger : PanelPicture {
     const double x = place.lo.x + kRowHeight * 5 + 24;
     if (x + kWidth > place.hi.x) return;
     double y = place.lo.y + 24;
-    labels_.try_add("tested", {{{x, y}, 0}}, kPlain, place);
+    labels_.try_add(word("tested"), {{{x, y}, 0}}, kPlain, place);
     for (const double share : kScales) {
       y += kRowHeight;
       draw_share({x + 12, y - 8}, share, 24, list_);

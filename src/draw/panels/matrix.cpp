@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "base/words.hpp"
 #include "draw/panel.hpp"
 #include "frame/parts/level.hpp"
 #include "language/panel_rules.hpp"
@@ -46,8 +47,8 @@ class Matrix : PanelPicture {
       list_.rect(shrunk(row, -4), Role::none, {Role::lit, 3.2}, 4);
     }
     for (std::size_t i = 0; i < matrix_.rows.size(); ++i) number(i);
-    write(shortened("Who sees whom?", panel_.size().x, kStrong), {{corner_.x, panel_.lo.y + 26}, 0},
-          kStrong);
+    write(shortened(word("Who sees whom?"), panel_.size().x, kStrong),
+          {{corner_.x, panel_.lo.y + 26}, 0}, kStrong);
     draw_key();
     // What can be counted on it.
     list_.referents.insert({"sectors", "sector_pairs"});
@@ -85,9 +86,10 @@ class Matrix : PanelPicture {
   void draw_key() {
     const double y = corner_.y + static_cast<double>(matrix_.rows.size()) * cell_ + 28;
     double x = corner_.x;
-    for (const auto& [letter, words] :
+    for (const auto& [letter, english] :
          {std::pair{'1', "sees"}, std::pair{'0', "cannot see"}, std::pair{'.', "not known"}}) {
-      const DrawList::Scope scope(list_, fmt::format("matrix/key/{}", words));
+      const DrawList::Scope scope(list_, fmt::format("matrix/key/{}", english));
+      const std::string words = word(english);
       const double width = 24 + 10 + text_width(words, kQuiet);
       if (x + width > panel_.hi.x) return;
       draw_sample(letter, false, Box<2>::around({x + 12, y}, Vec<2>(11)));

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "base/printable.hpp"
+#include "base/words.hpp"
 #include "draw/body_shapes.hpp"
 #include "draw/marks.hpp"
 #include "draw/number_text.hpp"
@@ -56,10 +57,10 @@ NameWidths name_widths(const Frame& frame) {
   NameWidths widest;
   std::map<std::string, std::string> meant;  // by brief names
   for (const FrameBody& body : frame.bodies) {
-    const std::string brief = brief_name(body.name);
-    widest.full = std::max(widest.full, text_width(body.name, kQuiet));
+    const std::string brief = brief_name(body.called());
+    widest.full = std::max(widest.full, text_width(body.called(), kQuiet));
     widest.brief = std::max(widest.brief, text_width(brief, kQuiet));
-    if (meant.emplace(brief, body.name).first->second != body.name) widest.brief = 1e9;
+    if (meant.emplace(brief, body.called()).first->second != body.called()) widest.brief = 1e9;
   }
   if (widest.brief > widest.full) widest.brief = widest.full;  // brief ones would be mistaken
   return widest;
@@ -204,8 +205,8 @@ class MemoryView : PanelPicture {
       TextStyle style = kQuiet;
       style.role = ground == Role::lit_fill ? Role::ink : Role::quiet_ink;
       const bool full = strip_.names == Strip::Names::full;
-      try_write(full ? body->name : brief_name(body->name), {{{box.center().x, box.hi.y - 7}, 0.5}},
-                style);
+      try_write(full ? body->called() : brief_name(body->called()),
+                {{{box.center().x, box.hi.y - 7}, 0.5}}, style);
     }
     draw_character(*body, chip, false, list_);
   }
@@ -218,13 +219,13 @@ class MemoryView : PanelPicture {
     for (const Vec<2>& end : {from, to}) list_.crisp_line(end - Vec<2>(0, 4), end, stroke);
     TextStyle style{kLeastLabel, Weight::semibold, Role::quiet_ink};
     if (leaf.mark == Mark::lit) style.role = Role::lit_ink;
-    const std::string brief = short_label(leaf.label);
+    const std::string label = node_words(leaf.label), brief = short_label(leaf.label);
     // All that a leaf stores of its contents: where they begin, and how many they are.
-    const std::string numbers = fmt::format("first {}, count {}", leaf.first, leaf.bodies.size());
-    const std::string pair = fmt::format("{}: {}, {}", leaf.label, leaf.first, leaf.bodies.size());
+    const std::string numbers = say("first {}, count {}", leaf.first, leaf.bodies.size());
+    const std::string pair = fmt::format("{}: {}, {}", label, leaf.first, leaf.bodies.size());
     const bool begins = run.lo == place(leaf.first).lo;
     for (const std::string& text :
-         {begins ? leaf.label + ": " + numbers : "", begins ? pair : "", leaf.label, brief}) {
+         {begins ? label + ": " + numbers : "", begins ? pair : "", label, brief}) {
       if (text.empty() || text_width(text, style) > run.size().x - 2) continue;
       if (try_write(text, {{{run.center().x, y + 19}, 0.5}}, style)) return;
     }
@@ -237,13 +238,13 @@ class MemoryView : PanelPicture {
         used += static_cast<std::int64_t>(node.bodies.size());
     const auto slots = std::int64_t{frame_.get<FrameStructure>().array_size};
     std::string text =
-        number_of(double(slots), "slot") + ", " + number_text(double(used)) + " in use";
+        say("{}, {} in use", number_of(double(slots), "slot/slots"), number_text(double(used)));
     if (const auto calls = frame_.count("allocations"))
-      text += ", " + number_of(double(*calls), "allocation");
+      text += ", " + number_of(double(*calls), "allocation/allocations");
     if (shown_ < frame_.get<FrameStructure>().array_size)
-      text += fmt::format(" — the first {} are drawn", number_text(double(shown_)));
+      text += " — " + say("the first {} are drawn", number_text(double(shown_)));
     else if (leaves_left_out)
-      text += " — not all leaves are drawn";
+      text += " — " + word("not all leaves are drawn");
     heading(text);
   }
 

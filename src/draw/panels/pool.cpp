@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "base/words.hpp"
 #include "draw/body_shapes.hpp"
 #include "draw/marks.hpp"
 #include "draw/number_text.hpp"
@@ -83,7 +84,7 @@ Stroke outline_of(const FrameNode& node) {
 // And how often memory was asked for.
 std::string with_calls(std::string text, const Frame& frame) {
   if (const auto calls = frame.count("allocations"))
-    text += ", " + number_of(static_cast<double>(*calls), "allocation");
+    text += ", " + number_of(static_cast<double>(*calls), "allocation/allocations");
   return text;
 }
 
@@ -99,7 +100,7 @@ class ListPieces : PanelPicture {
       if (lay_out(false) <= panel_.hi.y) break;
     }
     lay_out(true);
-    heading(with_calls(fmt::format("{} block{} in use", pieces, pieces == 1 ? "" : "s"), frame_));
+    heading(with_calls(say("{} in use", say_count(pieces, "block/blocks")), frame_));
   }
 
  private:
@@ -112,7 +113,7 @@ class ListPieces : PanelPicture {
       if (!node.leaf || node.bodies.empty()) continue;
       const auto n = static_cast<double>(node.bodies.size());
       const double width = n * side_ + (n - 1) * link();
-      const Vec<2> at = flow.place(std::max(width, text_width(node.label, kPlain) + 4));
+      const Vec<2> at = flow.place(std::max(width, text_width(node_words(node.label), kPlain) + 4));
       if (drawn && at.y + side_ + kPieceName <= panel_.hi.y + 1) draw_list(node, at);
     }
     for (const FrameNode& node : frame_.nodes) {
@@ -128,7 +129,7 @@ class ListPieces : PanelPicture {
                                 parent_key("memory/leaf", frame_.nodes, leaf));
     TextStyle style{kLeastLabel, Weight::semibold, Role::quiet_ink};
     if (leaf.mark == Mark::lit) style.role = Role::lit_ink;
-    write(leaf.label, {{at.x, at.y + side_ + 26}, 0}, style);
+    write(node_words(leaf.label), {{at.x, at.y + side_ + 26}, 0}, style);
     for (std::size_t i = 0; i < leaf.bodies.size(); ++i, at.x += side_ + link()) {
       const Box<2> box{at, at + Vec<2>(side_)};
       list_.rect(box, ground_of(leaf.mark), outline_of(leaf), 5);
@@ -164,7 +165,7 @@ class NodePieces : PanelPicture {
     }
     lay_out(true);
     const std::size_t n = frame_.nodes.size();
-    heading(with_calls(fmt::format("{} new node{}, none reused", n, n == 1 ? "" : "s"), frame_));
+    heading(with_calls(say("{}, none reused", say_count(n, "new node/new nodes")), frame_));
   }
 
  private:
@@ -191,7 +192,7 @@ class NodePieces : PanelPicture {
     const Box<2> box{at, at + Vec<2>(width_, kPieceNode)};
     list_.crisp_rect(box, ground_of(node.mark), outline_of(node));
     mark_passed(node.mark, box, list_);
-    for (const std::string& text : {node.label, short_label(node.label)})
+    for (const std::string& text : {node_words(node.label), short_label(node.label)})
       if (!text.empty() && text_width(text, kPlain) <= width_ - 6)
         return write(text, centred(box.center(), kPlain));
   }
@@ -233,7 +234,7 @@ class PoolView : PanelPicture {
     list_.crisp_rect(box, ground_of(owner->mark), outline_of(*owner));
     mark_passed(owner->mark, box, list_);
     if (owner->reused) draw_reused(box);
-    for (const std::string& text : {owner->label, short_label(owner->label)})
+    for (const std::string& text : {node_words(owner->label), short_label(owner->label)})
       if (!text.empty() && text_width(text, kPlain) <= box.size().x - 8)
         return write(text, centred({box.center().x, box.center().y + 3}, kPlain));
   }
@@ -252,24 +253,24 @@ class PoolView : PanelPicture {
     }
     const double y = panel_.lo.y + 0.8 * kLabel;
     double x = panel_.lo.x;
-    const auto say = [&](const std::string& words, const TextStyle& style) {
+    const auto put = [&](const std::string& words, const TextStyle& style) {
       const std::string text = shortened(words, panel_.hi.x - x, style);
       if (!text.empty()) write(text, {{x, y}, 0}, style);
       x += text_width(text, style) + 30;
     };
     const auto number = [](std::uint64_t n) { return number_text(static_cast<double>(n)); };
-    say(fmt::format("{} of {} node slots in use", number(used),
-                    number(frame_.get<FrameStructure>().pool_size)),
+    put(say("{} of {} node slots in use", number(used),
+            number(frame_.get<FrameStructure>().pool_size)),
         kStrong);
     if (x + 60 < panel_.hi.x) {
       draw_reused({{x, y - 17}, {x + 26, y + 1}});
       x += 34;
-      say(fmt::format("{} reused", number(reused)), kPlain);
+      put(say("{} reused", number(reused)), kPlain);
     }
     if (const auto calls = frame_.count("allocations"); calls && x + 60 < panel_.hi.x)
-      say(number_of(static_cast<double>(*calls), "allocation"), kPlain);
+      put(number_of(static_cast<double>(*calls), "allocation/allocations"), kPlain);
     if (shown_ < frame_.get<FrameStructure>().pool_size && x + 60 < panel_.hi.x)
-      say(fmt::format("the first {} are drawn", number(shown_)), kPlain);
+      put(say("the first {} are drawn", number(shown_)), kPlain);
   }
 
   PoolGrid grid_;

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "base/words.hpp"
 #include "draw/panel.hpp"
 #include "draw/texture_picture.hpp"
 #include "language/panel_rules.hpp"
@@ -29,8 +30,8 @@ constexpr double kLeastSwatch = 3;
 const TextStyle kWayNumber{34, Weight::semibold, Role::ink};
 
 std::string name_of(const FrameWay& way) {
-  if (way.from_atlas) return way.by_texture ? "from the atlas, by texture" : "from the atlas";
-  return way.by_texture ? "sorted by texture" : "as listed";
+  if (way.from_atlas) return word(way.by_texture ? "from the atlas, by texture" : "from the atlas");
+  return word(way.by_texture ? "sorted by texture" : "as listed");
 }
 
 double ways_height(const FrameScreen& screen) { return kWaysGap + screen.planned * kWayRow; }
@@ -111,15 +112,15 @@ class ScreenView : PanelPicture {
     const FrameWay& way = screen_.ways[index];
     const double top = ways_.lo.y + row * double(index);
     const double baseline = top + 27;
-    const std::string noun = way.bindings == 1 ? "binding" : "bindings";
-    const double words = text_width("bindings", kPlain);
+    const std::string counted = noun("binding/bindings", static_cast<std::int64_t>(way.bindings));
+    const double words = text_width(noun("binding/bindings", kMany), kPlain);
     const double number = Labels::width_of(screen_.elements.size(), kWayNumber);
     const double right = ways_.hi.x - words - 8;
     const double key = right - number - kBindWidth - 12;
     if (key < ways_.lo.x) return;
     const std::string name = shortened(name_of(way), key - 12 - ways_.lo.x, kPlain);
     if (!name.empty()) write(name, {{ways_.lo.x, baseline}, 0});
-    write(noun, {{ways_.hi.x - words, baseline}, 0});
+    write(counted, {{ways_.hi.x - words, baseline}, 0});
     labels_.add_number(static_cast<std::int64_t>(way.bindings), {right, baseline}, kWayNumber,
                        panel_);
     list_.rect({{key, top + 2}, {key + kBindWidth, top + 30}}, Role::ink);

@@ -57,8 +57,8 @@ void draw_sparkline(const Frame& frame, const Staging& staging, const Box<2>& pl
   const auto whole = trace.seconds ? trace.seconds : axes.seconds_of(frame.part);
   const double seconds = std::max(whole.value_or(power_of_two_over(now.x)), now.x);
 
-  const std::string one = count_words(frame, trace.name, true),
-                    many = count_words(frame, trace.name, false);
+  const std::string one = count_words(frame, trace.name, 1),
+                    many = count_words(frame, trace.name, kMany);
   const auto digits = static_cast<std::int64_t>(number_text(most).size());
   const double number = Labels::number_width(digits, kStrong);
   const std::string top = number_text(most), end = number_text(seconds, 2) + " s";
@@ -71,7 +71,8 @@ void draw_sparkline(const Frame& frame, const Staging& staging, const Box<2>& pl
   const double middle = area.center().y + 0.36 * kLabel;
   labels.add_number(static_cast<std::int64_t>(now.y), {place.lo.x + number, middle}, kStrong,
                     place);
-  labels.add(now.y == 1 ? one : many, {{place.lo.x + number + 8, middle}, 0}, kQuiet, place);
+  labels.add(count_words(frame, trace.name, static_cast<std::int64_t>(now.y)),
+             {{place.lo.x + number + 8, middle}, 0}, kQuiet, place);
   list.crisp_line(area.lo, {area.hi.x, area.lo.y}, {Role::rule, 1.4, 5});
   list.crisp_line({area.lo.x, area.hi.y}, area.hi, {Role::cell_line_2, 1.8});
   for (const auto& [text, y] : {std::pair{top, area.lo.y}, std::pair{std::string("0"), area.hi.y}})

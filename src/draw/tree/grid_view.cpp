@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "base/words.hpp"
 #include "draw/body_shapes.hpp"
 #include "draw/marks.hpp"
 #include "draw/number_text.hpp"
@@ -63,9 +64,9 @@ class GridView : PanelPicture {
  private:
   std::string heading_of(const GridExtent& extent) const {
     const auto all = number_text(static_cast<double>(extent.columns * extent.rows));
-    const std::string size = levels_.size() > 1 ? fmt::format("cells of {:g}: ", extent.side) : "";
-    return size + (structure_.hashed ? fmt::format("a table of {} buckets", all)
-                                     : fmt::format("one array of {} cells", all));
+    const std::string size = levels_.size() > 1 ? say("cells of {:g}: ", extent.side) : "";
+    return size + (structure_.hashed ? say("a table of {} buckets", all)
+                                     : say("one array of {} cells", all));
   }
 
   // Where it ends.
@@ -198,7 +199,7 @@ class GridView : PanelPicture {
 
   // What reaches too many cells, under all tables.
   void draw_large() {
-    const std::string words = "in too many cells, held apart:";
+    const std::string words = word("in too many cells, held apart:");
     const double y = panel_.hi.y - 0.5 * kGridHeading;
     write(words, centred({panel_.lo.x, y}, kQuiet, 0), kQuiet);
     double x = panel_.lo.x + text_width(words, kQuiet) + 24;

@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "base/words.hpp"
 #include "draw/body_shapes.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
@@ -64,7 +65,7 @@ class SweepView : PanelPicture {
     if (panel_.size().y < kSweepHeading + kSweepAxis + 2 * kLeastBand || panel_.size().x < 160)
       return;
     if (order_.empty() || !(length() > 0)) return;
-    heading(fmt::format("sorted along {}, then swept", "xyz"[axis_]));
+    heading(say("sorted along {}, then swept", "xyz"[axis_]));
     if (sweeps_)
       draw_reach();
     else if (stands_)
@@ -156,7 +157,7 @@ class SweepView : PanelPicture {
     try_write(number_text(frame_.bounds.hi[axis_], 2), {{{area_.hi.x, below}, 1}}, kQuiet);
     try_write(std::string(1, "xyz"[axis_]), {{{area_.center().x, below}, 0.5}}, kQuiet);
     if (all_ > order_.size())
-      try_write(fmt::format("and {} more", all_ - order_.size()),
+      try_write(say("and {} more", all_ - order_.size()),
                 {{{area_.lo.x + 0.27 * area_.size().x, below}, 0.5}}, kQuiet);
   }
 

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/words.hpp"
 #include "draw/font.hpp"
 #include "draw/panel.hpp"
 
@@ -260,7 +261,7 @@ TreeScale::TreeScale(double s, std::uint32_t rows, double height, bool is_small)
 
 std::string short_label(const std::string& label) {
   const std::size_t dot = label.rfind('.');
-  return dot == std::string::npos ? std::string() : "…" + label.substr(dot + 1);
+  return dot == std::string::npos ? std::string() : "…" + node_words(label.substr(dot + 1));
 }
 
 bool is_long_way(const std::string& label) { return std::ranges::count(label, '.') > 2; }
@@ -289,19 +290,21 @@ std::vector<Vec<2>> TreeLayout::edge(std::size_t branch) const {
 
 BranchText text_of(const Branch& branch, const FrameNode& node, bool atlas, const TreeScale& scale,
                    const TreeWords& words) {
-  const char* each = branch.each && words.each ? " each" : "";
+  const auto times = [&](std::size_t count) {
+    return branch.each && words.each ? say("×{} each", count) : fmt::format("×{}", count);
+  };
   using Kind = Branch::Kind;
-  if (branch.kind == Kind::empties) return {fmt::format("×{}{}", branch.count, each), 0};
+  if (branch.kind == Kind::empties) return {times(branch.count), 0};
   if (branch.kind == Kind::folded)
-    return {fmt::format("+{}{}", branch.count, words.nodes ? " nodes" : ""), 0};
-  if (branch.kind == Kind::levels) return {fmt::format("{} levels", branch.count), 0};
+    return {words.nodes ? say("+{} nodes", branch.count) : fmt::format("+{}", branch.count), 0};
+  if (branch.kind == Kind::levels) return {say("{} levels", branch.count), 0};
   if (scale.small) return {};
   if (!node.leaf) {
-    if (branch.copies > 1) return {fmt::format("×{}{}", branch.copies, each), 0};
+    if (branch.copies > 1) return {times(branch.copies), 0};
     if (atlas) return {};  // an atlas's inner node shows its cut
     const bool named = node.plane && !node.plane_name.empty();
     const TextStyle style{scale.text, Weight::semibold, Role::ink};
-    const std::string_view text = named ? node.plane_name : node.label;
+    const std::string text = named ? node.plane_name : node_words(node.label);
     const double width = std::max(1.3 * scale.box_width, named ? 150.0 : 62.0);
     const std::string brief = short_label(node.label);
     const bool use_brief =
@@ -309,8 +312,9 @@ BranchText text_of(const Branch& branch, const FrameNode& node, bool atlas, cons
     return {shortened(use_brief ? brief : text, width, style), 0};
   }
   if (atlas && node.bodies.empty() && node.label.empty()) {
-    const double width = text_width("free", scale.text, Weight::regular);
-    return {width + 8 <= scale.box_width ? "free" : "", 0};
+    std::string free = word("free");
+    const double width = text_width(free, scale.text, Weight::regular);
+    return {width + 8 <= scale.box_width ? std::move(free) : "", 0};
   }
   const std::size_t most = 4, bodies = node.bodies.size();
   if (bodies <= most) return {"", bodies};

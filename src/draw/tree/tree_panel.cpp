@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/words.hpp"
 #include "draw/panel.hpp"
 #include "draw/tree/tree_layout.hpp"
 #include "language/panel_rules.hpp"
@@ -31,11 +32,11 @@ std::vector<Fact> facts_of(const Frame& frame, const Staging& staging, const Box
   if (!frame.get<FrameSide>().name.empty() || traits_of(frame.structure).has(Setting::axis))
     return facts;
   const std::pair<const char*, const char*> counted[] = {
-      {"nodes", "node"}, {"leaves", "leaf"}, {"entries", "entry"}};
-  for (const auto& [many, one] : counted)
+      {"nodes", "node/nodes"}, {"leaves", "leaf/leaves"}, {"entries", "entry/entries"}};
+  for (const auto& [many, forms] : counted)
     if (const auto n = staging.is_headed(many) ? std::nullopt : frame.count(many);
         n && !(has_cells(frame.structure) && many != std::string_view("entries")))
-      facts.push_back({*n == 1 ? one : many, *n, many, staging.most(many)});
+      facts.push_back({noun(forms, *n), *n, noun(forms, kMany), staging.most(many)});
   if (!frame.display.settings || !staging.tells_settings(frame) ||
       panel.size().y < kLeastForSettings)
     return facts;
@@ -151,8 +152,8 @@ void draw_forest(const Frame& frame, const Staging& staging, const Box<2>& area,
   const TextStyle style{kLabel, Weight::semibold, Role::quiet_ink};
   for (std::size_t i = 0; i < trees.size(); ++i) {
     const Box<2>& box = boxes[i];
-    const std::string heading =
-        shortened(trees[i].of_static ? "static: never moves" : "dynamic", box.size().x - 8, style);
+    const std::string heading = shortened(
+        word(trees[i].of_static ? "static: never moves" : "dynamic"), box.size().x - 8, style);
     labels.add(heading, {{box.lo.x + 4, box.lo.y + 23}, 0}, style, box);
     if (i > 0 && boxes[0].lo.x < box.lo.x) {
       const double x = box.lo.x - kBetween / 2;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/words.hpp"
 #include "draw/font.hpp"
 #include "draw/panel.hpp"
 #include "draw/texture_picture.hpp"
@@ -165,12 +166,12 @@ class TreeView : PanelPicture {
   }
 
   // A level's inner node is called by the wall whose line it is.
-  const std::string& name_inside(const FrameNode& node) const {
-    return is_level(frame_) && node.plane ? node.plane_name : node.label;
+  std::string name_inside(const FrameNode& node) const {
+    return is_level(frame_) && node.plane ? node.plane_name : node_words(node.label);
   }
 
   bool says_name_inside(std::size_t i) const {
-    const std::string& label = name_inside(node_of(branches()[i]));
+    const std::string label = name_inside(node_of(branches()[i]));
     const Vec<2> room = layout_.boxes[i].size() - Vec<2>(is_level(frame_) ? -3 : 8, 4);
     return !label.empty() && room.y >= kLeastLabel * 0.8 &&
            text_width(label, kLeastLabel, Weight::semibold) <= room.x;
@@ -277,7 +278,7 @@ class TreeView : PanelPicture {
     for (const std::string& text : label_choices(branch))
       if (text_width(text, style) <= room && try_write(text, {under}, style)) return;
     if (branch.copies == 1 && short_label(node.label).empty())
-      try_write(shortened(node.label, room, style), {under}, style);
+      try_write(shortened(node_words(node.label), room, style), {under}, style);
   }
 
   // Of a small tree: names, and a node's place on a ray's way, where there is room.
@@ -326,7 +327,7 @@ class TreeView : PanelPicture {
   std::vector<std::string> label_choices(const Branch& branch) const {
     const FrameNode& node = node_of(branch);
     if (branch.kind == Branch::Kind::folded && branch.copies == 0)
-      return {layout_.words.nodes ? "" : "nodes"};
+      return {layout_.words.nodes ? "" : noun("node/nodes", kMany)};
     const bool overfull = node.over_capacity && node.leaf;
     const bool holds = overfull && says_holds_[branch.row];
     if (branch.copies > 1) return copies_choices(branch, holds);
@@ -334,14 +335,14 @@ class TreeView : PanelPicture {
     if (traits_of(frame_.structure).names == NodeNames::sides)
       names = leaf_names(frame_, node);
     else if (overfull || branch.mark == Mark::lit || !is_long_way(node.label))
-      names.push_back(node.label);
+      names.push_back(node_words(node.label));
     if (const std::string brief = short_label(node.label);
         !brief.empty() && traits_of(frame_.structure).names != NodeNames::sides)
       names.push_back(brief);
     std::vector<std::string> choices;
     if (holds)
       for (const std::string& name : names)
-        choices.push_back(fmt::format("{} holds {}", name, node.bodies.size()));
+        choices.push_back(say("{} holds {}", name, node.bodies.size()));
     choices.insert(choices.end(), names.begin(), names.end());
     return choices;
   }
@@ -350,10 +351,10 @@ class TreeView : PanelPicture {
     const std::string count = fmt::format("×{}", branch.copies);
     if (holds) {
       const std::size_t bodies = node_of(branch).bodies.size();
-      return {branch.each ? fmt::format("{} each, hold {}", count, bodies)
-                          : fmt::format("{}, each holds {}", count, bodies)};
+      return {branch.each ? say("{} each, hold {}", count, bodies)
+                          : say("{}, each holds {}", count, bodies)};
     }
-    if (branch.each) return {count + " each", count};
+    if (branch.each) return {say("{} each", count), count};
     return {count};
   }
 
@@ -368,9 +369,9 @@ class TreeView : PanelPicture {
         continue;
       const std::string brief = short_label(node.label);
       const std::string least =
-          branch.copies > 1
-              ? copies_choices(branch, true).front()
-              : fmt::format("{} holds {}", brief.empty() ? node.label : brief, node.bodies.size());
+          branch.copies > 1 ? copies_choices(branch, true).front()
+                            : say("{} holds {}", brief.empty() ? node_words(node.label) : brief,
+                                  node.bodies.size());
       if (text_width(least, layout_.scale.label, Weight::semibold) > layout_.room[i]) return false;
     }
     return true;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "base/words.hpp"
 #include "draw/body_shapes.hpp"
 #include "draw/keys.hpp"
 #include "draw/marks.hpp"
@@ -260,7 +261,7 @@ std::string depth_text(double depth) {
     if (depth < unit.from) continue;
     const double number = depth / unit.size;
     const int decimals = number < 0.995 ? 2 : number < 9.95 ? 1 : 0;
-    return fmt::format("{:.{}f} {}", number, decimals, unit.name);
+    return decimal(fmt::format("{:.{}f} {}", number, decimals, unit.name));
   }
   return "0";
 }
@@ -387,9 +388,10 @@ void mark_rulers(const Frame& frame, Marks& marks, Labels& labels) {
     std::string text = short_number(ruler.length);
     if (ruler.before && std::isfinite(*ruler.before) && ruler.length > 0) {
       const double change = ruler.length - *ruler.before;
-      text = change == 0 ? "as long as before"
-                         : fmt::format("{} {}", short_number(std::abs(change)),
-                                       change > 0 ? "longer" : "shorter");
+      const std::string by = short_number(std::abs(change));
+      text = change == 0  ? word("as long as before")
+             : change > 0 ? say("{} longer", by)
+                          : say("{} shorter", by);
       const Vec<2> end = *a + way * (*ruler.before / ruler.length);
       draw_ruler(*a + off * 1.8, end + off * 1.8, {Role::quiet_ink, 1.8, 6}, pen);
     }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/stop.hpp"
+#include "base/words.hpp"
 #include "draw/world/world2d_parts.hpp"
 #include "geometry/elementary.hpp"
 
@@ -128,7 +129,7 @@ bool is_one_place(const Stand& stand) {
 std::string names_of(const Frame& frame, const Stand& stand) {
   std::vector<std::string> shown;
   for (const FrameBody* body : stand.bodies)
-    if (shows_name(frame, *body)) shown.push_back(body->name);
+    if (shows_name(frame, *body)) shown.push_back(body->called());
   if (stand.bodies.size() == 1 || shown.empty()) return shown.empty() ? "" : shown.front();
   constexpr std::size_t kMostNames = 4;
   std::string names;
@@ -136,8 +137,8 @@ std::string names_of(const Frame& frame, const Stand& stand) {
     names += (i == 0 ? "" : ", ") + shown[i];
   if (const std::size_t more = stand.bodies.size() - std::min(shown.size(), kMostNames); more > 0)
     names += fmt::format(" + {}", more);
-  if (stand.outside) return names + " — outside";
-  return names + (is_one_place(stand) ? " — one place" : " — close together");
+  if (stand.outside) return say("{} — outside", names);
+  return is_one_place(stand) ? say("{} — one place", names) : say("{} — close together", names);
 }
 
 // On its side, or below, above, beside; first where no body is covered and inside the bounds, then

@@ -161,7 +161,7 @@ void name_half_spaces(const World2D& w, const std::vector<GroundPlace>& places) 
     if (!shows_name(w.frame, *place.body)) continue;
     TextStyle style;
     style.halo = ground_at(w.grounds, place.label);
-    const std::string name = shortened(place.body->name, 210, style);
+    const std::string name = shortened(place.body->called(), 210, style);
     const double y = place.label.y + 0.3 * style.size;
     const double quarter = w.map.picture().size().x / 4;
     for (const double x : {0.0, -quarter, quarter})

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/words.hpp"
 #include "draw/world/world2d_parts.hpp"
 #include "draw/world/world3d_parts.hpp"
 #include "frame/parts/level.hpp"
@@ -270,14 +271,14 @@ void name_taken_line(const World2D& w) {
     return true;
   };
   // Without its word where there is no room for that.
-  const auto count = [&](std::uint32_t n, const char* word, const Vec<2>& middle) {
-    if (!write(fmt::format("{} {}", n, word), middle, {})) write(fmt::format("{}", n), middle, {});
+  const auto count = [&](std::uint32_t n, const std::string& words, const Vec<2>& middle) {
+    if (!write(words, middle, {})) write(fmt::format("{}", n), middle, {});
   };
-  write(fmt::format("wall {}", wall->wall + 1), at, {Role::lit, 1.8});
+  write(say("wall {}", wall->wall + 1), at, {Role::lit, 1.8});
   // Plates are wider than high, so beside an upright wall they stand farther off.
   const double off = kReach + 18 + kBeside * std::abs(front.x);
-  count(level.front, "in front", at + front * off);
-  count(level.back, "behind", at - front * off);
+  count(level.front, say("{} in front", level.front), at + front * off);
+  count(level.back, say("{} behind", level.back), at - front * off);
 }
 
 void draw_portals(const World2D& w) {

@@ -6,6 +6,7 @@
 #include <map>
 #include <span>
 
+#include "base/words.hpp"
 #include "draw/font.hpp"
 #include "geometry/elementary.hpp"
 
@@ -145,7 +146,7 @@ void label_unmade(const World2D& w) {
     if (named == kMostNamed) return;
     const Box<2> box = w.map.to_page(one.quarter);
     const Anchor anchor{{box.center().x, box.center().y + 6}, 0.5};
-    for (const std::string& words : {one.label + " not made", std::string("not made")}) {
+    for (const std::string& words : {say("{} not made", one.label), word("not made")}) {
       const Box<2> extent = Labels::extent(words, anchor, style);
       if (touches(w.covered, extent) || !holds(shrunk(box, 8), extent)) continue;
       named += w.labels.try_add(words, {anchor}, style, w.map.picture());

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/words.hpp"
 #include "draw/number_text.hpp"
 #include "draw/world/world2d_parts.hpp"
 #include "frame/parts/motion.hpp"
@@ -55,7 +56,7 @@ void draw_gap(const World2D& w, const FrameLook& look, Pen& pen) {
   if (glm::distance(a, b) < kLeast) return;
   const TextStyle style{kLeastLabel, Weight::semibold, Role::lit_ink, Role::panel};
   const Vec<2> middle = (a + b) / 2.0;
-  w.labels.try_add(fmt::format("gap {:.2g}", look.gap),
+  w.labels.try_add(say("gap {:.2g}", look.gap),
                    {{{middle.x, middle.y - 10}, 0.5},
                     {{middle.x, middle.y + 28}, 0.5},
                     {{middle.x + 14, middle.y + 8}, 0}},

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/words.hpp"
 #include "draw/page.hpp"
 #include "draw/panel.hpp"
 #include "draw/world/narrow_marks.hpp"
@@ -26,7 +27,7 @@ void name_body(const Body3D& b, const std::vector<Body3D>& bodies, const View3D&
                Labels& labels) {
   TextStyle style;
   style.halo = Role::panel;
-  const std::string text = shortened(b.body->name, kWidestName, style);
+  const std::string text = shortened(b.body->called(), kWidestName, style);
   const auto anchors = anchors_around(b.box, 6, style);
   labels.try_add(text, anchors, style, shrunk(view.panel(), 4), view.panel(),
                  [&](const Box<2>& extent) {
@@ -54,21 +55,22 @@ void name_cell(const FrameNode& node, const std::vector<Body3D>& bodies, const V
   if (size.x < 60 || size.y < 60) return;
   std::ranges::stable_sort(corners, std::greater(),
                            [&](const Vec<2>& corner) { return glm::length(corner - middle); });
-  const double half = text_width(node.label, style) / 2;
+  const std::string label = node_words(node.label);
+  const double half = text_width(label, style) / 2;
   for (const Vec<2>& corner : corners) {
     const Vec<2> inwards = own - corner;
     const double length = glm::length(inwards);
     if (!(length > 1)) continue;
     const Vec<2> at = corner + inwards * (std::min(0.5 * length, half + 20) / length);
     const Anchor anchor = centred(at, style);
-    const Box<2> plate = plate_of(node.label, at, style, {5, 5});
-    const Box<2> extent = Labels::extent(node.label, anchor, style);
+    const Box<2> plate = plate_of(label, at, style, {5, 5});
+    const Box<2> extent = Labels::extent(label, anchor, style);
     const bool covers =
         std::ranges::any_of(bodies, [&](const Body3D& b) { return overlap(b.box, plate); });
     if (covers || !labels.is_free(extent, shrunk(view.panel(), 4))) continue;
     // Edges cross everywhere: a plate keeps them off the name.
     list.rect(plate, lit ? Role::lit_fill : Role::panel, {}, 5);
-    return labels.add(node.label, anchor, style, view.panel());
+    return labels.add(label, anchor, style, view.panel());
   }
 }
 
@@ -110,11 +112,11 @@ void add_marks(const Frame& frame, Marks3D& marks, LeftOut& left_out) {
     Piece& piece = marks.pieces.emplace_back(body_piece(body, marks.view));
     piece.key = piece.from = body_key("world/body", *body.body);
   }
-  if (!add_cells(frame, marks)) left_out.push_back("the deepest cells are not drawn");
+  if (!add_cells(frame, marks)) left_out.push_back(word("the deepest cells are not drawn"));
   if (frame.display.cells) add_cuts(frame, marks);
   add_drop_lines(marks);
   if (frame.display.pairs && !add_pairs(frame, marks))
-    left_out.push_back("not all pairs are drawn");
+    left_out.push_back(word("not all pairs are drawn"));
   mark_links(frame, marks);
   mark_velocities(frame, marks);
   mark_spins(frame, marks);
@@ -151,7 +153,7 @@ void add_contacts(const Frame& frame, const Marks& marks, LeftOut& left_out, Dra
   if (mark_contacts(frame, marks))
     list.referents.insert({"contacts", "contact_points", "impulses", "touching"});
   else
-    left_out.push_back("not all contacts are drawn");
+    left_out.push_back(word("not all contacts are drawn"));
 }
 
 // What lies over the bodies.
@@ -216,7 +218,7 @@ void draw_world3d(const Frame& frame, const Staging& staging, const Box<2>& pane
   for (const Body3D& body : bodies) tell_marks(*body.body, list);
   if (crowd) {
     draw_crowd3d(frame, view, list);
-    left_out.push_back(fmt::format("{} bodies as dots", frame.bodies.size()));
+    left_out.push_back(say("{} bodies as dots", frame.bodies.size()));
   }
   if (frame.display.pairs) draw_joints(frame, marks);
   add_contacts(frame, marks, left_out, list);
@@ -250,14 +252,14 @@ void draw_world3d(const Frame& frame, const Staging& staging, const Box<2>& pane
 
 void draw_world2d(World2D w) {
   LeftOut left_out;
-  if (!draw_cells(w)) left_out.push_back("the smallest cells are not drawn");
+  if (!draw_cells(w)) left_out.push_back(word("the smallest cells are not drawn"));
   draw_portals(w);
   draw_walls(w);
   draw_sights(w);
   if (w.frame.bodies.size() > kCrowd) {
     const std::size_t marks = draw_crowd(w);
     if (50 * marks < 49 * w.frame.bodies.size())
-      left_out.push_back(fmt::format("{} bodies as {} marks", w.frame.bodies.size(), marks));
+      left_out.push_back(say("{} bodies as {} marks", w.frame.bodies.size(), marks));
     draw_marks(w, left_out);
     return note(left_out, w.map.picture(), w.labels);
   }
@@ -270,7 +272,7 @@ void draw_world2d(World2D w) {
   const bool pairs = w.frame.display.pairs && !asks;
   const PageLinks links = pairs ? links_of(w) : PageLinks();
   if (!links.complete)
-    left_out.push_back("not all pairs are drawn");
+    left_out.push_back(word("not all pairs are drawn"));
   else if (pairs)
     w.list.referents.insert({"pairs", "overlaps", "shapes_tested"});
   draw_links(w, links, false);

@@ -5,6 +5,7 @@
 
 #include "base/number.hpp"
 #include "base/printable.hpp"
+#include "base/words.hpp"
 #include "language/script/script_reading.hpp"
 
 namespace lantern::language {
@@ -38,8 +39,7 @@ Piece next_piece(std::string_view caption, std::size_t at) {
 // "pairs:pair" and "leaves:leaf/leaves" in their parts.
 struct Parts {
   std::string_view name;
-  std::optional<std::string_view> one;
-  std::optional<std::string_view> many;
+  std::optional<std::string_view> nouns = {};
 };
 
 Parts parts_of(std::string_view inside) {
@@ -47,18 +47,20 @@ Parts parts_of(std::string_view inside) {
   const std::size_t colon = inside.find(':');
   parts.name = inside.substr(0, colon);
   if (colon == std::string_view::npos) return parts;
-  const std::string_view nouns = inside.substr(colon + 1);
-  const std::size_t slash = nouns.find('/');
-  parts.one = nouns.substr(0, slash);
-  if (slash != std::string_view::npos) parts.many = nouns.substr(slash + 1);
+  parts.nouns = inside.substr(colon + 1);
   return parts;
 }
 
+// Is one of the forms empty?
+bool has_gap(std::string_view nouns) {
+  return nouns.empty() || nouns.front() == '/' || nouns.back() == '/' ||
+         nouns.find("//") != nouns.npos;
+}
+
 std::string with_noun(std::int64_t n, const Parts& parts) {
-  if (!parts.one) return grouped(n);
-  if (n == 1) return fmt::format("1 {}", *parts.one);
-  if (parts.many) return fmt::format("{} {}", grouped(n), *parts.many);
-  return fmt::format("{} {}s", grouped(n), *parts.one);
+  if (!parts.nouns) return grouped(n);
+  const bool adds_s = parts.nouns->find('/') == std::string_view::npos && n != 1;
+  return fmt::format("{} {}{}", grouped(n), own_noun(*parts.nouns, n), adds_s ? "s" : "");
 }
 
 void for_each_piece(std::string_view caption, auto&& f) {
@@ -158,11 +160,11 @@ std::vector<CaptionProblem> caption_problems(
       problems.push_back({piece.offset, "an empty placeholder", {}});
     else if (kind == Placeholder::unknown)
       problems.push_back({piece.offset, {}, std::string(parts.name)});
-    else if (kind == Placeholder::text && parts.one)
+    else if (kind == Placeholder::text && parts.nouns)
       problems.push_back({piece.offset,
                           fmt::format("'{}' is a text, not a count: it takes no noun", parts.name),
                           {}});
-    else if ((parts.one && parts.one->empty()) || (parts.many && parts.many->empty()))
+    else if (parts.nouns && has_gap(*parts.nouns))
       problems.push_back({piece.offset, "a placeholder whose noun is missing", {}});
   });
   return problems;
@@ -194,7 +196,7 @@ std::vector<std::string> read_headline(const TableReader& table, Draft& draft,
         names.end())
       draft.problems.add(number.where,
                          fmt::format("{} stands twice in 'headline'", in_quotes(name)));
-    const bool has_words = !noun_form(words, true).empty() && !noun_form(words, false).empty();
+    const bool has_words = !has_gap(words);
     if (number.name.size() > name.size() && !has_words)
       draft.problems.add(number.where, fmt::format("words of {} are missing", in_quotes(name)),
                          "as \"pairs: pair left/pairs left\", or \"all_pairs: by brute force\"");

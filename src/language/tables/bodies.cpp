@@ -294,6 +294,8 @@ std::vector<KeyDoc> body_keys(std::vector<KeyDoc> first) {
   first.insert(
       first.begin(),
       {key(&B::name, "name", "Unique over bodies and patterns.", must(), like(kNamePattern)),
+       key(&B::label, "label", "What pictures call it, in any letters.", range(1, 40),
+           or_else("the name")),
        key(KeyType::text, "like", "A prototype, whose keys it has but for its own.", range(1, 64),
            or_else("none"))});
   first.insert(first.end(), shared.begin(), shared.end());

@@ -1,0 +1,215 @@
+#include "language/words.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/hash.hpp"
+#include "base/suggest.hpp"
+#include "language/counts.hpp"
+#include "language/language.hpp"
+#include "language/scenario.hpp"
+#include "language/text/problems.hpp"
+
+namespace lantern::language {
+namespace {
+
+constexpr std::array<std::string_view, 6> kPlurals = {"one",     "up_to_one", "polish",
+                                                      "russian", "czech",     "none"};
+
+// A field of a format: "{}", "{2}", "{:.3g}".
+struct Field {
+  std::size_t index;
+  std::string_view spec;
+  bool operator==(const Field&) const = default;
+};
+
+std::vector<Field> fields_of(std::string_view text) {
+  std::vector<Field> fields;
+  std::size_t next = 0;
+  for (std::size_t at = text.find('{'); at != text.npos; at = text.find('{', at + 1)) {
+    const std::string_view inside = text.substr(at + 1, text.find('}', at) - at - 1);
+    const std::size_t colon = std::min(inside.find(':'), inside.size());
+    const std::string_view number = inside.substr(0, colon);
+    fields.push_back({number.empty() ? next++ : static_cast<std::size_t>(number[0] - '0'),
+                      inside.substr(colon)});
+  }
+  return fields;
+}
+
+// Why the translation cannot be filled in as the English is; empty if it can.
+std::string fault_of(std::string_view english, std::string_view said) {
+  if (std::ranges::count(said, '{') != std::ranges::count(said, '}')) return "a brace stands alone";
+  const std::vector<Field> own = fields_of(english), given = fields_of(said);
+  std::size_t most = 0;
+  for (const Field& field : own) most = std::max(most, field.index + 1);
+  for (const Field& field : given)
+    if (field.index >= most || (!field.spec.empty() && std::ranges::find(own, field) == own.end()))
+      return fmt::format("the English has no '{{{}{}}}'", field.index, field.spec);
+  const bool numbered = english.find("{0}") != english.npos || english.find("{2}") != english.npos;
+  for (const Field& field : own)
+    if (!numbered && std::ranges::find(given, field.index, &Field::index) == given.end())
+      return fmt::format("'{{{}{}}}' is missing", field.index, field.spec);
+  return "";
+}
+
+class WordsReader {
+ public:
+  WordsReader(const TomlTable& file, const WordTable& base, Problems& problems)
+      : problems_(problems), words_(base) {
+    for (const TomlEntry& entry : file) read(entry);
+    for (const TomlEntry& entry : file)
+      if (entry.key == "words") read_words(entry);
+  }
+
+  WordTable words() && { return std::move(words_); }
+
+ private:
+  void read(const TomlEntry& entry) {
+    const auto* text = std::get_if<std::string>(&entry.value.data);
+    const auto* table = std::get_if<TomlTable>(&entry.value.data);
+    if (entry.key == "words" && table) return;
+    if (entry.key == "texts" && table) return read_texts(*table);
+    if (entry.key == "language" && text) {
+      words_.language = *text;
+    } else if (entry.key == "decimal" && text && text->size() == 1) {
+      words_.decimal = text->front();
+    } else if (entry.key == "plural" && text) {
+      const auto* rule = std::ranges::find(kPlurals, *text);
+      if (rule == kPlurals.end())
+        problems_.add(entry.value.where, fmt::format("there is no rule {}", in_quotes(*text)),
+                      suggestion(*text, kPlurals));
+      else
+        words_.plural = static_cast<Plural>(rule - kPlurals.begin());
+    } else {
+      problems_.add(entry.where, fmt::format("{} is not read so", in_quotes(entry.key)),
+                    "a table of words has language = \"sv\", plural = \"one\", decimal = \",\", "
+                    "[words] and [texts]");
+    }
+  }
+
+  void read_texts(const TomlTable& table) {
+    for_each_text(table, [&](const TomlEntry& entry, const std::string& text) {
+      words_.texts.insert_or_assign(entry.key, text);
+    });
+  }
+
+  void read_words(const TomlEntry& all) {
+    const auto known = words_in(languages().empty() ? "" : languages().front());
+    const auto* table = std::get_if<TomlTable>(&all.value.data);
+    if (!table) return;
+    for_each_text(*table, [&](const TomlEntry& entry, const std::string& text) {
+      const auto forms = static_cast<std::size_t>(std::ranges::count(text, '/')) + 1;
+      const bool is_noun = entry.key.find('/') != std::string::npos;
+      std::string fault = fault_of(entry.key, text);
+      if (known && !known->said.contains(entry.key))
+        problems_.add(entry.where, fmt::format("no picture says {}", in_quotes(entry.key)),
+                      near(entry.key, *known));
+      else if (is_noun && forms != 1 && forms != forms_of(words_.plural))
+        problems_.add(
+            entry.value.where,
+            fmt::format("{} forms, and the rule '{}' has {}", forms,
+                        kPlurals[static_cast<std::size_t>(words_.plural)], forms_of(words_.plural)),
+            "between them stands a slash: \"leaf/leaves\"");
+      else if (!fault.empty())
+        problems_.add(entry.value.where, std::move(fault));
+      words_.said.insert_or_assign(entry.key, text);
+    });
+    if (!known) return;
+    words_.missing.clear();
+    for (const auto& [english, said] : known->said)
+      if (!words_.said.contains(english)) words_.missing.push_back(english);
+  }
+
+  void for_each_text(const TomlTable& table, auto&& f) {
+    for (const TomlEntry& entry : table)
+      if (const auto* text = std::get_if<std::string>(&entry.value.data))
+        f(entry, *text);
+      else
+        problems_.add(entry.value.where, "a text is wanted, as \"root\" = \"rot\"");
+  }
+
+  static std::string near(std::string_view english, const WordTable& known) {
+    std::vector<std::string_view> all;
+    for (const auto& [key, said] : known.said) all.push_back(key);
+    return suggestion(english, all);
+  }
+
+  Problems& problems_;
+  WordTable words_;
+};
+
+// Puts what the table has for each text, and hands on those that it lacks.
+class Translation {
+ public:
+  explicit Translation(const WordTable& words) : words_(words) {}
+
+  void go_over(ScenarioSpec& scenario) {
+    for (std::string* text :
+         {&scenario.title, &scenario.source, &scenario.idea, &scenario.side_title})
+      put(*text);
+    for (std::string& front : scenario.headline) put(front);
+    if (scenario.chart)
+      for (std::string& label : scenario.chart->labels) put(label);
+    for (BodySpec& body : scenario.bodies) put(body.label);
+    for (Step& step : scenario.steps) {
+      for (std::string* text : {&step.part, &step.caption, &step.after, &step.speaker_notes,
+                                &step.question, &step.answer})
+        put(*text);
+      if (step.plot) put(*step.plot);
+      for (std::string& front : step.headline) put(front);
+      for (NoteSpec& note : step.notes) put(note.text);
+      if (auto* compare = std::get_if<Compare>(&step.verb))
+        put(compare->row), put(compare->verdict);
+    }
+    for (auto& side : scenario.sides) {
+      ScenarioSpec own = *side;
+      go_over(own);
+      side = std::make_shared<const Scenario>(Scenario(std::move(own)));
+    }
+  }
+
+ private:
+  void put(std::string& text) {
+    const auto found = words_.texts.find(text);
+    if (found == words_.texts.end()) return;
+    const std::vector<std::string> known = placeholders_of(text);
+    for (const std::string& name : placeholders_of(found->second))
+      if (std::ranges::find(known, name) == known.end()) {
+        Diagnostic wrong;
+        wrong.message = fmt::format("{} quotes '{}', and {} does not", in_quotes(found->second),
+                                    name, in_quotes(text));
+        throw ScenarioError(wrong);
+      }
+    text = found->second;
+  }
+
+  const WordTable& words_;
+};
+
+}  // namespace
+
+WordTable read_words(std::string_view text, const std::string& path, const WordTable& base) {
+  Problems problems;
+  const std::string_view bare = without_mark(text);
+  const TomlTable file = read_toml(bare, problems);
+  problems.raise(path, bare);
+  WordTable words = WordsReader(file, base, problems).words();
+  problems.raise(path, bare);
+  return words;
+}
+
+void translate(ScenarioSpec& scenario, std::shared_ptr<const WordTable> words) {
+  Translation(*words).go_over(scenario);
+  Hash hash;
+  hash.add(scenario.text_hash).add(words->language);
+  for (const auto* table : {&words->said, &words->texts})
+    for (const auto& [english, said] : *table) hash.add(english).add(said);
+  scenario.text_hash = hash.value();
+  scenario.words = std::move(words);
+}
+
+}  // namespace lantern::language

@@ -1,0 +1,36 @@
+// Tables of the fixed words of pictures and pages (base/words.hpp): those of this program, and a
+// caller's own as TOML files.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/words.hpp"
+
+namespace lantern::language {
+
+struct ScenarioSpec;
+
+// The languages of the tables in this program but English; none in a page's engine, which is given
+// its table.
+std::vector<std::string_view> languages();
+
+// The file of such a table, as an example for another language; empty if there is none.
+std::string_view words_file(std::string_view language);
+// What stands in it; null if there is none.
+std::shared_ptr<const WordTable> words_in(std::string_view language);
+
+// What a file of words says: `language`, `plural` (a name of Plural), `decimal`, and the tables
+// [words], by the English words, and [texts], by what a scenario says. Upon `base`: what the file
+// does not say stays. Throws ScenarioError with every mistake: a word that no picture has, another
+// number of plural forms than the language's, a placeholder that the English has not.
+WordTable read_words(std::string_view text, const std::string& path, const WordTable& base);
+
+// Puts the table's [texts] for what the scenario says: its title, captions, notes, questions,
+// labels; and notes the table, whose words its frames are then said in. Throws ScenarioError if a
+// text quotes another count than the scenario's own.
+void translate(ScenarioSpec& scenario, std::shared_ptr<const WordTable> words);
+
+}  // namespace lantern::language
