@@ -160,7 +160,7 @@ void add_missing_words(const Scenario& scenario, std::vector<Diagnostic>& found)
   found.push_back(warning(
       scenario, {scenario.file, 0, 0},
       fmt::format(
-          "the words for '{}' lack \"{}\"{}: they are said in English", scenario.words->language,
+          "the words for '{}' lack \"{}\"{}: they stay as they are", scenario.words->language,
           fmt::join(missing.begin(), missing.begin() + static_cast<std::ptrdiff_t>(some), "\", \""),
           missing.size() > some ? fmt::format(" and {} more", missing.size() - some) : ""),
       "`lantern reference --words de` prints a table that has them all"));

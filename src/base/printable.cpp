@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "base/words.hpp"
+
 namespace lantern {
 namespace {
 
@@ -132,11 +134,11 @@ std::string escaped(std::string_view text) {
 
 std::string html_page(std::string_view title, std::string_view rest, std::string_view attributes) {
   return fmt::format(
-      "<!doctype html>\n<html lang=\"en\"{}>\n<head>\n<meta charset=\"utf-8\">\n"
+      "<!doctype html>\n<html lang=\"{}\"{}>\n<head>\n<meta charset=\"utf-8\">\n"
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1, "
       "interactive-widget=resizes-content\">\n"
       "<title>{}</title>\n{}</body>\n</html>\n",
-      attributes, escaped(title), rest);
+      spoken() ? spoken()->language : "en", attributes, escaped(title), rest);
 }
 
 }  // namespace lantern

@@ -42,7 +42,7 @@ Scenario worded(Scenario scenario, const Wording& wording) {
   const fs::path own = file.parent_path() / table.language / file.filename();
   std::error_code error;
   if (fs::is_regular_file(own, error)) table = read_words_file(own.string(), table);
-  translate(scenario, std::make_shared<const WordTable>(std::move(table)));
+  translate(scenario, table);
   return scenario;
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include "base/hash.hpp"
 #include "base/suggest.hpp"
@@ -93,7 +94,7 @@ class WordsReader {
 
   void read_texts(const TomlTable& table) {
     for_each_text(table, [&](const TomlEntry& entry, const std::string& text) {
-      words_.texts.insert_or_assign(entry.key, text);
+      if (!text.empty()) words_.texts.insert_or_assign(entry.key, text);
     });
   }
 
@@ -102,6 +103,7 @@ class WordsReader {
     const auto* table = std::get_if<TomlTable>(&all.value.data);
     if (!table) return;
     for_each_text(*table, [&](const TomlEntry& entry, const std::string& text) {
+      if (text.empty()) return;  // still to be translated
       const auto forms = static_cast<std::size_t>(std::ranges::count(text, '/')) + 1;
       const bool is_noun = entry.key.find('/') != std::string::npos;
       std::string fault = fault_of(entry.key, text);
@@ -142,53 +144,57 @@ class WordsReader {
   WordTable words_;
 };
 
-// Puts what the table has for each text, and hands on those that it lacks.
-class Translation {
- public:
-  explicit Translation(const WordTable& words) : words_(words) {}
-
-  void go_over(ScenarioSpec& scenario) {
-    for (std::string* text :
-         {&scenario.title, &scenario.source, &scenario.idea, &scenario.side_title})
-      put(*text);
-    for (std::string& front : scenario.headline) put(front);
-    if (scenario.chart)
-      for (std::string& label : scenario.chart->labels) put(label);
-    for (BodySpec& body : scenario.bodies) put(body.label);
-    for (Step& step : scenario.steps) {
-      for (std::string* text : {&step.part, &step.caption, &step.after, &step.speaker_notes,
-                                &step.question, &step.answer})
-        put(*text);
-      if (step.plot) put(*step.plot);
-      for (std::string& front : step.headline) put(front);
-      for (NoteSpec& note : step.notes) put(note.text);
-      if (auto* compare = std::get_if<Compare>(&step.verb))
-        put(compare->row), put(compare->verdict);
-    }
-    for (auto& side : scenario.sides) {
-      ScenarioSpec own = *side;
-      go_over(own);
-      side = std::make_shared<const Scenario>(Scenario(std::move(own)));
-    }
+// f(text) for each text of the scenario that is drawn or read out, empty ones too; not of its sides.
+void for_each_text(ScenarioSpec& scenario, auto&& f) {
+  for (std::string* text :
+       {&scenario.title, &scenario.source, &scenario.idea, &scenario.side_title})
+    f(*text);
+  for (std::string& front : scenario.headline) f(front);
+  if (scenario.chart)
+    for (std::string& label : scenario.chart->labels) f(label);
+  for (BodySpec& body : scenario.bodies) f(body.label);
+  for (Step& step : scenario.steps) {
+    for (std::string* text : {&step.part, &step.caption, &step.after, &step.speaker_notes,
+                              &step.question, &step.answer})
+      f(*text);
+    if (step.plot) f(*step.plot);
+    for (std::string& front : step.headline) f(front);
+    for (NoteSpec& note : step.notes) f(note.text);
+    if (auto* compare = std::get_if<Compare>(&step.verb)) f(compare->row), f(compare->verdict);
   }
+}
 
- private:
-  void put(std::string& text) {
-    const auto found = words_.texts.find(text);
-    if (found == words_.texts.end()) return;
-    const std::vector<std::string> known = placeholders_of(text);
-    for (const std::string& name : placeholders_of(found->second))
-      if (std::ranges::find(known, name) == known.end()) {
-        Diagnostic wrong;
-        wrong.message = fmt::format("{} quotes '{}', and {} does not", in_quotes(found->second),
-                                    name, in_quotes(text));
-        throw ScenarioError(wrong);
-      }
-    text = found->second;
+// Is there anything to translate: more than a count's name and numbers?
+bool is_text(const std::string& text) {
+  return !find_count(text) && std::ranges::any_of(text, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c & 0x80) != 0;
+  });
+}
+
+void put(std::string& text, WordTable& words) {
+  const auto found = words.texts.find(text);
+  if (found == words.texts.end()) {
+    if (!words.texts.empty() && is_text(text)) words.missing.push_back(text);
+    return;
   }
+  const std::vector<std::string> known = placeholders_of(text);
+  for (const std::string& name : placeholders_of(found->second))
+    if (std::ranges::find(known, name) == known.end()) {
+      Diagnostic wrong;
+      wrong.message = fmt::format("{} quotes '{}', and {} does not", in_quotes(found->second), name,
+                                  in_quotes(text));
+      throw ScenarioError(wrong);
+    }
+  text = found->second;
+}
 
-  const WordTable& words_;
-};
+// A body whose name the table has among its texts is called so.
+void label_bodies(ScenarioSpec& scenario, const WordTable& words) {
+  for (BodySpec& body : scenario.bodies)
+    if (const auto found = words.texts.find(body.name);
+        body.label.empty() && found != words.texts.end())
+      body.label = found->second;
+}
 
 }  // namespace
 
@@ -202,12 +208,54 @@ WordTable read_words(std::string_view text, const std::string& path, const WordT
   return words;
 }
 
-void translate(ScenarioSpec& scenario, std::shared_ptr<const WordTable> words) {
-  Translation(*words).go_over(scenario);
+std::string to_json(const WordTable& words) {
+  return nlohmann::json{{"language", words.language},
+                        {"plural", kPlurals[static_cast<std::size_t>(words.plural)]},
+                        {"decimal", std::string(1, words.decimal)},
+                        {"said", words.said},
+                        {"texts", words.texts}}
+      .dump();
+}
+
+WordTable word_table(const std::string& json) {
+  const auto value = nlohmann::json::parse(json);
+  WordTable words;
+  value.at("language").get_to(words.language);
+  const auto* plural = std::ranges::find(kPlurals, value.at("plural").get<std::string>());
+  if (plural != kPlurals.end()) words.plural = static_cast<Plural>(plural - kPlurals.begin());
+  words.decimal = value.at("decimal").get<std::string>().at(0);
+  for (const auto& [english, said] : value.at("said").items()) words.said[english] = said;
+  for (const auto& [own, said] : value.at("texts").items()) words.texts[own] = said;
+  return words;
+}
+
+std::vector<std::string> texts_of(ScenarioSpec scenario) {
+  std::vector<std::string> texts;
+  const auto add = [&](const std::string& text) {
+    if (is_text(text) && std::ranges::find(texts, text) == texts.end()) texts.push_back(text);
+  };
+  for_each_text(scenario, add);
+  for (const auto& side : scenario.sides)
+    for (const std::string& text : texts_of(*side)) add(text);
+  return texts;
+}
+
+void translate(ScenarioSpec& scenario, const WordTable& table) {
+  auto words = std::make_shared<WordTable>(table);
+  for (auto& side : scenario.sides) {
+    ScenarioSpec own = *side;
+    for_each_text(own, [&](std::string& text) { put(text, *words); });
+    label_bodies(own, *words);
+    side = std::make_shared<const Scenario>(Scenario(std::move(own)));
+  }
+  for_each_text(scenario, [&](std::string& text) { put(text, *words); });
+  label_bodies(scenario, *words);
+  std::ranges::sort(words->missing);
+  words->missing.erase(std::ranges::unique(words->missing).begin(), words->missing.end());
   Hash hash;
   hash.add(scenario.text_hash).add(words->language);
-  for (const auto* table : {&words->said, &words->texts})
-    for (const auto& [english, said] : *table) hash.add(english).add(said);
+  for (const auto* said : {&words->said, &words->texts})
+    for (const auto& [english, other] : *said) hash.add(english).add(other);
   scenario.text_hash = hash.value();
   scenario.words = std::move(words);
 }

@@ -28,9 +28,16 @@ std::shared_ptr<const WordTable> words_in(std::string_view language);
 // number of plural forms than the language's, a placeholder that the English has not.
 WordTable read_words(std::string_view text, const std::string& path, const WordTable& base);
 
-// Puts the table's [texts] for what the scenario says: its title, captions, notes, questions,
-// labels; and notes the table, whose words its frames are then said in. Throws ScenarioError if a
-// text quotes another count than the scenario's own.
-void translate(ScenarioSpec& scenario, std::shared_ptr<const WordTable> words);
+// As JSON, for a page; and back. Throws nlohmann's exceptions for what is no such table.
+std::string to_json(const WordTable& words);
+WordTable word_table(const std::string& json);
+
+// What the scenario and its sides say on pages, each text once: what a table's [texts] may stand for.
+std::vector<std::string> texts_of(ScenarioSpec scenario);
+
+// Puts the table's [texts] for what the scenario says, and gives it the table, with those that it
+// lacks if it has any, to say its frames' words in. Throws ScenarioError if a text quotes another
+// count than the scenario's own.
+void translate(ScenarioSpec& scenario, const WordTable& words);
 
 }  // namespace lantern::language

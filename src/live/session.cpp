@@ -14,6 +14,7 @@
 #include "live/edit.hpp"
 #include "live/grip.hpp"
 #include "live/play.hpp"
+#include "language/words.hpp"
 #include "live/retold.hpp"
 #include "publish/lesson_frames.hpp"
 #include "render/image.hpp"
@@ -71,6 +72,9 @@ class Session::Engine {
  public:
   std::string answer(const json& q) {
     const std::string what = q.at("do");
+    if (what == "open" && q.contains("words") && q.at("words").is_object())
+      words_ = std::make_shared<const WordTable>(language::word_table(q.at("words").dump()));
+    const Speaking speaking(words_.get());
     if (what == "open") return open(q);
     if (what == "complete")
       return complete_json(q.at("text").get<std::string>(), whole_in(q, "line"),
@@ -257,9 +261,10 @@ class Session::Engine {
   }
 
   // Of another text than the lesson's what is its own, and which steps of the lesson its steps are.
-  static language::Scenario parsed(const std::string& text, const std::string& name,
-                                   const Play* lesson, std::vector<int>* like = nullptr) {
+  language::Scenario parsed(const std::string& text, const std::string& name, const Play* lesson,
+                            std::vector<int>* like = nullptr) const {
     language::Scenario scenario = language::parse_scenario(text, name);
+    if (words_) language::translate(scenario, *words_);
     if (!lesson) return scenario;
     const language::Scenario& its = lesson->scenario();
     if (like) *like = steps_in(its, scenario);
@@ -270,6 +275,7 @@ class Session::Engine {
     return std::make_unique<Play>(std::move(scenario), grip_->moment);
   }
 
+  std::shared_ptr<const WordTable> words_;  // of the page; null: English
   std::shared_ptr<Play> lesson_;  // that texts are made from; null: none was told
   std::shared_ptr<Play> play_;    // of what was opened last
   std::vector<int> like_;         // of its steps

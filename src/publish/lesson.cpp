@@ -12,9 +12,11 @@
 #include "base/number.hpp"
 #include "base/printable.hpp"
 #include "base/stop.hpp"
+#include "base/words.hpp"
 #include "draw/keys.hpp"
 #include "draw/theme.hpp"
 #include "embedded/lesson_files.hpp"
+#include "language/words.hpp"
 #include "publish/packed.hpp"
 #include "render/canvas.hpp"
 #include "render/png.hpp"
@@ -79,6 +81,32 @@ std::optional<std::string_view> between_marks(std::string_view text, std::string
   return text.substr(begin, end - begin);
 }
 
+// A page's template with its fixed words said: what stands between two tags, and in titles and labels.
+std::string said(std::string_view html) {
+  if (!spoken()) return std::string(html);
+  constexpr std::string_view kSpace = " \n";
+  std::string text;
+  for (std::size_t at = 0; at < html.size();) {
+    const bool is_title = html.substr(0, at).ends_with(" title=\"") ||
+                          html.substr(0, at).ends_with(" aria-label=\"");
+    const bool is_between = at > 0 && html[at - 1] == '>';
+    const std::size_t end = std::min(html.find(is_title ? '"' : '<', at), html.size());
+    if (!is_title && !is_between) {
+      text += html[at++];
+      continue;
+    }
+    const std::string_view words = html.substr(at, end - at);
+    const std::size_t from = std::min(words.find_first_not_of(kSpace), words.size());
+    const std::size_t to = std::max(words.find_last_not_of(kSpace) + 1, from);
+    text += words.substr(0, from);
+    text += word(words.substr(from, to - from));
+    text += words.substr(to);
+    at = end;
+    if (at < html.size()) text += html[at++];
+  }
+  return text;
+}
+
 // A page of ours, or nothing.
 std::optional<Listed> listed(const Folder& folder, const std::string& file) {
   const std::string page = folder.read(file, kMostPage).value_or("");
@@ -125,7 +153,7 @@ std::string needs_of(const Listed& lesson, const std::map<std::string, const Lis
   std::string text;
   for (const std::string& name : lesson.card.needs) {
     const auto found = by_name.find(name);
-    text += text.empty() ? "<p class=\"needs\">after " : ", ";
+    text += text.empty() ? fmt::format("<p class=\"needs\">{} ", word("after")) : ", ";
     text += found == by_name.end() ? escaped(name)
                                    : link_to(found->second->file, found->second->card.title);
   }
@@ -141,7 +169,7 @@ std::string entry_of(const Listed& lesson, const std::map<std::string, const Lis
       "{}<p class=\"length\">{}</p>\n</li>\n",
       url_of(lesson.file), lesson.picture, number, link_to(lesson.file, card.title),
       escaped(card.idea), needs_of(lesson, by_name), question_list(card, url_of(lesson.file)),
-      counted(card.steps, "step"));
+      say_count(card.steps, "step/steps"));
 }
 
 }  // namespace
@@ -173,6 +201,7 @@ std::string to_json(const LessonCard& card) {
   json.key("needs").begin_array();
   for (const std::string& name : card.needs) json.value(name);
   json.end_array().members("steps", card.steps, "frames", card.frames);
+  if (!card.language.empty()) json.member("language", card.language);
   json.key("questions").begin_array();
   for (const LessonQuestion& q : card.questions)
     json.begin_object()
@@ -188,6 +217,7 @@ std::optional<LessonCard> lesson_card(std::string_view json) try {
   LessonCard card{value.at("scenario"), value.at("title"), value.at("idea"),   std::nullopt,
                   value.at("needs"),    value.at("steps"), value.at("frames"), {}};
   if (!value.at("lecture").is_null()) card.lecture = value.at("lecture").get<std::uint32_t>();
+  card.language = value.value("language", "");
   for (const auto& q :
        value.value("questions", nlohmann::json::array()))  // pages of before have none
     card.questions.push_back(
@@ -201,9 +231,8 @@ std::string question_list(const LessonCard& card, std::string_view page) {
   std::string text;
   for (const LessonQuestion& q : card.questions)
     text += fmt::format(
-        "<details>\n<summary>{}</summary>\n<p>{} <a href=\"{}#{}\">Look at it.</a></p>\n"
-        "</details>\n",
-        escaped(q.asked), escaped(q.answer), page, q.frame);
+        "<details>\n<summary>{}</summary>\n<p>{} <a href=\"{}#{}\">{}</a></p>\n</details>\n",
+        escaped(q.asked), escaped(q.answer), page, q.frame, word("Look at it."));
   return text;
 }
 
@@ -229,7 +258,7 @@ std::string Lesson::picture_of(const DrawList& list) const {
 std::string Lesson::html() const {
   LANTERN_CHECK(frames_.count() + (live_ ? live_->scenarios.size() : 0), >, 0u);
   return html_page(card_.title,
-                   filled(page::lesson_html, [&](std::string_view name) { return part(name); }),
+                   filled(said(page::lesson_html), [&](std::string_view name) { return part(name); }),
                    theme_ == "light" ? "" : fmt::format(" data-theme=\"{}\"", theme_));
 }
 
@@ -239,6 +268,7 @@ std::string Lesson::part(std::string_view name) const {
   if (name == "card") {
     LessonCard card = card_;
     card.frames = frames_.count();
+    if (spoken()) card.language = spoken()->language;
     return script_text(to_json(card));
   }
   if (name == "colours") return lesson_colours();
@@ -247,7 +277,8 @@ std::string Lesson::part(std::string_view name) const {
   if (name == "live") return live_ ? live_part() : "";
   if (name == "captions") return captions_;
   if (name == "questions") return question_list(card_, "");
-  if (name == "question-button") return std::string(card_.questions.empty() ? "" : kQuestionButton);
+  if (name == "question-button") return card_.questions.empty() ? "" : said(kQuestionButton);
+  if (name == "words") return words_part();
   if (name == "still") return base64(picture_of(first_));
   if (name == "cover") {
     const std::string end = picture_of(last_);
@@ -257,6 +288,10 @@ std::string Lesson::part(std::string_view name) const {
   if (name == "frames") return base64(deflated(frames_.json(), kSmallest));
   if (name == "facts") return base64(deflated("[" + facts_ + "]\n", kSmallest));
   LANTERN_CHECK(name, ==, std::string_view("script"));
+  return script();
+}
+
+std::string Lesson::script() const {
   std::string script;
   for (const std::string_view file :
        {page::lesson_data_js, page::lesson_picture_js, page::lesson_pointing_js,
@@ -269,11 +304,25 @@ std::string Lesson::part(std::string_view name) const {
   return script;
 }
 
+// What its scripts say in another language than English; all that frames say, too, if it makes them.
+std::string Lesson::words_part() const {
+  if (!spoken()) return "";
+  WordTable words = *spoken();
+  const std::string scripts = script();
+  if (!live_) {
+    words.texts.clear();
+    std::erase_if(words.said, [&](const auto& said) {
+      return scripts.find("\"" + said.first + "\"") == scripts.npos;
+    });
+  }
+  return data_script("application/json", "word-table", script_text(language::to_json(words)));
+}
+
 std::string Lesson::live_part() const {
   const LiveScenario& first = live_->scenarios.front();
   JsonWriter shown;
   shown.begin_object().members("name", first.name, "text", first.text).end_object();
-  std::string text(page::live_html);
+  std::string text = said(page::live_html);
   text += data_script("application/json", "scenario", script_text(shown.text()));
   if (live_->scenarios.size() > 1)
     text +=
@@ -297,13 +346,15 @@ bool write_engine(const Folder& folder, std::string_view packed) {
 
 std::string lesson_index(const Folder& folder) {
   const std::vector<Listed> lessons = lessons_in(folder);
+  const auto words = language::words_in(lessons.empty() ? "" : lessons.front().card.language);
+  const Speaking speaking(words.get());
   std::map<std::string, const Listed*> by_name;
   for (const Listed& lesson : lessons) by_name.emplace(lesson.card.scenario, &lesson);
-  return html_page("Lessons", filled(page::index_html, [&](std::string_view name) {
+  return html_page(word("Lessons"), filled(said(page::index_html), [&](std::string_view name) {
                      if (name == "mark") return std::string(kIndexMark);
                      if (name == "colours") return lesson_colours();
                      if (name == "style") return std::string(page::index_css);
-                     if (name == "count") return counted(lessons.size(), "lesson");
+                     if (name == "count") return say("{}, in the order of teaching", say_count(lessons.size(), "lesson/lessons"));
                      std::string entries;
                      for (const Listed& lesson : lessons) entries += entry_of(lesson, by_name);
                      return entries;

@@ -22,6 +22,7 @@ struct LessonCard {
   std::vector<std::string> needs;        // scenarios to be seen before
   std::uint64_t steps = 0, frames = 0;
   std::vector<LessonQuestion> questions = {};
+  std::string language = {};  // "de"; empty: English
 };
 // As one line of JSON; back from it, nothing if it is not that.
 std::string to_json(const LessonCard& card);
@@ -78,6 +79,8 @@ class Lesson {
   std::string part(std::string_view name) const;       // of the page's text
   std::string picture_of(const DrawList& list) const;  // an SVG
   std::string live_part() const;
+  std::string words_part() const;
+  std::string script() const;
 
   LessonCard card_;
   std::string theme_;

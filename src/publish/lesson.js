@@ -103,10 +103,10 @@ class Page {
     const [place, count] = [stop + 1 + grown, this.stops.length + grown];
     $("slider").max = count - 1;
     $("slider").value = place - 1;
-    $("slider").setAttribute("aria-label", this.byEvent ? "Frame" : "Step");
-    $("slider").setAttribute("aria-valuetext", `${place} of ${count}, step ${step + 1}: ${caption}`);
+    $("slider").setAttribute("aria-label", say(this.byEvent ? "Frame" : "Step"));
+    $("slider").setAttribute("aria-valuetext", say("{} of {}, step {}: {}", place, count, step + 1, caption));
     const areFrames = this.byEvent && this.stops.length > this.lesson.stepStops.length;
-    $("number").textContent = `${areFrames ? "frame " : ""}${place} / ${count}`;
+    $("number").textContent = areFrames ? say("frame {} / {}", place, count) : `${place} / ${count}`;
   }
 
   // --- stepping

@@ -1,5 +1,24 @@
 // What a lesson page holds, unpacked: see src/publish/lesson_frames.hpp and lesson_shapes.hpp.
 
+// The page's fixed words in its language, by the English ones; a page in English has none.
+const WORDS = JSON.parse(document.getElementById("word-table")?.textContent ?? '{"said": {}}').said;
+const PLURALS = new Intl.PluralRules(document.documentElement.lang || "en");
+
+// A sentence about these: "{}" in turn, or by number as a translation may have it, "{1}".
+function say(english, ...values) {
+  let next = 0;
+  return (WORDS[english] ?? english).replace(/\{(\d*)\}/g, (_, i) => values[i === "" ? next++ : i]);
+}
+
+// Of "leaf/leaves" the form for so many: one, a few where a language has that, and others.
+function form(forms, n) {
+  const all = (WORDS[forms] ?? forms).split("/");
+  return all[Math.min({ one: 0, few: 1 }[PLURALS.select(n)] ?? all.length - 1, all.length - 1)];
+}
+// A node's name as it is read: "root" and "front.back" are words.
+const labelOf = (label) => label.split(".").map((part) => say(part)).join(".");
+const counted = (n, forms) => `${n} ${form(forms, n)}`;
+
 const HUNDREDTH = 0.01;
 
 // The JSON in <script id=...>: base64 of a zlib stream; null if it is empty.

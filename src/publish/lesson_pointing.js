@@ -138,16 +138,16 @@ class Pointing {
   words(one) {
     const side = this.side(one);
     const name = nameOf(one);
-    if (kindOf(one) === "pair") return `pair ${name.split("|").join(", ")}`;
+    if (kindOf(one) === "pair") return say("pair {}", name.split("|").join(", "));
     if (kindOf(one) === "body") {
       const shown = showsNodes(this.lesson, this.picture.index) ? side.leavesWith(name) : [];
-      const leaves = shown.map((leaf) => leaf.label).join(", ");
-      return name + (leaves ? `, in ${leaves}` : "");
+      const leaves = shown.map((leaf) => labelOf(leaf.label)).join(", ");
+      return leaves ? say("{}, in {}", name, leaves) : name;
     }
     const node = side.nodes.get(name);
     if (!node) return "";
-    const held = node.bodies.size ? `holds ${[...node.bodies].join(", ")}` : "is empty";
-    return `${node.leaf ? "leaf" : "node"} ${node.label} ${held}`;
+    const called = say(node.leaf ? "leaf {}" : "node {}", labelOf(node.label));
+    return node.bodies.size ? say("{} holds {}", called, [...node.bodies].join(", ")) : say("{} is empty", called);
   }
 
   // Lights up an entity and what belongs to it; null: nothing.

@@ -58,7 +58,7 @@ class Words {
     numbers.replaceChildren(...counterList(document, counters));
     told.parentNode.classList.toggle("ending", Boolean(ending));
     document.getElementById("part").textContent = part ?? "";
-    document.getElementById("place").textContent = `step ${step + 1} of ${this.lesson.steps + this.grown}`;
+    document.getElementById("place").textContent = say("step {} of {}", step + 1, this.lesson.steps + this.grown);
   }
 
   // Words begin and end where the picture's panels do. Narrower words may be higher, and then the
@@ -97,7 +97,7 @@ function changeTheme() {
 }
 
 function nameTheme() {
-  const title = `Colours: ${THEMES[themeNow()]}. Change to ${THEMES[followingTheme()]} (D)`;
+  const title = say("Colours: {}. Change to {} (D)", say(THEMES[themeNow()]), say(THEMES[followingTheme()]));
   const button = document.getElementById("theme");
   for (const name of ["title", "aria-label"]) button.setAttribute(name, title);
 }
@@ -125,7 +125,7 @@ function factTables(facts) {
   const bodies = facts.bodies.slice(0, MOST_ROWS).map(([id, name, at, speed, state]) =>
     ({ texts: [name || `#${id}`, at.join(", "), speed, state], of: entity(side, "body", name || `#${id}`) }));
   const nodes = facts.nodes.slice(0, MOST_ROWS).map(([way, label, depth, leaf]) =>
-    ({ texts: [label, depth, leaf ? "leaf" : "", [...relations.nodes.get(way).bodies].join(", ")],
+    ({ texts: [label, depth, leaf ? form("leaf/leaves", 1) : "", [...relations.nodes.get(way).bodies].join(", ")],
        of: entity(side, "node", way) }));
   const title = facts.title || side;
   const parts = title ? [element(document, "h2", { text: title })] : [];
@@ -221,7 +221,7 @@ class SpeakerView {
     doc.documentElement.className = "live";
     doc.documentElement.dataset.theme = themeNow();
     doc.head.replaceChildren(...[...document.querySelectorAll("style")].map((style) => doc.importNode(style, true)));
-    doc.title = `Speaker’s view: ${document.title}`; // it stands in the head
+    doc.title = say("Speaker’s view: {}", document.title); // it stands in the head
     doc.body.className = "speaker";
     this.parts = Object.fromEntries([...SPEAKER_PARTS, ...SPEAKER_SIDE].map((id) => [id, element(doc, "div", { id })]));
     doc.body.replaceChildren(...SPEAKER_PARTS.map((id) => this.parts[id]));
@@ -252,7 +252,7 @@ class SpeakerView {
     const now = new Date();
     const two = (n) => String(n).padStart(2, "0");
     this.parts.clock.textContent = `${two(now.getHours())}:${two(now.getMinutes())}  ·  ` +
-      `${two(Math.floor(seconds / 60))}:${two(seconds % 60)} elapsed`;
+      say("{} elapsed", `${two(Math.floor(seconds / 60))}:${two(seconds % 60)}`);
   }
 
   show(index, next) {
@@ -263,8 +263,8 @@ class SpeakerView {
     this.parts.next.hidden = isLast;
     if (!isLast) this.next.show(next);
     const { parts } = this;
-    parts.place.textContent = `Step ${step + 1} of ${this.lesson.steps}`;
-    parts.head.textContent = isLast ? "The end" : "Next";
+    parts.place.textContent = say("Step {} of {}", step + 1, this.lesson.steps);
+    parts.head.textContent = say(isLast ? "The end" : "Next");
     parts.coming.textContent = isLast ? "" : this.lesson.frames[next].caption;
     parts.notes.textContent = notes ?? "";
     parts.caption.textContent = caption;

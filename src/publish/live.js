@@ -139,7 +139,7 @@ class Live {
   opening(text) {
     const lesson = this.own.text;
     const held = text === lesson ? "" : nameOf(this.page.watched ?? "");
-    return { do: "open", text, name: this.name, held, lesson, ...this.sheet };
+    return { do: "open", text, name: this.name, words: wordTable, held, lesson, ...this.sheet };
   }
 
   // Refused text leaves the picture of the last good one.
@@ -201,8 +201,8 @@ class Live {
     else {
       const words = its?.frames[frame.like]?.caption ?? "";
       const counts = () => countsTold(facts, known?.[frame.like], showsNodes(lesson, index));
-      const caption = sentence.endsWith(GONE) ? `${sentence} ${counts()}` : sentence || frame.caption || counts();
-      const beside = words && words !== caption ? `in the lesson: ${words}` : "";
+      const caption = sentence.endsWith(gone("")) ? `${sentence} ${counts()}` : sentence || frame.caption || counts();
+      const beside = words && words !== caption ? say("in the lesson: {}", words) : "";
       Object.assign(frame, { caption, beside, isTold: true, ending: false });
     }
     return lesson;
@@ -210,7 +210,7 @@ class Live {
 
   // Why neither hand nor controls can change the text.
   get broken() {
-    return this.text !== this.good && "The text has a mistake: correct it, or undo it, first.";
+    return this.text !== this.good && say("The text has a mistake: correct it, or undo it, first.");
   }
 
   // The frame of another run that is nearest to the one shown: of the same step, as far along.
@@ -284,9 +284,9 @@ class Live {
     this.link(`&t=${letters.replaceAll("+", "-").replaceAll("/", "_").replaceAll("=", "")}`);
     try {
       await navigator.clipboard.writeText(location.href);
-      this.say("The link is copied.");
+      this.say(say("The link is copied."));
     } catch {
-      this.say("The link is in the address bar.");
+      this.say(say("The link is in the address bar."));
     }
   }
 
@@ -303,7 +303,7 @@ class Live {
       await this.change(await unpackedLink(packed), "link", { index });
       this.link(behind);
     } catch {
-      this.say("The text in this link is damaged.");
+      this.say(say("The text in this link is damaged."));
     }
   }
 }
@@ -380,6 +380,6 @@ async function startLive(page) {
 
 opened.then(startLive).catch((error) => {
   document.documentElement.dataset.live = "off"; // what was recorded is there all the same
-  if (!$("caption").textContent) $("caption").textContent = `The engine cannot run here: ${error.message}`;
+  if (!$("caption").textContent) $("caption").textContent = say("The engine cannot run here: {}", error.message);
   console.warn(error);
 });

@@ -19,7 +19,7 @@ class Controls {
 
   remove() {
     const { page } = this.live;
-    if (!page.watched) return this.live.say("Move the body that is to go: then it is the one that is meant.");
+    if (!page.watched) return this.live.say(say("Move the body that is to go: then it is the one that is meant."));
     this.ask("remove", "body", () => ({ do: "remove", frame: page.index, entity: page.watched }));
   }
 
@@ -48,7 +48,7 @@ class Controls {
     const paths = controls.map(({ path }) => path).join();
     if (paths !== this.paths) $("fields").replaceChildren(...fieldsOf(controls));
     this.paths = paths;
-    if (!controls.length) $("fields").textContent = "Nothing here can be set by hand. The text can be changed.";
+    if (!controls.length) $("fields").textContent = say("Nothing here can be set by hand. The text can be changed.");
     for (const field of document.querySelectorAll("#change-part [data-path]"))
       putIn(field, controls.find(({ path }) => path === field.dataset.path), this.live.cause === field.dataset.path);
   }
@@ -82,9 +82,10 @@ function fieldOf({ path, key, means, type, least, most, step, choices, unit, val
   });
 }
 
+const singular = (word) => word.replace(/ves$/, "f").replace(/ies$/, "y").replace(/(..)s$/, "$1");
 // What stands between backticks is code.
 const coded = (words) => words.split("`").map((text, i) => (i % 2 ? element(document, "code", { text }) : text));
-const withUnit = (value, unit) => (unit?.length > 2 ? counted(Number(value), unit) : `${value} ${unit ?? ""}`);
+const withUnit = (value, unit) => (unit?.length > 2 ? `${value} ${Number(value) === 1 ? singular(unit) : unit}` : `${value} ${unit ?? ""}`);
 
 // A choice's own words, where those of its key come to it first; or what is said of all of them.
 function meaningOf({ type, means, value, choices }) {
@@ -125,13 +126,13 @@ function fillQuestions(page, questions, known = []) {
   for (const old of $("question-dialog").querySelectorAll("details")) old.remove();
   $("question-dialog").prepend(...questions.map((question) => {
     const { asked, answer, frame, predict } = question;
-    const link = element(document, "a", { href: `#${frame}`, text: "Look at it." });
+    const link = element(document, "a", { href: `#${frame}`, text: say("Look at it.") });
     link.addEventListener("click", (event) => { event.preventDefault(); page.go(frame); });
     const its = known.find((one) => one.asked === asked)?.answer;
-    const told = element(document, "p", { children: [answer || its ? `${answer || `In the lesson: ${its}`} ` : "", link] });
+    const told = element(document, "p", { children: [answer || its ? `${answer || say("In the lesson: {}", its)} ` : "", link] });
     return element(document, "details", {
       ...(ANSWERED.has(asked) && { open: "" }),
-      children: [element(document, "summary", { text: predict ? `At step ${page.lesson.frames[frame].step + 1}: ${asked}` : asked }), ...(predict ? askFirst(page, question, told) : []), told],
+      children: [element(document, "summary", { text: predict ? say("At step {}: {}", page.lesson.frames[frame].step + 1, asked) : asked }), ...(predict ? askFirst(page, question, told) : []), told],
     });
   }));
   if ($("question")) $("question").hidden = !questions.length;
@@ -141,15 +142,15 @@ const ANSWERED = new Set(); // questions to which the reader has said something
 
 function askFirst(page, { asked, predict, frame }, answer) {
   const number = element(document, "input", { type: "number", min: 0 });
-  const words = element(document, "label", { children: [`Your number of ${predict.replaceAll("_", " ")}: `, number] });
-  const form = element(document, "form", { children: [words, element(document, "button", { text: "Check" })] });
+  const words = element(document, "label", { children: [`${say("Your number of {}:", countNamed(predict))} `, number] });
+  const form = element(document, "form", { children: [words, element(document, "button", { text: say("Check") })] });
   const said = element(document, "p", { role: "status" });
   answer.hidden = !ANSWERED.has(asked);
   form.addEventListener("submit", (event) => {
     event.preventDefault();
-    if (!number.value) return (said.textContent = "Say a number first.");
+    if (!number.value) return (said.textContent = say("Say a number first."));
     const found = page.facts[frame].map(({ counts }) => new Map(counts).get(predict) ?? 0);
-    said.textContent = `${found.includes(Number(number.value)) ? "Right" : "Wrong"}: you said ${number.value}; it is ${found.join(" and ")}.`;
+    said.textContent = say(found.includes(Number(number.value)) ? "Right: you said {}; it is {}." : "Wrong: you said {}; it is {}.", number.value, listed(found));
     ANSWERED.add(asked);
     answer.hidden = false;
     form.closest("details").open = true;
@@ -159,17 +160,18 @@ function askFirst(page, { asked, predict, frame }, answer) {
     page.live.guess = { asked, predict, word };
     $("question-dialog").close();
     page.go(frame);
-    page.live.say(`You say ${word}. Now drag a body.`);
+    page.live.say(say("You say {}. Now drag a body.", say(word)));
   };
   const buttons = CHANGES.map((word) => {
-    const button = element(document, "button", { type: "button", text: word });
+    const button = element(document, "button", { type: "button", text: say(word) });
     button.addEventListener("click", () => choose(word));
     return button;
   });
-  return [form, said, element(document, "p", { class: "group", children: ["Or guess, then drag a body. There will be ", ...buttons, ` ${predict.replaceAll("_", " ")}.`] })];
+  return [form, said, element(document, "p", { class: "group", children: [`${say("Or guess, then drag a body. There will be")} `, ...buttons, ` ${countNamed(predict)}.`] })];
 }
 
 const CHANGES = ["fewer", "as many", "more"];
+const countNamed = (name) => (COUNTS[name] ? form(COUNTS[name], 100) : name.replaceAll("_", " "));
 const countOf = (page, name) => page.facts[page.index].reduce((sum, { counts }) => sum + (new Map(counts).get(name) ?? 0), 0);
 
 // What a move was said to make of a count, and what it has made of it.
@@ -178,5 +180,6 @@ function judge(live, { asked, predict, word, before }) {
   const found = CHANGES[Math.sign(now - before) + 1];
   live.guess = null;
   ANSWERED.add(asked);
-  live.say(`${found === word ? "Yes" : "No"}, ${found}: ${before} ${predict.replaceAll("_", " ")} before, ${now} now.`);
+  live.say(say(found === word ? "Yes, {}: {} before, {} now." : "No, {}: {} before, {} now.", say(found),
+    `${before} ${countNamed(predict)}`, now));
 }

@@ -75,7 +75,7 @@ class Editor {
   tell(diagnostics, unmet = []) {
     this.diagnostics = [...diagnostics, ...unmet.map((one) => ({ ...one, severity: "warning" }))];
     this.told = diagnostics.map(sentenceOf).join("\n");
-    $("live-said").textContent = [this.told, unmet.length && `${unmet.length} of the counts that the lesson expects ${unmet.length === 1 ? "is another" : "are others"} in your world.`].filter(Boolean).join("\n");
+    $("live-said").textContent = [this.told, unmet.length && say("In your world {} of the counts that the lesson expects are others.", unmet.length)].filter(Boolean).join("\n");
     const isWrong = diagnostics.some(({ severity }) => severity === "error");
     this.area.setAttribute("aria-invalid", isWrong);
     $("text").classList.toggle("wrong", isWrong);

@@ -75,5 +75,6 @@ class Engine {
 
 const textIn = (id) => document.getElementById(id)?.textContent;
 const firstScenario = JSON.parse(textIn("scenario"));
+const wordTable = JSON.parse(textIn("word-table") ?? "null"); // null: English
 const engine = new Engine(textIn("engine-packed") ?? window.lanternEngine, textIn("worker-script"), () =>
-  ({ do: "open", text: firstScenario.text, name: firstScenario.name, lesson: firstScenario.text, ...sheet() }));
+  ({ do: "open", words: wordTable, text: firstScenario.text, name: firstScenario.name, lesson: firstScenario.text, ...sheet() }));

@@ -140,7 +140,7 @@ class Hand {
 
   move(event) {
     const { held } = this;
-    if (!held && this.beside && event.buttons) this.live.say("A texture’s size is what can be changed: drag its corner.");
+    if (!held && this.beside && event.buttons) this.live.say(say("A texture’s size is what can be changed: drag its corner."));
     if (!held) return this.hover(event);
     if (event.pointerId !== held.pointer) return;
     event.stopImmediatePropagation();
@@ -256,7 +256,7 @@ class Hand {
       const moment = speed && (await this.fly(last));
       await live.run(moment ? { moment } : { index: last.index });
       this.tell(held.one);
-      if (!speed && live.passes && kindOf(held.one) === "body") live.say("It was put down here: play goes on from here.");
+      if (!speed && live.passes && kindOf(held.one) === "body") live.say(say("It was put down here: play goes on from here."));
       if (live.guess) judge(live, live.guess);
     });
   }
@@ -327,7 +327,7 @@ class Hand {
     const { facts, index } = this.page;
     const side = facts[index].find(({ name }) => name === sideOf(one)) ?? facts[index][0];
     const body = side.bodies.find(([, name]) => name === nameOf(one));
-    $("said").textContent = `${nameOf(one)}${body ? ` at ${body[2].join(", ")}` : ""}. ${this.words.sentence(this.page.lesson, index, facts[index])}`;
+    $("said").textContent = `${body ? say("{} at {}", nameOf(one), body[2].join(", ")) : nameOf(one)}. ${this.words.sentence(this.page.lesson, index, facts[index])}`;
   }
 
   // --- by keys, of the body that has the focus among the frame's things
@@ -384,7 +384,7 @@ class Hand {
     this.kind = !one ? this.live.scene.level && "wall" : this.sizes(one) ? "texture" : this.live.passes ? "throw" : "body";
     const invites = this.kind && this.done !== undefined && !this.done.includes(this.kind);
     $("invitation").hidden = !invites;
-    $("invitation").textContent = `${INVITATIONS[this.kind]}: the engine answers.`;
+    $("invitation").textContent = say("{}: the engine answers.", say(INVITATIONS[this.kind]));
     if (!one || !invites) return;
     const [left, upper, right, lower] = this.boxOf(one);
     this.mark = this.page.picture.make("g");

@@ -8,6 +8,7 @@
 #include "base/error.hpp"
 #include "base/printable.hpp"
 #include "base/stop.hpp"
+#include "base/words.hpp"
 #include "draw/font.hpp"
 #include "render/canvas.hpp"
 
@@ -44,7 +45,7 @@ class SvgWriter {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" "
         "xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"{}\" height=\"{}\" "
         "viewBox=\"0 0 {} {}\"{}{}>\n{}",
-        width, height, w, h, words_.letters ? kFace : "", role(), told());
+        width, height, w, h, words_.letters ? kFace : "", lang() + role(), told());
     if (!defs_.empty()) svg += fmt::format("<defs>\n{}</defs>\n", defs_);
     if (!transparent)
       svg += fmt::format("<rect width=\"{}\" height=\"{}\"{}/>\n", w, h,
@@ -53,6 +54,9 @@ class SvgWriter {
   }
 
  private:
+  static std::string lang() {
+    return spoken() ? fmt::format(" lang=\"{}\"", spoken()->language) : "";
+  }
   // For screen readers: it is one picture, with this name.
   std::string role() const {
     if (words_.title.empty()) return "";

@@ -8,17 +8,20 @@
 #include <fmt/format.h>
 
 #include "app/commands/command.hpp"
+#include "app/run_scenario.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/hash.hpp"
 #include "base/json_writer.hpp"
 #include "base/number.hpp"
 #include "base/stop.hpp"
+#include "base/suggest.hpp"
 #include "draw/page.hpp"
 #include "embedded/output_schema.hpp"
 #include "embedded/version.hpp"
 #include "language/language.hpp"
 #include "language/scenario.hpp"
+#include "language/words.hpp"
 #include "render/png.hpp"
 #include "render/renderer.hpp"
 #include "render/svg.hpp"
@@ -202,6 +205,7 @@ int write_completions(const CompletionsOptions& options) {
 
 struct ReferenceOptions {
   std::string pictures;  // folder; empty: the page is printed
+  std::string words, texts;
   std::string backend = "auto";
   bool json = false;
 };
@@ -209,6 +213,10 @@ struct ReferenceOptions {
 Options reference_options(ReferenceOptions& o) {
   return {{"--pictures", &o.pictures, "draw the page's pictures into this folder instead",
            OptionTraits{.value = "DIR"}},
+          {"--words", &o.words, "print the table of fixed words of this language instead, such as de",
+           OptionTraits{.value = "LANGUAGE"}},
+          {"--texts", &o.texts, "print a table for the texts of this scenario in another language",
+           OptionTraits{.value = "FILE"}},
           backend_option(o.backend),
           json_option(o.json)};
 }
@@ -292,7 +300,26 @@ int draw_pictures(const ReferenceOptions& options) {
   return kGood;
 }
 
+int print_words(const std::string& language) {
+  const std::string_view file = language::words_file(language);
+  if (file.empty())
+    throw UsageError(with_suggestion(fmt::format("there are no words for '{}'", language), language,
+                                     language::languages()));
+  write_stdout(std::string(file));
+  return kGood;
+}
+
+int print_texts(const std::string& file) {
+  std::string table = "language = \"\"  # such as \"de\"\n\n[texts]\n";
+  for (const std::string& text : language::texts_of(load_scenario(scenario_file(file))))
+    table += fmt::format("{} = \"\"\n", json_string(text));
+  write_stdout(table);
+  return kGood;
+}
+
 int print_reference(const ReferenceOptions& options) {
+  if (!options.words.empty()) return print_words(options.words);
+  if (!options.texts.empty()) return print_texts(options.texts);
   if (!options.pictures.empty()) return draw_pictures(options);
   if (options.json)
     answer(answer_of("reference")

@@ -8,6 +8,8 @@
 #include "app/output/sinks.hpp"
 #include "app/run_scenario.hpp"
 #include "base/number.hpp"
+#include "base/words.hpp"
+#include "language/words.hpp"
 #include "publish/lesson.hpp"
 
 namespace lantern::app {
@@ -66,13 +68,15 @@ int make_playground(const PlaygroundOptions& options) {
   std::ranges::stable_sort(live.scenarios, {}, [](const publish::LiveScenario& s) {
     return std::pair(!s.lecture, s.lecture);  // those without a place in the lecture are the last
   });
+  const auto words = language::words_in(wording().language);
+  const Speaking speaking(words.get());
   const std::string there = counted(live.scenarios.size(), "scenario");
   live.scenarios.push_back(
-      {"empty.toml", "An empty world", "To begin from nothing.", {}, kEmptyWorld});
+      {"empty.toml", word("An empty world"), word("To begin from nothing."), {}, kEmptyWorld});
   publish::Lesson page({"playground",
-                        "Playground",
-                        "Every sequence, run in the page: drag what is "
-                        "drawn, or change its text.",
+                        word("Playground"),
+                        word("Every sequence, run in the page: drag what is drawn, or change its "
+                             "text."),
                         std::nullopt,
                         {},
                         0},
