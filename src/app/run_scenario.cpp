@@ -20,6 +20,7 @@
 #include "base/suggest.hpp"
 #include "draw/font.hpp"
 #include "draw/page.hpp"
+#include "language/words.hpp"
 #include "language/text/problems.hpp"
 #include "run/warnings.hpp"
 #include "run/watcher.hpp"
@@ -96,6 +97,14 @@ void add_folder(const fs::path& folder, std::vector<std::string>& files) {
   for (auto& [place, file] : lessons) files.push_back(std::move(file));
 }
 
+// The bytes of Debian's Japanese typeface; none where it is not installed.
+std::string japanese_typeface() {
+  constexpr const char* kFile = "/usr/share/fonts/opentype/ipaexfont-gothic/ipaexg.ttf";
+  constexpr std::size_t kMostBytes = std::size_t{1} << 25;
+  std::error_code error;
+  return fs::is_regular_file(kFile, error) ? read_file(kFile, kMostBytes) : "";
+}
+
 // Of all texts that come onto a page, each letter once, in order.
 void find_missing(const Scenario& scenario, std::u32string& letters) {
   const auto look_at = [&](std::string_view text) {
@@ -106,19 +115,11 @@ void find_missing(const Scenario& scenario, std::u32string& letters) {
         letters += *letter.code;
     }
   };
-  look_at(scenario.title);
-  look_at(scenario.side_title);
-  for (const BodySpec& body : scenario.bodies) look_at(body.name);
+  for (const std::string& text : language::texts_of(scenario)) look_at(text);
+  for (const BodySpec& body : scenario.bodies) look_at(body.called());
   for (const TextureSpec& texture : scenario.textures) look_at(texture.name);
-  for (const std::string& number : scenario.headline) look_at(number);
-  for (const Step& step : scenario.steps) {
-    for (const std::string& number : step.headline) look_at(number);
-    look_at(step.part);
-    look_at(step.caption);
-    look_at(step.after);
-    for (const NoteSpec& note : step.notes) look_at(note.text);
-  }
-  for (const auto& side : scenario.sides) find_missing(*side, letters);
+  if (scenario.words)
+    for (const auto& [english, said] : scenario.words->said) look_at(said);
 }
 
 // Where the file first writes it, comments aside; as a whole if it writes it as \u....
@@ -149,7 +150,8 @@ void add_missing_letters(const Scenario& scenario, std::vector<Diagnostic>& foun
   found.push_back(warning(
       scenario, place_in(scenario, first),
       fmt::format("the bundled typeface has no {}: a picture shows a box in its place", list),
-      "Inter has Latin, Greek and Cyrillic letters"));
+      "Inter has Latin, Greek and Cyrillic letters; Japanese ones come with the package "
+      "fonts-ipaexfont-gothic"));
 }
 
 void add_missing_words(const Scenario& scenario, std::vector<Diagnostic>& found) {
@@ -306,6 +308,7 @@ RunResult run_scenario(const Scenario& scenario, Pace pace, FrameSink& sink, Wor
   extent.chosen = chosen;
   extent.in_betweens = in_betweens;
   const Speaking speaking(scenario.words.get());
+  draw::set_more_letters(japanese_typeface);
   Progress progress(scenario.name, extent, work, memory_budget(), [&] { return sink.waiting(); });
   Trials trials([&] { return progress.long_left(); }, work);
   RunWatch watch(scenario, shows_a_body, &trials);

@@ -24,16 +24,16 @@ constexpr int kReplacement = 0xfffd;
 std::atomic<std::uint64_t> faces{0};
 
 // Where the tables of a weight's file are: enough to ask which letters it has.
-stbtt_fontinfo tables_of(Weight weight) {
+stbtt_fontinfo tables_in(std::string_view file) {
   stbtt_fontinfo info{};
-  const auto* data = reinterpret_cast<const unsigned char*>(font_file(weight).data());
-  LANTERN_CHECK(stbtt_InitFont(&info, data, 0), !=, 0);
+  LANTERN_CHECK(stbtt_InitFont(&info, reinterpret_cast<const unsigned char*>(file.data()), 0), !=, 0);
   return info;
 }
+stbtt_fontinfo tables_of(Weight weight) { return tables_in(font_file(weight)); }
 
 // One weight, measured and kerned. Immutable once made, so every thread may use it.
 struct FontFace {
-  explicit FontFace(Weight weight) : info(tables_of(weight)) {
+  explicit FontFace(const stbtt_fontinfo& tables) : info(tables) {
     ++faces;
     em_per_unit = static_cast<double>(stbtt_ScaleForMappingEmToPixels(&info, 1.0f));
     for (int c = 0; c < kAscii; ++c) ascii_[c] = stbtt_FindGlyphIndex(&info, c);
@@ -67,11 +67,21 @@ struct FontFace {
   std::vector<int> advances_;                // of glyphs, font units
 };
 
+std::string (*more_letters)() = nullptr;
+
+// The typeface that has more letters; null if there is none.
+const FontFace* more_face() {
+  static const std::string file = more_letters ? more_letters() : "";
+  static const std::optional<FontFace> made =
+      file.empty() ? std::nullopt : std::optional<FontFace>(tables_in(file));
+  return made ? &*made : nullptr;
+}
+
 const FontFace& face(Weight weight) {
   static std::array<std::once_flag, kWeights.size()> once;
   static std::array<std::optional<FontFace>, kWeights.size()> made;
   const auto i = static_cast<std::size_t>(weight);
-  std::call_once(once[i], [&] { made[i].emplace(weight); });
+  std::call_once(once[i], [&] { made[i].emplace(tables_of(weight)); });
   return *made[i];
 }
 
@@ -83,6 +93,24 @@ int next_codepoint(std::string_view text, std::size_t& at) {
   return !code ? kReplacement : *code < ' ' ? ' ' : static_cast<int>(*code);
 }
 
+// A glyph of the other typeface has a number behind all of the bundled one's.
+bool is_of(const FontFace& f, int glyph) { return glyph < f.info.numGlyphs; }
+int glyph_of(const FontFace& f, int code) {
+  const int own = f.glyph(code);
+  if (own != 0 || code <= ' ') return own;
+  const FontFace* more = more_face();
+  const int other = more ? more->glyph(code) : 0;
+  return other == 0 ? 0 : f.info.numGlyphs + other;
+}
+double advance_of(const FontFace& f, int glyph) {
+  return is_of(f, glyph) ? f.advance(glyph) : more_face()->advance(glyph - f.info.numGlyphs);
+}
+// The face that has the glyph, and its number there.
+std::pair<const FontFace&, int> found_in(const FontFace& f, int glyph) {
+  if (is_of(f, glyph)) return {f, glyph};
+  return {*more_face(), glyph - f.info.numGlyphs};
+}
+
 // Calls place(glyph, x in ems, letter) for each glyph; gives the width of the line in ems.
 double walk(std::string_view text, Weight weight, const auto& place) {
   const FontFace& f = face(weight);
@@ -90,16 +118,20 @@ double walk(std::string_view text, Weight weight, const auto& place) {
   int last = -1, last_glyph = 0;
   for (std::size_t at = 0; at < text.size();) {
     const int code = next_codepoint(text, at);
-    const int glyph = f.glyph(code);
-    if (last >= 0) x += f.advance(last, last_glyph, code, glyph);
+    const int glyph = glyph_of(f, code);
+    if (last >= 0) x += is_of(f, last_glyph) && is_of(f, glyph)
+                            ? f.advance(last, last_glyph, code, glyph)
+                            : advance_of(f, last_glyph);
     place(glyph, x, code);
     last = code;
     last_glyph = glyph;
   }
-  return last < 0 ? 0.0 : x + f.advance(last_glyph);
+  return last < 0 ? 0.0 : x + advance_of(f, last_glyph);
 }
 
 }  // namespace
+
+void set_more_letters(std::string (*file)()) { more_letters = file; }
 
 std::string_view font_file(Weight weight) {
   static constexpr std::array files = {&font::inter_regular_otf, &font::inter_semibold_otf,
@@ -112,7 +144,9 @@ std::uint64_t faces_made() { return faces; }
 bool has_glyph(char32_t letter) {
   static const stbtt_fontinfo tables = tables_of(Weight::regular);
   // Control characters are drawn as blanks.
-  return letter < ' ' || stbtt_FindGlyphIndex(&tables, static_cast<int>(letter)) != 0;
+  if (letter < ' ' || stbtt_FindGlyphIndex(&tables, static_cast<int>(letter)) != 0) return true;
+  const FontFace* more = more_face();
+  return more && more->glyph(static_cast<int>(letter)) != 0;
 }
 
 double text_width(std::string_view text, double size, Weight weight) {
@@ -130,8 +164,9 @@ std::vector<PlacedGlyph> shape_text(std::string_view text, double size, Weight w
   return glyphs;
 }
 
-GlyphBitmap rasterise_glyph(int glyph, Weight weight, double pixels, double shift) {
-  const stbtt_fontinfo* info = &face(weight).info;
+GlyphBitmap rasterise_glyph(int of_weight, Weight weight, double pixels, double shift) {
+  const auto [f, glyph] = found_in(face(weight), of_weight);
+  const stbtt_fontinfo* info = &f.info;
   const float scale = stbtt_ScaleForMappingEmToPixels(info, static_cast<float>(pixels));
   GlyphBitmap bitmap;
   unsigned char* coverage =
@@ -143,8 +178,10 @@ GlyphBitmap rasterise_glyph(int glyph, Weight weight, double pixels, double shif
   return bitmap;
 }
 
-std::vector<PathStep> glyph_path(int glyph, Weight weight) {
-  const FontFace& f = face(weight);
+std::vector<PathStep> glyph_path(int of_weight, Weight weight) {
+  const auto found = found_in(face(weight), of_weight);
+  const FontFace& f = found.first;
+  const int glyph = found.second;
   stbtt_vertex* vertices = nullptr;
   const int count = stbtt_GetGlyphShape(&f.info, glyph, &vertices);
   std::vector<PathStep> path;

@@ -2,12 +2,17 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
 #include "draw/draw_list.hpp"
 
 namespace lantern::draw {
+
+// Whence letters come that the bundled type lacks: the bytes of an OpenType file, or none. It is
+// asked once, when the first such letter is set. Before that, and without it, they are boxes.
+void set_more_letters(std::string (*file)());
 
 // Width of a line of text, page units, at an em of `size`; kerning included.
 double text_width(std::string_view text, double size, Weight weight);

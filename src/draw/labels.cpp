@@ -198,6 +198,32 @@ std::string shortened(std::string_view text, double width, const TextStyle& styl
   return end == 0 ? std::string() : std::string(text.substr(0, end)) + "…";
 }
 
+namespace {
+
+// A text of Chinese or Japanese may break between any two letters but before what closes and behind
+// what opens (JIS X 4051): the last such place up to `end`, behind the last space; 0 if there is
+// none.
+std::size_t break_between(std::string_view text, std::size_t end) {
+  constexpr std::u32string_view kNotFirst = U"、。，．・：；？！）］｝」』】〉》ー々ぁぃぅぇぉっゃゅょァィゥェォッャュョ";
+  constexpr std::u32string_view kNotLast = U"（［｛「『【〈《";
+  std::size_t found = 0;
+  char32_t before = 0;
+  for (std::size_t at = 0; at <= end && at < text.size();) {
+    const auto [bytes, code] = first_letter(text.substr(at));
+    const char32_t letter = code.value_or(0);
+    const bool is_wide = letter >= 0x2e80, was_wide = before >= 0x2e80;
+    if (letter == ' ') found = 0;
+    if (at > 0 && (is_wide || was_wide) && kNotFirst.find(letter) == kNotFirst.npos &&
+        kNotLast.find(before) == kNotLast.npos && letter != ' ' && before != ' ')
+      found = at;
+    before = letter;
+    at += bytes;
+  }
+  return found;
+}
+
+}  // namespace
+
 std::vector<std::string> wrapped(std::string_view text, double width, const TextStyle& style) {
   std::vector<std::string> lines;
   while (!text.empty()) {
@@ -206,7 +232,10 @@ std::vector<std::string> wrapped(std::string_view text, double width, const Text
     std::size_t next = end;
     if (end < text.size()) {
       const std::size_t space = text.rfind(' ', end);
-      if (space != std::string_view::npos && space > 0) end = next = space;
+      if (const std::size_t between = break_between(text, end); between > 0)
+        end = next = between;
+      else if (space != std::string_view::npos && space > 0)
+        end = next = space;
     }
     lines.emplace_back(text.substr(0, end));
     while (next < text.size() && text[next] == ' ') ++next;

@@ -66,7 +66,11 @@ std::string short_number(double number) {
 
 std::string chart_words(std::string name) {
   // In another language the noun serves: "pairs met" for "pair tests".
-  const auto said = [](std::string_view whole) {
+  const auto said = [](const auto& self, std::string_view whole) -> std::string {
+    for (const std::string_view between : {", ", " and "})
+      if (const std::size_t at = whole.find(between); spoken() && at != whole.npos)
+        return self(self, whole.substr(0, at)) + (between == ", " ? ", " : " " + word("and") + " ") +
+               self(self, whole.substr(at + between.size()));
     if (const auto* count = spoken() ? language::find_count(whole) : nullptr)
       return noun(count->forms(), kMany);
     std::string words(whole);
@@ -76,8 +80,8 @@ std::string chart_words(std::string name) {
   const std::size_t end = std::min(name.find(" ("), name.size());
   const std::size_t dot = name.find('.');
   const std::string rest = name.substr(end);
-  if (dot >= end) return said(name.substr(0, end)) + rest;
-  return said(name.substr(0, dot)) + ": " + said(name.substr(dot + 1, end - dot - 1)) + rest;
+  if (dot >= end) return said(said, name.substr(0, end)) + rest;
+  return said(said, name.substr(0, dot)) + ": " + said(said, name.substr(dot + 1, end - dot - 1)) + rest;
 }
 
 std::string count_words(std::string_view name, std::int64_t number) {

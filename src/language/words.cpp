@@ -160,6 +160,8 @@ void for_each_text(ScenarioSpec& scenario, auto&& f) {
     if (step.plot) f(*step.plot);
     for (std::string& front : step.headline) f(front);
     for (NoteSpec& note : step.notes) f(note.text);
+    for (RulerSpec& ruler : step.rulers) f(ruler.text);
+    if (auto* pack = std::get_if<Pack>(&step.verb)) f(pack->free_name);
     if (auto* compare = std::get_if<Compare>(&step.verb)) f(compare->row), f(compare->verdict);
   }
 }

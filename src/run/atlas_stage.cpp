@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "base/words.hpp"
+
 #include "language/counts.hpp"
 #include "run/stage.hpp"
 
@@ -128,7 +130,7 @@ std::string AtlasStage::label_of(std::uint32_t handle) const {
     else if (name != free_names_.end())
       found = name->second;
     else
-      found = fmt::format("of {} × {}", node.rect.width, node.rect.height);
+      found = say("of {} × {}", node.rect.width, node.rect.height);
     return true;
   });
   return found;

@@ -128,7 +128,7 @@ class ComparisonView : PanelPicture {
       std::ranges::stable_sort(cells, {}, [&](const Cell* cell) { return amount(*cell); });
       double y = corner.y + 1.6 * kBarLine;
       for (const Cell* cell : cells) {
-        write(traits_of(cell->kind).words, centred({middle, y}, kPlain, 0));
+        write(word(traits_of(cell->kind).words), centred({middle, y}, kPlain, 0));
         const double right = corner.x + size.x - 16;
         draw_bar(row, *cell, {middle, y + kBarLine}, right - middle, amount,
                  static_cast<double>(scale));

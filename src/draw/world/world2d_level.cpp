@@ -240,7 +240,7 @@ void number_sectors(const World2D& w) {
     TextStyle style{kLabel, Weight::semibold, Role::quiet_ink};
     if (sector->mark == Mark::lit) style.role = Role::lit_ink;
     style.halo = ground_at(w.grounds, at);
-    w.labels.try_add(sector->label, {centred(at, style)}, style, w.map.picture());
+    w.labels.try_add(node_words(sector->label), {centred(at, style)}, style, w.map.picture());
   }
   w.list.referents.insert({"sectors", "sector"});
 }
