@@ -436,9 +436,9 @@ bool PairStates::is_new(const Pair& pair) const {
 std::vector<Pair> missed_pairs(const Frame& frame) {
   const auto rests = [](const FrameBody& body) { return body.is_static || body.asleep; };
   std::set<Pair> missed;
+  const bool may_miss = frame.as_printed || traits_of(frame.structure).is_own;
   for (const FrameBody& a : frame.bodies) {
-    if (!frame.as_printed && (!a.stored_box || united(*a.stored_box, a.box) == *a.stored_box))
-      continue;
+    if (!may_miss && (!a.stored_box || united(*a.stored_box, a.box) == *a.stored_box)) continue;
     for (const FrameBody& b : frame.bodies)
       if (a.id != b.id && a.has_volume && b.has_volume && overlap(a.box, b.box) &&
           !(rests(a) && rests(b)))

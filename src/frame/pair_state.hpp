@@ -54,7 +54,7 @@ class PairStates {
 };
 
 // Pairs that the structure does not name, although their boxes overlap: one has left the box that is
-// stored for it. In order of ids.
+// stored for it, or a user's own structure is wrong. In order of ids.
 std::vector<Pair> missed_pairs(const Frame& frame);
 
 }  // namespace lantern::frame

@@ -17,6 +17,7 @@ constexpr double kHalf = 512;     // of the world
 constexpr int kMovingFrames = 8;  // updates of a moving scene
 constexpr double kFastest = 12;   // units from one update to the next, on each axis
 constexpr int kClusters = 20;
+constexpr std::size_t kHeap = 12;
 
 constexpr std::int64_t kMostBodies = 24;
 
@@ -109,6 +110,9 @@ BoxUpdates<D> seeded_boxes(BoxSort sort, std::size_t bodies, std::uint64_t seed)
     scene.frames[0].push_back({static_cast<BodyId>(i), box(i), false, true});
     steps.push_back(random_point<D>(random, -kFastest, kFastest));
   }
+  if (sort == BoxSort::coincident)
+    for (std::size_t i = kHeap; i < bodies; ++i)
+      if (i / kHeap % 2 == 1) scene.frames[0][i].box = scene.frames[0][i / kHeap * kHeap].box;
   if (sort != BoxSort::moving) return scene;
   for (int frame = 1; frame < kMovingFrames; ++frame) {
     scene.frames.push_back(scene.frames.back());

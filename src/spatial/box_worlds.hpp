@@ -13,7 +13,8 @@ struct BoxUpdates {
   std::vector<std::vector<Proxy<D>>> frames;  // one after another; more than one if they move
 };
 
-enum class BoxSort { uniform, clustered, one_huge, in_line, moving };
+// Of coincident ones half lie in heaps of a dozen, of which all are the same.
+enum class BoxSort { uniform, clustered, one_huge, in_line, moving, coincident };
 
 // The same boxes on every machine.
 template <int D>

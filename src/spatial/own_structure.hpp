@@ -21,7 +21,8 @@
 // `visit` tells each node before its children, and each child with all that lies below it before
 // the next. Everything else is worked out from that: parents, events, counts, queries, the order
 // along a ray. Nothing it says is believed: see own_view.hpp for what is looked at, and how it is
-// told. What crashes or never returns in your own code, nobody can catch.
+// told. `structure check` and `structure bench` try it in a process of its own, so that what
+// crashes or never returns is told as well; in a scenario nobody can catch that.
 #pragma once
 
 #include <concepts>
@@ -56,6 +57,12 @@ concept OwnAdaptor = std::constructible_from<A, Box<2>, std::uint32_t, std::uint
   tree.insert(BodyId{}, box);
   seen.visit(f);
 };
+
+// The box as a tree is told it: what of it lies in these bounds; what lies outside lies on their
+// border.
+inline Box<2> clamped(const Box<2>& box, const Box<2>& to) {
+  return {glm::clamp(box.lo, to.lo, to.hi), glm::clamp(box.hi, to.lo, to.hi)};
+}
 
 // A kind of structure that this program was given.
 struct OwnKind {

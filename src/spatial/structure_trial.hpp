@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "base/attempt.hpp"
 #include "base/clock.hpp"
 #include "spatial/box_worlds.hpp"
 #include "spatial/structure_kind.hpp"
@@ -16,20 +17,29 @@
 namespace lantern::spatial {
 
 // What goes wrong: a pair that is missed or is none, and what a structure of the user's own says
-// that is not so. Nothing if all is well.
+// that is not so, or that it does not come to its end. Nothing if all is well. A user's own is
+// tried in a process of its own.
 std::optional<std::string> fault_in(StructureKind kind, const TrialWorld& world);
 
-// A smaller world, of rounder numbers, on which something still goes wrong. `world` must be one.
-TrialWorld shrunk(StructureKind kind, TrialWorld world);
+// A smaller world, of rounder numbers, on which something still goes wrong, and as badly. `world`
+// must be one.
+TrialWorld shrunk(StructureKind kind, TrialWorld world, const AttemptLimits& limits = {});
+
+// How one of a user's own ends, from what is least to what is worst.
+enum class TrialEnd { fails, crashes, hangs };
 
 struct Trial {
   StructureKind kind = StructureKind::none;
-  std::uint64_t worlds = 0;
+  std::uint64_t worlds = 0;  // that were tried: the first that does not come to its end is the last
   std::uint64_t failed = 0;
   TrialWorld smallest = {};  // of them, shrunk
   std::string fault = {};    // what goes wrong there; empty if none failed
+  TrialEnd end = TrialEnd::fails;
+  std::optional<BodyId> last = {};  // the number of whose insertion it did not come back from
+  std::string words = {};           // what a user's own wrote meanwhile: sanitizers' reports, too
 };
-Trial try_structure(StructureKind kind, std::uint64_t worlds, std::uint64_t seed);
+Trial try_structure(StructureKind kind, std::uint64_t worlds, std::uint64_t seed,
+                    const AttemptLimits& limits = {});
 
 // How long structures take beside each other, those of a user's own among them: to build anew, and
 // to find all pairs. Of one's own tree its own code is timed, insert and visit, not what looks at
@@ -46,6 +56,7 @@ struct StructureTime {
   std::uint64_t missed = 0;      // pairs that brute force finds
   std::uint64_t invented = 0;    // pairs that it does not
   std::string fault = {};        // why it was not timed; empty if it was
+  std::string words = {};        // what a user's own wrote while it was tried
 };
 
 struct StructureBench {
@@ -54,9 +65,11 @@ struct StructureBench {
   std::uint64_t seed = 1;
   int rounds = 9;
   double longest = 5;  // processor seconds of one build; one that takes longer is not timed
+  double limit = 2;    // seconds of one call of a user's own
 };
 
-// Evenly spread and clustered boxes; all structures with capacity 8 and depth limit 7, in turns.
+// Evenly spread and clustered boxes, and some that coincide; all structures with capacity 8 and
+// depth limit 7, in turns. A user's own is first tried on them in a process of its own.
 // `told` is called after each row.
 std::vector<StructureTime> bench_structures(const StructureBench& bench,
                                             const std::function<void()>& told);

@@ -124,7 +124,7 @@ TEST(OwnStructureProgram, BenchTimesItBesideOurs) {
   const Outcome bench = my_tree("structure bench mine quadtree --bodies 40 --rounds 2 --json");
   ASSERT_EQ(bench.code, 0) << bench.err;
   const json rows = json::parse(bench.out).at("rows");
-  ASSERT_EQ(rows.size(), 6u);  // brute force too, and two scenes
+  ASSERT_EQ(rows.size(), 9u);  // brute force too, and three scenes
   for (const json& row : rows) {
     EXPECT_EQ(row.at("missed"), 0);
     EXPECT_GT(row.at("build_s"), 0.0);
@@ -135,6 +135,71 @@ TEST(OwnStructureProgram, BenchTimesItBesideOurs) {
       my_tree("bench pairs --workload uniform_2d --bodies 200 --rounds 1 --only wrong --no-peers");
   EXPECT_EQ(pairs.code, 1);
   EXPECT_NE(pairs.out.find("wrong: "), std::string::npos) << pairs.out;
+}
+
+// What came of `structure check` of one of tests/broken/, in 28 worlds.
+json checked_broken(const std::string& name, const fs::path& out, std::string* said = nullptr) {
+  const Outcome check = shell(LANTERN_BROKEN " structure check " + name +
+                              " --worlds 28 --limit 0.2 --json -o " + out.string());
+  EXPECT_EQ(check.code, 1) << check.err;
+  if (said != nullptr) *said = check.err;
+  return json::parse(check.out).at("structures").at(0);
+}
+
+TEST(BrokenStructures, WhatHangsIsToldShrunkAndDrawnUpToThere) {
+  const fs::path out = fresh_folder("own_hangs");
+  std::string said;
+  const json facts = checked_broken("hangs", out, &said);
+  EXPECT_EQ(facts.at("fault"), "structure 'hangs': insert of b2 did not return in 0.2 s");
+  EXPECT_EQ(facts.at("bodies").size(), 2u);
+  EXPECT_EQ(facts.at("failed"), 1) << "the others are not waited for";
+  const std::string file = facts.at("scenario");
+  EXPECT_EQ(file, (out / "hangs_hangs.toml").string());
+  EXPECT_NE(said.find("world of 2 bodies in " + file), std::string::npos) << said;
+  const Outcome render =
+      shell(LANTERN_BROKEN " render " + file + " --format svg -o " + out.string());
+  EXPECT_EQ(render.code, 0) << render.err;
+  EXPECT_TRUE(fs::exists(out / "hangs_hangs" / "hangs_hangs_0000.svg"));
+}
+
+TEST(BrokenStructures, CrashesAndSplitsForEverAreTold) {
+  const fs::path out = fresh_folder("own_crashes");
+  for (const auto& [name, why] : {std::pair("crashes", "a null pointer was followed"),
+                                  std::pair("splits", "does it call itself for ever?"),
+                                  std::pair("fills", "more memory than there was")}) {
+    const json facts = checked_broken(name, out);
+    const std::string fault = facts.at("fault");
+    EXPECT_NE(fault.find("insert of b2 "), std::string::npos) << fault;
+    EXPECT_EQ(facts.at("bodies").size(), 2u) << name;
+#if !defined(__SANITIZE_ADDRESS__)  // tells of them in its own words, and knows no limit of memory
+    EXPECT_NE(fault.find(why), std::string::npos) << fault;
+#endif
+  }
+}
+
+TEST(BrokenStructures, BenchTellsThemBesideTheOthers) {
+  const Outcome bench =
+      shell(LANTERN_BROKEN " structure bench hangs --limit 0.2 --bodies 40 --rounds 1 --json");
+  EXPECT_EQ(bench.code, 1) << bench.err;
+  const json rows = json::parse(bench.out).at("rows");
+  ASSERT_EQ(rows.size(), 6u);
+  EXPECT_EQ(rows[5].at("scene"), "coincident_2d");
+  EXPECT_EQ(rows[5].at("fault"), "structure 'hangs': insert of body 13 did not return in 0.2 s");
+}
+
+// Flushed, so that it is there however the copy ends.
+TEST(BrokenStructures, WhatHerCodeWritesReachesHer) {
+  std::string said;
+  checked_broken("fills", fresh_folder("own_words"), &said);
+  EXPECT_NE(said.find("two coincide\n"), std::string::npos) << said;
+}
+
+TEST(OwnStructureProgram, AMissedPairIsMarked) {
+  const fs::path out = fresh_folder("own_missed");
+  ASSERT_EQ(my_tree("structure check wrong --worlds 60 -o " + out.string()).code, 1);
+  my_tree("render " + (out / "wrong_fails.toml").string() + " --format svg -o " + out.string());
+  EXPECT_NE(read_text(out / "wrong_fails" / "wrong_fails_0000.svg").find("#b3261e"),
+            std::string::npos);
 }
 
 TEST(OwnStructureProgram, ItIsOneOfTheKindsThere) {

@@ -1,6 +1,7 @@
 // `structure`: the structures that this program knows, whether they find what brute force finds,
 // and how soon, beside each other.
 #include <algorithm>
+#include <cstdio>
 
 #include <fmt/format.h>
 
@@ -12,6 +13,7 @@
 #include "base/json_writer.hpp"
 #include "base/number.hpp"
 #include "base/suggest.hpp"
+#include "spatial/own_structure.hpp"
 #include "spatial/structure_trial.hpp"
 
 namespace lantern::app {
@@ -21,16 +23,30 @@ struct StructureCheckOptions {
   std::vector<std::string> names;  // empty for all
   int worlds = 500;
   std::uint64_t seed = 1;
+  double limit = 2;
   std::string output = "output";  // folder of the scenario that shows a fault; empty for none
   bool json = false;
 };
+
+Option limit_option(double& limit) {
+  return {"--limit",
+          &limit,
+          "processor time that one call of your own structure may take; it runs in a process of "
+          "its own, with 256 MB in `check` and the budget in `bench` (without a limit of memory "
+          "under the address sanitizer)",
+          {.value = "SECONDS", .least = 0.01, .most = 3600}};
+}
 
 Options structure_check_options(StructureCheckOptions& o) {
   return {
       {"NAME", &o.names, "structures; the default is all of them"},
       {"--worlds", &o.worlds, "how many worlds", {.value = "N", .least = 1, .most = 10'000'000}},
       seed_option("of the random worlds", o.seed),
-      {"-o,--output", &o.output, "folder for NAME_fails.toml", {.value = "DIR"}},
+      limit_option(o.limit),
+      {"-o,--output",
+       &o.output,
+       "folder for NAME_fails.toml, or NAME_crashes, NAME_hangs",
+       {.value = "DIR"}},
       json_option(o.json)};
 }
 
@@ -68,44 +84,66 @@ std::string scenario_of(const Trial& trial) {
       to_string(trial.kind));
   if (traits_of(trial.kind).splits)
     text += fmt::format("capacity = {}\nmax_depth = {}\n", w.capacity, w.max_depth);
-  std::string names;
+  const bool comes_back = !trial.last || !w.moved.empty();
+  const std::size_t last = comes_back ? w.bodies.size() : *trial.last - 1;
+  std::vector<std::string> names;
   for (std::size_t i = 0; i < w.bodies.size(); ++i) {
-    const std::string name = fmt::format("b{}", i + 1);
-    names += (i > 0 ? ", " : "") + json_string(name);
-    text += fmt::format(
-        "\n[[body]]\nname = \"{}\"\nhalf_size = {}\nposition = {}\nmass = 1\ncolor = {}\n", name,
-        point(w.bodies[i].half), point(w.bodies[i].center), i % 8 + 1);
+    names.push_back(fmt::format("\"b{}\"", i + 1));
+    text +=
+        fmt::format("\n[[body]]\nname = {}\nhalf_size = {}\nposition = {}\nmass = 1\ncolor = {}\n",
+                    names.back(), point(w.bodies[i].half), point(w.bodies[i].center), i % 8 + 1);
   }
-  if (!names.empty()) text += fmt::format("\n[[step]]\ndo = \"insert\"\nbodies = [{}]\n", names);
+  // What does not come back is told, and left out, so that what comes before can be seen.
+  const auto insert = [&](const char* line, std::size_t from, std::size_t to) {
+    const auto at = [&](std::size_t i) { return names.begin() + static_cast<std::ptrdiff_t>(i); };
+    if (from < to && to <= names.size())
+      text += fmt::format("\n{0}[[step]]\n{0}do = \"insert\"\n{0}bodies = [{1}]\n", line,
+                          fmt::join(at(from), at(to), ", "));
+  };
+  insert("", 0, last);
+  if (!comes_back) {
+    text += "\n# This step it does not come back from:";
+    insert("# ", last, last + 1);
+  }
   for (std::size_t i = 0; i < w.moved.size(); ++i)
     text += fmt::format("\n[[step]]\ndo = \"move\"\nbody = \"b{}\"\nto = {}\n", i + 1,
                         point(w.moved[i].center));
   return text;
 }
 
+constexpr std::string_view kEnds[] = {"fails", "crashes", "hangs"};
+
 // Empty if there is nothing to write, or nothing that a scenario can show.
 std::string write_scenario(const Trial& trial, const std::string& folder) {
   if (trial.failed == 0 || folder.empty() || trial.smallest.bodies.empty()) return {};
   fs::create_directories(folder);
-  const fs::path file = fs::path(folder) / fmt::format("{}_fails.toml", to_string(trial.kind));
+  const fs::path file = fs::path(folder) / fmt::format("{}_{}.toml", to_string(trial.kind),
+                                                       kEnds[static_cast<int>(trial.end)]);
   write_file(file, scenario_of(trial));
   return file.string();
 }
 
 void tell_fault(const Trial& trial, const std::string& file) {
   const TrialWorld& w = trial.smallest;
-  complain(fmt::format("{}: {} of {} worlds go wrong; the smallest, shrunk to {} bod{}: {}",
-                       to_string(trial.kind), trial.failed, trial.worlds, w.bodies.size(),
-                       w.bodies.size() == 1 ? "y" : "ies", trial.fault));
+  complain(fmt::format("{}: {} of {} worlds go wrong; the smallest, shrunk to {}: {}",
+                       to_string(trial.kind), trial.failed, trial.worlds,
+                       counted(w.bodies.size(), "body", "bodies"), trial.fault));
   say(fmt::format("  world {} to {}, capacity {}, max_depth {}", point(w.bounds.lo),
                   point(w.bounds.hi), w.capacity, w.max_depth));
   for (std::size_t i = 0; i < w.bodies.size(); ++i) {
     const TrialBody& b = w.bodies[i];
-    say(fmt::format(
-        "  b{}: {} to {}{}", i + 1, point(b.center - b.half), point(b.center + b.half),
-        w.moved.empty() ? "" : fmt::format(", then around {}", point(w.moved[i].center))));
+    const Box<2> box = Box<2>::around(b.center, b.half), cut = clamped(box, w.bounds);
+    std::string then;
+    if (cut != box)
+      then = fmt::format(", clamped to the world: {} to {}", point(cut.lo), point(cut.hi));
+    if (!w.moved.empty()) then += fmt::format(", then around {}", point(w.moved[i].center));
+    say(fmt::format("  b{}: {} to {}{}", i + 1, point(box.lo), point(box.hi), then));
   }
-  if (!file.empty()) say(fmt::format("  to see it: render {}", file));
+  if (file.empty()) return;
+  if (trial.end == TrialEnd::fails) return say(fmt::format("  to see it: render {}", file));
+  say(fmt::format("  world of {} in {}", counted(w.bodies.size(), "body", "bodies"), file));
+  if (trial.last.value_or(0) > 1)
+    say(fmt::format("  to see it before b{} comes: render {}", *trial.last, file));
 }
 
 void write(JsonWriter& json, const char* name, const std::vector<TrialBody>& bodies) {
@@ -149,14 +187,20 @@ int list_structures(const JsonOnly& options) {
   return kGood;
 }
 
+// What her code has written, as it is.
+void pass_on(std::string_view words) {
+  if (!words.empty()) std::fwrite(words.data(), 1, words.size(), stderr);
+}
+
 int check_structures(const StructureCheckOptions& options) {
   JsonWriter json = answer_of("structure.check");
   json.line().member("seed", options.seed);
   json.key("structures").begin_array();
   int code = kGood;
   for (const StructureKind kind : structures_called(options.names)) {
-    const Trial trial =
-        try_structure(kind, static_cast<std::uint64_t>(options.worlds), options.seed);
+    const Trial trial = try_structure(kind, static_cast<std::uint64_t>(options.worlds),
+                                      options.seed, AttemptLimits{.seconds = options.limit});
+    pass_on(trial.words);
     const std::string file = write_scenario(trial, options.output);
     write(json, trial, file);
     if (trial.failed > 0) {
@@ -177,6 +221,7 @@ struct StructureBenchOptions {
   std::vector<int> bodies;         // empty for the usual numbers
   std::uint64_t seed = 1;
   int rounds = 9;
+  double limit = 2;
   std::string output;  // folder; empty for none
   bool json = false;
 };
@@ -187,6 +232,7 @@ Options structure_bench_options(StructureBenchOptions& o) {
            OptionTraits{.value = "N", .least = 2, .most = 1'000'000, .one_each = true}},
           seed_option("of the random worlds", o.seed),
           {"--rounds", &o.rounds, "repeats; the median counts", {.least = 1, .most = 1000}},
+          limit_option(o.limit),
           {"-o,--output", &o.output, "folder for bench_structure.csv and .json", {.value = "DIR"}},
           memory_option(),
           json_option(o.json)};
@@ -202,6 +248,7 @@ int bench(const StructureBenchOptions& options) {
   if (trial.bodies.empty()) trial.bodies = {100, 400, 1600};
   trial.seed = options.seed;
   trial.rounds = options.rounds;
+  trial.limit = options.limit;
   ReportFolder folder(options.output, "bench_structure");
   std::vector<StructureTime> rows;
   {
@@ -209,6 +256,7 @@ int bench(const StructureBenchOptions& options) {
     std::uint64_t done = 0;
     rows = bench_structures(trial, [&] { progress.done(++done); });
   }
+  for (const StructureTime& row : rows) pass_on(row.words);
   const std::string json = to_json(rows, options.seed);
   folder.write("bench_structure.csv", to_csv(rows));
   folder.write("bench_structure.json", json);

@@ -68,10 +68,6 @@ std::vector<Event> OwnView::events_since(const OwnView& before, BodyId body,
 
 namespace {
 
-Box<2> clamped(const Box<2>& box, const Box<2>& to) {
-  return {glm::clamp(box.lo, to.lo, to.hi), glm::clamp(box.hi, to.lo, to.hi)};
-}
-
 // What it holds is read from its OwnView; the tree itself is only called to insert, to clear, and
 // for one visit after that.
 class OwnFlat final : public StructureOf<OwnFlat, 2> {
@@ -102,6 +98,7 @@ class OwnFlat final : public StructureOf<OwnFlat, 2> {
   void clear() override {
     ids_.clear();
     boxes_.clear();
+    clamped_.clear();
     broken_ = nullptr;
     seen_ = false;
     try {
@@ -136,7 +133,7 @@ class OwnFlat final : public StructureOf<OwnFlat, 2> {
 
  private:
   void call(const char* during, FunctionRef<void()> f, std::vector<BodyId> bodies = {}) const {
-    run_own(f, [&](const std::string& words) {
+    run_own(during, bodies.empty() ? 0 : bodies[0], f, [&](const std::string& words) {
       throw StructureFault(
           {fmt::format("structure '{}': {} threw: {}", kind_.name, during, words), bodies});
     });
@@ -157,7 +154,12 @@ class OwnFlat final : public StructureOf<OwnFlat, 2> {
     OwnView before = std::exchange(view_, OwnView(*tree_, rules_, boxes_, view_));
     faults_ = view_.faults();
     for (OwnFault& fault : faults_)
-      for (BodyId& body : fault.bodies) body = ids_[body];
+      for (std::size_t i = 0; i < fault.bodies.size(); ++i) {
+        BodyId& body = fault.bodies[i];
+        if (clamped_[body])
+          fault.text += fmt::format("; the box of {{{}}} is clamped to the world", i);
+        body = ids_[body];
+      }
     seen_ = true;
     return before;
   }
@@ -169,6 +171,7 @@ class OwnFlat final : public StructureOf<OwnFlat, 2> {
     const auto place = static_cast<BodyId>(boxes_.size());
     ids_.push_back(item.id);
     boxes_.push_back(clamped(item.box, rules_.bounds));
+    clamped_.push_back(boxes_.back() != item.box);
     call("insert of {0}", [&] { tree_->insert(place, boxes_[place]); }, {item.id});
   }
 
@@ -202,6 +205,7 @@ class OwnFlat final : public StructureOf<OwnFlat, 2> {
   std::unique_ptr<OwnTree> tree_;
   std::vector<BodyId> ids_;    // of the bodies, in the order of their insertion: the tree is told
   std::vector<Box<2>> boxes_;  // their places in it, and their boxes, cut to the bounds
+  std::vector<bool> clamped_;  // which of them were
   OwnView view_;
   bool seen_ = false;  // it shows what the tree holds
   std::vector<OwnFault> faults_;

@@ -65,11 +65,12 @@ class OwnView::Reader {
         throw;
       }
     };
-    run_own([&] { tree.visit(sink); },
-            [&](const std::string& words) {
-              if (thrown_) std::rethrow_exception(thrown_);
-              refuse("visit threw: {}", words);
-            });
+    run_own(
+        "visit", 0, [&] { tree.visit(sink); },
+        [&](const std::string& words) {
+          if (thrown_) std::rethrow_exception(thrown_);
+          refuse("visit threw: {}", words);
+        });
     if (thrown_) std::rethrow_exception(thrown_);
     if (nodes_.empty()) refuse("visit told no node; it must tell the root at least");
     close_to(0);

@@ -10,10 +10,12 @@
 
 #include <cstdint>
 #include <exception>
+#include <new>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "base/attempt.hpp"
 #include "spatial/own_structure.hpp"
 
 namespace lantern::spatial {
@@ -78,12 +80,15 @@ class OwnView {
   double slack_ = 0;
 };
 
-// Runs code that is not ours; `failed(words)` is told of what it throws.
+// Runs code that is not ours, a call about a body; `failed(words)` is told of what it throws.
 template <class F, class Failed>
-void run_own(F&& f, Failed&& failed) {
+void run_own(const char* call, BodyId body, F&& f, Failed&& failed) {
   std::string words = "something that is no std::exception";
   try {
+    const AttemptedCall tried(call, body);
     return f();
+  } catch (const std::bad_alloc&) {
+    words = "std::bad_alloc: it asked for more memory than there was";
   } catch (const std::exception& e) {
     words = e.what();
   } catch (...) {
