@@ -7,6 +7,11 @@
 //     void insert(BodyId id, const Box<2>& box);
 //     void visit(const NodeSink& f) const;     // f(OwnNode{...}) for each node
 //     void clear();                            // if you like; else a new one is made instead
+//     void pairs(const PairSink& f) const;     // if you like: your own search, f(a, b) for each
+//                                              // pair to test; else all that share a leaf
+//     void ray(Vec<2> from, Vec<2> to, const BodySink& f) const;  // if you like: f(id) for each
+//                                                                 // body to test; else who lies
+//                                                                 // in leaves that the ray meets
 //   };
 //   int main(int argc, char** argv) {        // app/program.hpp
 //     return lantern::app::run_program(argc, argv, {own<MyTree>("mine", "my quadtree")});
@@ -40,6 +45,8 @@ struct OwnNode {
   std::span<const BodyId> bodies = {};  // of a leaf, in any order; read before the call returns
 };
 using NodeSink = std::function<void(const OwnNode&)>;
+using PairSink = std::function<void(BodyId, BodyId)>;
+using BodySink = std::function<void(BodyId)>;
 
 // An adaptor, whatever its type is.
 class OwnTree {
@@ -49,6 +56,9 @@ class OwnTree {
   virtual void visit(const NodeSink& f) const = 0;
   // Forgets all bodies; false if it cannot.
   virtual bool clear() = 0;
+  // A search of its own: each pair, or body, once or more often. False if it has none.
+  virtual bool pairs(const PairSink&) const { return false; }
+  virtual bool ray(const Vec<2>&, const Vec<2>&, const BodySink&) const { return false; }
 };
 
 template <class A>
@@ -73,7 +83,8 @@ struct OwnKind {
       make;
 };
 
-// In a world of three dimensions it looks at x and z only, as the lecture's quadtree does.
+// In a world of three dimensions it looks at x and z only, as the lecture's quadtree does, and is
+// asked for no pairs and rays.
 template <OwnAdaptor A>
 OwnKind own(std::string name, std::string words) {
   class Tree : public OwnTree {
@@ -89,6 +100,15 @@ OwnKind own(std::string name, std::string words) {
       } else {
         return false;
       }
+    }
+    bool pairs(const PairSink& f) const override {
+      if constexpr (requires(const A a) { a.pairs(f); }) return adaptor_.pairs(f), true;
+      return false;
+    }
+    bool ray(const Vec<2>& from, const Vec<2>& to, const BodySink& f) const override {
+      if constexpr (requires(const A a) { a.ray(from, to, f); })
+        return adaptor_.ray(from, to, f), true;
+      return false;
     }
 
    private:

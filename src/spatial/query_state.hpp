@@ -133,14 +133,16 @@ struct QueryOf {
 template <int D>
 struct RayQuery : QueryOf<D> {
   const Ray<D>& ray;
-  HitAt hit;                      // none: where it enters the body's box
-  std::vector<RayHit>* all;       // null: only the nearest
-  std::vector<BodyId>* scratch;   // if there is `all`
-  std::optional<RayHit> nearest;  // of those tested so far, if only that is wanted
+  HitAt hit;                                     // none: where it enters the body's box
+  std::vector<RayHit>* all;                      // null: only the nearest
+  std::vector<BodyId>* scratch;                  // if there is `all`
+  std::optional<RayHit> nearest;                 // of those tested so far, if only that is wanted
+  std::optional<std::vector<BodyId>> only = {};  // ascending: all others are not met
 
   double limit() const { return nearest ? nearest->distance : ray.length; }
   // Whether it is hit; not beyond the ray's end.
   bool test(BodyId id) {
+    if (only && !std::ranges::binary_search(*only, id)) return false;
     const auto span = span_in(ray, this->box(id));
     if (!span) return false;
     RayHit found{this->view.name(id), span->from};

@@ -76,7 +76,10 @@ class StructureOf : public Structure<D> {
     tree().take(Tour<D>{room, toward}, f);
   }
 
-  void ask(RayQuery<D>& query) const final { walk_along<D>(tree(), query); }
+  void ask(RayQuery<D>& query) const final {
+    if constexpr (requires { tree().narrow(query); }) tree().narrow(query);
+    walk_along<D>(tree(), query);
+  }
   void ask(VolumeQuery<D>& query) const final { walk_within<D>(tree(), query); }
   void ask(NearestQuery<D>& query) const final { walk_around<D>(tree(), query); }
 
@@ -98,6 +101,8 @@ class StructureOf : public Structure<D> {
   std::uint64_t compare(FunctionRef<bool(BodyId)> awake,
                         FunctionRef<void(BodyId, BodyId)> f) const final {
     if constexpr (requires { tree().meet(awake, f); }) return tree().meet(awake, f);
+    if constexpr (requires { tree().tells_pairs(awake, f); })
+      if (tree().tells_pairs(awake, f)) return 0;
     visit([&](const NodeView<D>& node) {
       for (std::size_t i = 0; i < node.bodies.size(); ++i) {
         stop_if_asked();

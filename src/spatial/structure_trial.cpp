@@ -2,9 +2,11 @@
 
 #include "base/json_writer.hpp"
 #include "base/random.hpp"
+#include "geometry/random_vec.hpp"
 #include "spatial/broad_phase.hpp"
 #include "spatial/own_structure.hpp"
 #include "spatial/pairs.hpp"
+#include "spatial/query.hpp"
 
 namespace lantern::spatial {
 namespace {
@@ -35,18 +37,45 @@ std::optional<std::string> first_fault(const BroadPhase<2>& phase) {
   return text;
 }
 
-// Of what an update found.
-std::optional<std::string> wrong_pair(const BroadPhase<2>& phase,
-                                      const std::vector<Proxy<2>>& proxies) {
-  const std::vector<Pair> truth = pairs_by_force<2>(proxies), &found = phase.pairs();
+// Of what was found.
+std::optional<std::string> wrong_pair(const std::vector<Pair>& found, std::span<const Pair> truth,
+                                      std::string (*name)(BodyId)) {
   std::vector<Pair> missed, invented;
   std::ranges::set_difference(truth, found, std::back_inserter(missed));
   std::ranges::set_difference(found, truth, std::back_inserter(invented));
   if (missed.empty() && invented.empty()) return std::nullopt;
   const Pair& first = missed.empty() ? invented.front() : missed.front();
-  return fmt::format("{} and {} {}", trial_name(first.a), trial_name(first.b),
+  return fmt::format("{} and {} {}", name(first.a), name(first.b),
                      missed.empty() ? "are told as a pair, but do not overlap"
                                     : "overlap, but their pair is missed");
+}
+
+// Of a user's own search for pairs, and along rays, if it has them: here from body to body. What a
+// ray only touches may be rounded away.
+std::optional<std::string> wrong_answer(const BroadPhase<2>& phase,
+                                        std::span<const Proxy<2>> proxies,
+                                        std::span<const Pair> truth, std::string (*name)(BodyId)) {
+  if (!own_structure(phase.kind())) return std::nullopt;
+  const auto all = [](BodyId) { return true; };
+  if (const auto pair =
+          wrong_pair(phase.pair_chain(all, phase.config().most_pairs).overlapping, truth, name))
+    return fmt::format("structure '{}': its pair search: {}", to_string(phase.kind()), *pair);
+  const double slack = 1e-6 * glm::length(phase.config().bounds.size());
+  for (std::size_t i = 1; i < std::min<std::size_t>(proxies.size(), 9); ++i) {
+    const Vec<2> from = proxies[i - 1].box.center(), way = proxies[i].box.center() - from;
+    if (glm::length(way) < slack) continue;
+    const Ray<2> ray{from, way, 1};
+    const std::vector<RayHit> hits = raycast_all<2>(phase.dynamic(), ray).hits;
+    for (const Proxy<2>& proxy : proxies) {
+      const Box<2> core{proxy.box.lo + slack, proxy.box.hi - slack};
+      if (is_valid(core) && overlap(ray, core) &&
+          std::ranges::find(hits, proxy.id, &RayHit::id) == hits.end())
+        return fmt::format(
+            "structure '{}': its ray from [{}, {}] to [{}, {}] misses {}, which it meets",
+            to_string(phase.kind()), from.x, from.y, ray.at(1).x, ray.at(1).y, name(proxy.id));
+    }
+  }
+  return std::nullopt;
 }
 
 std::optional<std::string> fault_on_the_way(StructureKind kind, const TrialWorld& world) {
@@ -68,7 +97,9 @@ std::optional<std::string> fault_on_the_way(StructureKind kind, const TrialWorld
     const std::vector<Proxy<2>> proxies = proxies_of(*bodies);
     at_once.update(proxies);
     if (const auto fault = first_fault(at_once)) return fault;
-    if (const auto pair = wrong_pair(at_once, proxies)) return pair;
+    const std::vector<Pair> truth = pairs_by_force<2>(proxies);
+    if (const auto pair = wrong_pair(at_once.pairs(), truth, trial_name)) return pair;
+    if (const auto answer = wrong_answer(at_once, proxies, truth, trial_name)) return answer;
   }
   return std::nullopt;
 }
@@ -200,6 +231,8 @@ constexpr std::uint32_t kBenchCapacity = 8, kBenchDepth = 7;
 // What there is to find, and what was found.
 struct Finds {
   std::span<const Proxy<2>> boxes;
+  std::span<const Ray<2>> rays;
+  std::uint64_t hits = 0;
   std::vector<Pair> pairs;  // as often as they are met
   std::uint64_t tests = 0;
 
@@ -218,8 +251,9 @@ struct Finds {
 struct Contestant {
   std::function<void()> build;
   std::function<void(Finds&)> find;
+  std::function<bool(Finds&)> look_along;  // all rays; false if it cannot
   std::function<void(StructureTime&)> count;
-  std::vector<double> build_seconds = {}, pairs_seconds = {};
+  std::vector<double> build_seconds = {}, pairs_seconds = {}, rays_seconds = {};
 
   void take_turn(Finds& finds) {
     finds.pairs.clear();
@@ -230,13 +264,19 @@ struct Contestant {
     const CpuStopwatch finding;
     find(finds);
     pairs_seconds.push_back(finding.seconds());
+    const CpuStopwatch looking;
+    if (look_along(finds)) rays_seconds.push_back(looking.seconds());
   }
 };
 
 Contestant one_of_ours(StructureKind kind, const StructureConfig<2>& config,
                        std::span<const Proxy<2>> boxes) {
   std::vector<Item<2>> items;
-  for (const Proxy<2>& box : boxes) items.push_back({box.id, box.box});
+  const auto stored = std::make_shared<std::vector<Box<2>>>();
+  for (const Proxy<2>& box : boxes) {
+    items.push_back({box.id, box.box});
+    stored->push_back(box.box);
+  }
   const std::shared_ptr<Structure<2>> structure = make_structure<2>(kind, config);
   const bool in_leaves = traits_of(kind).meets_in_leaves;
   return {[=] { structure->build(items); },
@@ -251,6 +291,11 @@ Contestant one_of_ours(StructureKind kind, const StructureConfig<2>& config,
               ++finds.tests;
               finds.add(a, b);
             });
+          },
+          [=](Finds& finds) {
+            for (const Ray<2>& ray : finds.rays)
+              finds.hits += raycast_all<2>({*structure, {}, *stored}, ray).hits.size();
+            return true;
           },
           [=](StructureTime& row) {
             const Counters counters = structure->counters();
@@ -271,6 +316,11 @@ Contestant one_of_yours(const OwnKind& kind, const StructureConfig<2>& config,
             }
           },
           [=, &kind](Finds& finds) {
+            const auto test = [&](BodyId a, BodyId b) {
+              ++finds.tests;
+              finds.add(a, b);
+            };
+            if ((*tree)->pairs(test)) return;
             (*tree)->visit([&](const OwnNode& node) {
               for (const BodyId id : node.bodies)
                 if (id >= boxes.size())
@@ -279,6 +329,13 @@ Contestant one_of_yours(const OwnKind& kind, const StructureConfig<2>& config,
                       kind.name, id)});
               finds.add_leaf(node.bodies);
             });
+          },
+          [=](Finds& finds) {
+            for (const Ray<2>& ray : finds.rays) {
+              const auto test = [&](BodyId id) { finds.hits += overlap(ray, finds.boxes[id].box); };
+              if (!(*tree)->ray(ray.origin, ray.at(1), test)) return false;
+            }
+            return true;
           },
           [=](StructureTime& row) {
             row.nodes = row.entries = 0;
@@ -303,6 +360,8 @@ void look_at(StructureKind kind, const StructureConfig<2>& config, std::span<con
     row.invented = count_missing(broad_phase.pairs(), truth);
     if (const auto faults = broad_phase.faults(); !faults.empty())
       row.fault = text_of(faults.front(), bench_name);
+    else if (const auto answer = wrong_answer(broad_phase, boxes, truth, bench_name))
+      row.fault = *answer;
   } catch (const StructureFault& broken) {
     row.fault = broken.what();
   } catch (const Refused& refused) {
@@ -339,7 +398,13 @@ std::vector<StructureTime> bench_scene(const StructureBench& bench, std::uint64_
   const std::vector<Pair> truth = pairs_by_force<2>(boxes);
   const StructureConfig<2> config{
       .bounds = scene.bounds, .capacity = kBenchCapacity, .max_depth = kBenchDepth};
-  Finds finds{boxes, {}, 0};
+  std::vector<Ray<2>> rays;
+  Random random(bench.seed);
+  for (int i = 0; i < 64; ++i) {
+    const Vec<2> from = random_point<2>(random, scene.bounds.lo.x, scene.bounds.hi.x);
+    rays.push_back({from, random_point<2>(random, scene.bounds.lo.x, scene.bounds.hi.x) - from, 1});
+  }
+  Finds finds{.boxes = boxes, .rays = rays};
   std::vector<StructureTime> rows;
   std::vector<Contestant> contestants;
   for (const StructureKind kind : bench.kinds) {
@@ -358,6 +423,7 @@ std::vector<StructureTime> bench_scene(const StructureBench& bench, std::uint64_
           fmt::format("one build and search takes {:.1f} s, more than {:g} s", both, bench.longest);
     one.build_seconds.clear();
     one.pairs_seconds.clear();
+    one.rays_seconds.clear();
   }
   for (int round = 0; round < bench.rounds; ++round)
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -365,6 +431,7 @@ std::vector<StructureTime> bench_scene(const StructureBench& bench, std::uint64_
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].build = timing_of(contestants[i].build_seconds);
     rows[i].pairs = timing_of(contestants[i].pairs_seconds);
+    rows[i].rays = timing_of(contestants[i].rays_seconds);
     told();
   }
   return rows;
@@ -445,30 +512,32 @@ std::vector<StructureTime> bench_structures(const StructureBench& bench,
 std::string to_table(std::span<const StructureTime> rows) {
   std::string text = fmt::format(
       "Microseconds, medians of turns; capacity {}, depth limit {}. Of your own structures insert "
-      "and visit are timed.\n{:<14}{:>7}  {:<18}{:>10}{:>10}{:>10}{:>8}{:>9}{:>11}\n",
+      "and visit are timed, pairs "
+      "and ray if they have them.\n{:<14}{:>7}  {:<18}{:>10}{:>10}{:>10}{:>10}{:>8}{:>9}{:>11}\n",
       kBenchCapacity, kBenchDepth, "scene", "bodies", "structure", "build", "pairs", "both",
-      "nodes", "entries", "pair tests");
+      "64 rays", "nodes", "entries", "pair tests");
   for (const StructureTime& row : rows) {
     text += fmt::format("{:<14}{:>7}  {:<18}", row.scene, row.bodies, to_string(row.kind));
     if (!row.fault.empty()) {
       text += fmt::format("not timed: {}\n", row.fault);
       continue;
     }
-    text += fmt::format("{:>10}{:>10}{:>10.1f}{:>8}{:>9}{:>11}\n", microseconds(row.build),
+    text += fmt::format("{:>10}{:>10}{:>10.1f}{:>10}{:>8}{:>9}{:>11}\n", microseconds(row.build),
                         microseconds(row.pairs), 1e6 * (row.build.median + row.pairs.median),
-                        row.nodes, row.entries, row.pair_tests);
+                        microseconds(row.rays), row.nodes, row.entries, row.pair_tests);
   }
   return text;
 }
 
 std::string to_csv(std::span<const StructureTime> rows) {
   std::string text =
-      "scene,bodies,structure,build_s,pairs_s,nodes,entries,pair_tests,missed,invented\n";
+      "scene,bodies,structure,build_s,pairs_s,nodes,entries,pair_tests,missed,invented,rays_s\n";
   for (const StructureTime& row : rows)
     if (row.fault.empty())
-      text += fmt::format("{},{},{},{:.9g},{:.9g},{},{},{},{},{}\n", row.scene, row.bodies,
+      text += fmt::format("{},{},{},{:.9g},{:.9g},{},{},{},{},{},{}\n", row.scene, row.bodies,
                           to_string(row.kind), row.build.median, row.pairs.median, row.nodes,
-                          row.entries, row.pair_tests, row.missed, row.invented);
+                          row.entries, row.pair_tests, row.missed, row.invented,
+                          row.rays.repeats == 0 ? "" : fmt::format("{:.9g}", row.rays.median));
   return text;
 }
 
@@ -486,6 +555,7 @@ std::string to_json(std::span<const StructureTime> rows, std::uint64_t seed) {
                    "invented", row.invented);
     else
       json.member("fault", row.fault);
+    if (row.rays.repeats > 0) json.member("rays_s", row.rays.median);
     json.end_object();
   }
   json.line().end_array().line().end_object();

@@ -50,6 +50,7 @@ struct StructureTime {
   std::uint64_t bodies = 0;
   Timing build = {};  // processor seconds
   Timing pairs = {};
+  Timing rays = {};  // 64 of them; not of a user's own that has no ray query of its own
   std::uint64_t nodes = 0;
   std::uint64_t entries = 0;     // bodies in leaves, each once a leaf
   std::uint64_t pair_tests = 0;  // boxes compared with boxes

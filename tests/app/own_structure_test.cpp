@@ -194,6 +194,28 @@ TEST(BrokenStructures, WhatHerCodeWritesReachesHer) {
   EXPECT_NE(said.find("two coincide\n"), std::string::npos) << said;
 }
 
+TEST(BrokenStructures, SearchesOfTheirOwnAreHeldAgainstBruteForceAndTimed) {
+  const fs::path out = fresh_folder("own_searches");
+  EXPECT_EQ(shell(LANTERN_BROKEN " structure check searches --worlds 100").code, 0);
+  std::string said;
+  EXPECT_EQ(checked_broken("loses_hits", out, &said).at("bodies").size(), 2u);
+  EXPECT_NE(said.find("misses b2, which it meets"), std::string::npos) << said;
+  EXPECT_EQ(checked_broken("loses_pairs", out, &said).at("bodies").size(), 2u);
+  EXPECT_NE(said.find("its pair search: b1 and b2 overlap"), std::string::npos) << said;
+  const Outcome render =
+      shell(LANTERN_BROKEN " render " + (out / "loses_pairs_fails.toml").string() +
+            " --format svg -o " + out.string());
+  EXPECT_EQ(render.code, 0) << render.err;
+  EXPECT_NE(read_text(out / "loses_pairs_fails" / "loses_pairs_fails_0000.svg").find("#b3261e"),
+            std::string::npos)
+      << "her own search draws its pairs";
+  const Outcome bench =
+      shell(LANTERN_BROKEN " structure bench searches crashes --bodies 9 --rounds 1 --json");
+  const json rows = json::parse(bench.out).at("rows");
+  EXPECT_GT(rows.at(1).at("rays_s"), 0.0);
+  EXPECT_FALSE(rows.at(2).contains("rays_s")) << "it has no ray";
+}
+
 TEST(OwnStructureProgram, AMissedPairIsMarked) {
   const fs::path out = fresh_folder("own_missed");
   ASSERT_EQ(my_tree("structure check wrong --worlds 60 -o " + out.string()).code, 1);

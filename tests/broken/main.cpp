@@ -1,5 +1,6 @@
 // Trees as a first attempt leaves them: each is right until two bodies coincide, and then hangs,
-// follows a null pointer, or splits for ever. For the tests of `structure check` and `bench`.
+// follows a null pointer, or splits for ever; and one whose own searches are right, or lose what
+// comes last. For the tests of `structure check` and `bench`.
 #include <iostream>
 #include <memory>
 #include <vector>
@@ -54,11 +55,38 @@ class Broken {
   std::vector<unsigned> ids_;
 };
 
+template <unsigned lost_pairs, unsigned lost_hits>
+class Searching {
+ public:
+  Searching(const spatial::Box<2>& world, unsigned, unsigned) : world_(world) {}
+  void insert(unsigned, const spatial::Box<2>& box) { boxes_.push_back(box); }
+  void visit(const spatial::NodeSink& tell) const {
+    std::vector<unsigned> ids(boxes_.size());
+    for (unsigned i = 0; i < ids.size(); ++i) ids[i] = i;
+    tell({world_, 0, true, ids});
+  }
+  void pairs(const spatial::PairSink& tell) const {
+    for (unsigned a = 0; a + lost_pairs < boxes_.size(); ++a)
+      for (unsigned b = 0; b < a; ++b)
+        if (overlap(boxes_[a], boxes_[b])) tell(a, b);
+  }
+  void ray(spatial::Vec<2>, spatial::Vec<2>, const spatial::BodySink& tell) const {
+    for (unsigned i = 0; i + lost_hits < boxes_.size(); ++i) tell(i);
+  }
+
+ private:
+  spatial::Box<2> world_;
+  std::vector<spatial::Box<2>> boxes_;
+};
+
 int main(int argc, char** argv) {
   return lantern::app::run_program(
       argc, argv,
       {spatial::own<Broken<hang>>("hangs", "a tree that hangs"),
        spatial::own<Broken<follow_null>>("crashes", "a tree with a null child"),
        spatial::own<Broken<split_for_ever>>("splits", "a tree that splits for ever"),
-       spatial::own<Broken<split_in_a_loop>>("fills", "a tree that fills the memory")});
+       spatial::own<Broken<split_in_a_loop>>("fills", "a tree that fills the memory"),
+       spatial::own<Searching<0, 0>>("searches", "a tree with searches of its own"),
+       spatial::own<Searching<1, 0>>("loses_pairs", "a tree that loses pairs"),
+       spatial::own<Searching<0, 1>>("loses_hits", "a tree that loses hits")});
 }

@@ -128,6 +128,37 @@ class OwnFlat final : public StructureOf<OwnFlat, 2> {
     }
     return 0;
   }
+  // By its own search, if it has one.
+  bool tells_pairs(FunctionRef<bool(BodyId)> awake, FunctionRef<void(BodyId, BodyId)> f) const {
+    std::vector<Pair> told;
+    bool has = false;
+    const PairSink sink = [&](BodyId a, BodyId b) {
+      require_known(std::max(a, b), told.size());
+      told.push_back({ids_[a], ids_[b]});
+    };
+    call("pairs", [&] { has = tree_->pairs(sink); });
+    for (const Pair& pair : told)
+      if (pair.a != pair.b && (awake(pair.a) || awake(pair.b))) f(pair.a, pair.b);
+    return has;
+  }
+  // Who lies outside the world is somewhere else to it.
+  void narrow(RayQuery<2>& query) const {
+    const Ray<2>& ray = query.ray;
+    const Box<2> all = united(rules_.bounds, {ray.origin, ray.origin});
+    const double across = glm::length(all.size()) / glm::length(ray.direction);
+    std::vector<BodyId> told;
+    const BodySink sink = [&](BodyId id) {
+      require_known(id, told.size());
+      told.push_back(ids_[id]);
+    };
+    bool has = false;
+    call("ray", [&] { has = tree_->ray(ray.origin, ray.at(std::min(ray.length, across)), sink); });
+    if (!has) return;
+    for (std::size_t i = 0; i < ids_.size(); ++i)
+      if (clamped_[i]) told.push_back(ids_[i]);
+    std::ranges::sort(told);
+    query.only = std::move(told);
+  }
   Counters counters() const override { return view_.counters(); }
   std::span<const OwnFault> faults() const override { return faults_; }
 
@@ -137,6 +168,14 @@ class OwnFlat final : public StructureOf<OwnFlat, 2> {
       throw StructureFault(
           {fmt::format("structure '{}': {} threw: {}", kind_.name, during, words), bodies});
     });
+  }
+
+  // What is thrown here is told as its own.
+  void require_known(BodyId id, std::size_t told) const {
+    if (id >= ids_.size())
+      throw std::out_of_range(fmt::format("body number {} was never inserted", id));
+    if (told >= rules_.most_entries)
+      throw std::length_error(fmt::format("more than {}; does it come to an end?", told));
   }
 
   void renew() {
