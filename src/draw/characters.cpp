@@ -200,8 +200,21 @@ void draw_plain(const FrameBody& body, const Figure& f, DrawList& list) {
             round ? f.unit : 0);
 }
 
+// The frame of a shape that turns is that of its first, second and last corner.
+void draw_outline(const FrameBody& body, const Figure& f, const std::vector<Vec<2>>& turned,
+                  DrawList& list) {
+  const bool turns = turned.size() == 4;
+  const Vec<2> across = turns ? (turned[1] - turned[0]) / 2.0 : Vec<2>(f.half.x, 0);
+  const Vec<2> down = turns ? (turned[0] - turned[3]) / 2.0 : Vec<2>(0, f.half.y);
+  for (Polygon part : *body.outline) {
+    for (Vec<2>& p : part) p = f.center + across * p.x + down * p.y;
+    list.polygon(std::move(part), fill_of(body), rim_of(body, f));
+  }
+}
+
 void draw_look(const FrameBody& body, const Figure& f, const std::vector<Vec<2>>& turned,
                DrawList& list) {
+  if (body.outline) return draw_outline(body, f, turned, list);
   if (!turned.empty()) return draw_turned(body, f, turned, list);
   if (body.look == Look::ghost) return draw_ghost(body, f, list);
   if (body.look == Look::player) return draw_player(body, f, list);

@@ -188,6 +188,7 @@ struct SolidPanel {
 struct DrawList {
   Vec<2> page{1600.0, 900.0};
   std::vector<DrawShape> shapes;
+  std::vector<BodyPaint> paints = {};  // in place of bodies' colours
   std::vector<Tint> tints;  // one for each shape, or none at all: painted as they say themselves
   std::vector<LabelBox> labels;
   std::vector<KeyedRun> runs;  // in the order of the shapes

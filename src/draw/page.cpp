@@ -244,6 +244,7 @@ std::optional<DrawList> laid_out(const Frame& frame, const Staging& staging, con
   constexpr double kAboveLegend = 14;
   DrawList list;
   list.page = page;
+  list.paints = frame.get<FramePaints>().paints;
   Labels labels(list);
   const double margin = page.x < 1000 ? 40 : 60;
   const auto has_notes = [](const Frame& f) { return !f.notes.empty(); };

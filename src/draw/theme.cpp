@@ -34,7 +34,7 @@ struct Colors {
 constexpr Colors kColors[] = {
     {Role::none, 0xfdfcf9, 0x11141b, 0xffffff},
     {Role::paper, 0xfdfcf9, 0x11141b, 0xffffff},
-    {Role::panel, 0xffffff, 0x191d26, 0xffffff},
+    {Role::panel, language::kLightGround, language::kDarkGround, 0xffffff},
     {Role::ink, 0x161b26, 0xf3f5f9, 0x000000},
     {Role::quiet_ink, 0x495364, 0xa4aec0, 0x505050},
     {Role::rule, 0xdedfe2, 0x2b303b, 0xc8c8c8},
@@ -103,6 +103,26 @@ constexpr std::array<Theme, 3> kThemes{theme_of("light", &Colors::light),
                                        theme_of("print", &Colors::print)};
 
 }  // namespace
+
+// In print as grey; what is drawn on it is of the same hue, darker or lighter.
+Theme Theme::with(std::span<const BodyPaint> paints) const {
+  constexpr Color kWhite{255, 255, 255}, kBlack{0, 0, 0};
+  Theme theme = *this;
+  const auto color = [&](Role role) -> Color& {
+    return theme.colors[static_cast<std::size_t>(role)];
+  };
+  for (const BodyPaint& paint : paints) {
+    Color own = rgb(paint.rgb);
+    const double grey = 0.3 * own.r + 0.59 * own.g + 0.11 * own.b;
+    if (name == "print") own = mixed(kBlack, kWhite, grey / 255);
+    const Role role = body_role(paint.color);
+    color(role) = own;
+    color(in_tone(role, Tone::lit)) = mixed(own, kWhite, 0.38);
+    color(in_tone(role, Tone::shade)) = mixed(own, kBlack, 0.36);
+    color(body_mark_role(paint.color)) = mixed(own, grey > 70 ? kBlack : kWhite, 0.3);
+  }
+  return theme;
+}
 
 std::span<const Theme> themes() { return kThemes; }
 

@@ -7,6 +7,8 @@
 #include <span>
 #include <string_view>
 
+#include "language/display.hpp"
+
 namespace lantern::draw {
 
 enum class Role : std::uint8_t {
@@ -104,6 +106,8 @@ struct Theme {
   std::string_view name;
   std::array<Color, static_cast<std::size_t>(Role::count_)> colors;
   const Color& operator[](Role role) const { return colors[static_cast<std::size_t>(role)]; }
+  // With colours of an author's own.
+  Theme with(std::span<const BodyPaint> paints) const;
 };
 
 // light, dark, print

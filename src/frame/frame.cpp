@@ -149,6 +149,7 @@ template const PartType& part_type<FrameCollisions>();
 template const PartType& part_type<FrameScreen>();
 template const PartType& part_type<FrameStructure>();
 template const PartType& part_type<FrameLand>();
+template const PartType& part_type<FramePaints>();
 template const PartType& part_type<FrameChart>();
 template const PartType& part_type<FrameTrace>();
 template const PartType& part_type<FrameQuestion>();

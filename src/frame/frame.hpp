@@ -137,6 +137,7 @@ struct FrameBody : BodyState {
   std::string label = {};  // what pictures call it; empty: its name
   Look look = Look::box;
   int color = 1;
+  std::shared_ptr<const Outline> outline;  // instead of the look; or null
   Shape<3> shape;
   Box<3> box;                        // the smallest one around it
   std::optional<Box<3>> stored_box;  // that the structure holds: with contacts enlarged by how far
@@ -303,8 +304,17 @@ struct FrameStructure {
 struct FrameLand {
   static constexpr std::string_view kName = "land";
   std::vector<Polygon> land;
+  bool sea = true;
 
-  static decltype(auto) fields(const auto& r, auto&& v) { return v.drawn(r.land); }
+  static decltype(auto) fields(const auto& r, auto&& v) { return v.drawn(r.land, r.sea); }
+};
+
+// Of bodies with colours of an author's own.
+struct FramePaints {
+  static constexpr std::string_view kName = "paints";
+  std::vector<BodyPaint> paints;
+
+  static decltype(auto) fields(const auto& r, auto&& v) { return v.drawn(r.paints); }
 };
 
 // Of a frame that is one side's: which it is.
@@ -338,6 +348,7 @@ struct FramePage {
 struct Frame : FramePage, FrameParts {
   std::uint32_t index = 0;  // of this frame, from 0
   std::string event;        // the step's name or the algorithm's event; for --at
+  std::string step_name;    // the step's name in either case; for --at, too
   StepPhase phase = StepPhase::whole;
   double time = 0;                // seconds of world time
   std::string caption;            // counts filled in

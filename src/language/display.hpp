@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "geometry/plane.hpp"
 #include "rooms.hpp"
 
 namespace lantern::language {
@@ -46,6 +47,17 @@ struct Display {
 
 // What a note's line leads to.
 enum class NoteOf { body, node, point, pair, count };
+
+// Bodies' own outlines, in a square from -1 to 1, y down as on the page; each is filled by itself.
+using Outline = std::vector<Polygon>;
+// A colour of an author's own, in place of body colour 1 ... 8: 0xrrggbb.
+struct BodyPaint {
+  int color = 1;
+  std::uint32_t rgb = 0;
+  bool operator==(const BodyPaint&) const = default;
+};
+// What bodies lie on, in two themes.
+inline constexpr std::uint32_t kLightGround = 0xffffff, kDarkGround = 0x191d26;
 
 // What a texture is drawn as; `pattern` follows from its place in the list.
 enum class Picture { pattern, heart, sword, potion, coin, map };

@@ -64,6 +64,29 @@ bool has_strange_table(const TomlTable& table) {
   });
 }
 
+// A step that repeats stands there as often as it says.
+void repeat_steps(TomlTable& file) {
+  const auto found = std::ranges::find(file, "step", &TomlEntry::key);
+  auto* steps = found == file.end() ? nullptr : std::get_if<TomlArray>(&found->value.data);
+  if (!steps) return;
+  TomlArray all;
+  for (TomlValue& step : *steps) {
+    auto* table = std::get_if<TomlTable>(&step.data);
+    const TomlEntry* repeat = table ? entry_of(*table, "repeat") : nullptr;
+    const auto* times = repeat ? std::get_if<std::int64_t>(&repeat->value.data) : nullptr;
+    if (times && *times > 1 && *times <= 100) {
+      TomlValue again = step;
+      std::erase_if(std::get<TomlTable>(again.data), [](const TomlEntry& entry) {
+        return entry.key == "ending" || entry.key == "question" || entry.key == "answer" ||
+               entry.key == "predict";
+      });
+      all.insert(all.end(), static_cast<std::size_t>(*times - 1), again);
+    }
+    all.push_back(std::move(step));
+  }
+  *steps = std::move(all);
+}
+
 void read_all(const TomlTable& table, const std::string& path, Draft& draft) {
   const TableReader file(table, kTop, language_table(""), draft.problems, 0);
   if (has_strange_table(table)) return;
@@ -194,6 +217,7 @@ Scenario parse_scenario(std::string_view text, const std::string& path) {
                        "[[step]] with do = \"show\"");
   } else {
     table = read_toml(draft.text, draft.problems);
+    repeat_steps(table);
     if (entry_of(table, "side") && !draft.problems.any())
       return parse_sides(table, text, path, draft.problems);
     if (!draft.problems.any()) read_all(table, path, draft);

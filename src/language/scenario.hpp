@@ -333,6 +333,7 @@ struct Step {
   std::vector<RulerSpec> rulers;      // on every frame of the step
   std::optional<CodeSpec> code;       // from here on; none: as before, with no line lit
   bool ending = false;                // its last frame is the sequence's take-away
+  int repeat = 1;                     // so many such steps were made of it
   SourcePosition where;
 
   const std::string& words(bool last) const { return last && !after.empty() ? after : caption; }
@@ -374,7 +375,8 @@ struct ScenarioSpec {
   std::optional<ChartSpec> chart;
   std::optional<AtlasSpec> atlas;
   std::optional<ProblemSpec> problem;
-  std::vector<BodySpec> bodies;  // patterns unrolled
+  std::vector<BodySpec> bodies;   // patterns unrolled
+  std::vector<BodyPaint> paints;  // that some of them have
   std::vector<LinkSpec> links;
   std::vector<BodyMeasureSpec> body_measures;  // that chart, expectations and captions ask for
   std::vector<TextureSpec> textures;

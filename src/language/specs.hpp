@@ -80,6 +80,7 @@ enum class Warning {
   links,       // a spring or joint that is there twice
   needs,       // a scenario that is not there
   problem,     // whose answer is that of another problem
+  paint,       // that stands out little
 };
 // A point has three coordinates; in a 2D world the third is 0.
 struct WorldSpec {
@@ -101,6 +102,7 @@ struct WorldSpec {
   Vec<3> camera_target{0.0};
   bool has_camera = false;
   std::vector<std::vector<Vec<2>>> land;  // polygons of a flat world that are only drawn
+  bool sea = true;                        // what is no land is
   std::vector<Warning> quiet;             // kinds of warning whose cause is meant
   SourcePosition where;
   std::map<std::string_view, SourcePosition> keys;  // where those stand that the file gives
@@ -150,7 +152,9 @@ struct BodySpec {
   std::string name;
   std::string label;  // what pictures call it; empty: its name
   Look look = Look::box;
-  int color = 1;  // body 1 ... 8 of the theme
+  int color = 1;                           // body 1 ... 8 of the theme
+  std::string paint;                       // "#rrggbb", in place of that colour; or empty
+  std::shared_ptr<const Outline> outline;  // in place of the look; or null
   Shape<3> shape;
   Vec<3> position{0.0};
   Vec<3> velocity{0.0};
@@ -358,8 +362,8 @@ inline EnumNames names(AtlasRule) { return {"first_fit", "best_texture"}; }
 inline EnumNames names(Following) { return {"auto", "reinsert", "refit"}; }
 inline EnumNames names(SweepAxis) { return {"widest", "x", "y", "z"}; }
 inline EnumNames names(Warning) {
-  return {"view",     "outside", "contacts",   "joints",  "energy", "through", "crush",  "expect",
-          "settings", "bodies",  "prototypes", "letters", "links",  "needs",   "problem"};
+  return {"view",     "outside", "contacts",   "joints",  "energy", "through", "crush",   "expect",
+          "settings", "bodies",  "prototypes", "letters", "links",  "needs",   "problem", "paint"};
 }
 inline EnumNames names(LinkSpec::Kind) { return {"spring", "distance", "pin"}; }
 inline EnumNames names(Solution) {

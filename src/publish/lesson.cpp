@@ -174,9 +174,9 @@ std::string entry_of(const Listed& lesson, const std::map<std::string, const Lis
 
 }  // namespace
 
-std::string lesson_colours() {
-  const std::string light = colours(*theme_named("light")), dark = colours(*theme_named("dark")),
-                    print = colours(*theme_named("print"));
+std::string lesson_colours(std::span<const BodyPaint> paints) {
+  const auto of = [&](const char* theme) { return colours(theme_named(theme)->with(paints)); };
+  const std::string light = of("light"), dark = of("dark"), print = of("print");
   std::string css = fmt::format(":root{{{}}}\n", light);
   css +=
       fmt::format("@media (prefers-color-scheme: dark){{:root:not([data-theme]){{{}}}}}\n", dark);
@@ -271,7 +271,7 @@ std::string Lesson::part(std::string_view name) const {
     if (spoken()) card.language = spoken()->language;
     return script_text(to_json(card));
   }
-  if (name == "colours") return lesson_colours();
+  if (name == "colours") return lesson_colours(first_.paints);
   if (name == "style")
     return fmt::format("{}{}", page::lesson_css, live_ ? page::live_css : std::string_view());
   if (name == "live") return live_ ? live_part() : "";

@@ -126,7 +126,7 @@ void CairoPainter::draw(const DrawList& list, const Theme& theme, bool paper,
                         const Canvas& canvas) {
   check_draw_list(list);
   canvas_ = canvas;
-  theme_ = &theme;
+  theme_ = theme.with(list.paints);
   tint_ = nullptr;
   if (paper) {
     set_color(tinted(theme, Role::paper, nullptr, &Tint::fill));
@@ -154,11 +154,11 @@ void CairoPainter::set_color(const Paint& c) {
 
 // Fills and outlines the current path, and ends it.
 void CairoPainter::fill_and_stroke(Role fill, const Stroke& stroke, double line_width) {
-  if (const Paint ground = tinted(*theme_, fill, tint_, &Tint::fill); ground[3] != 0) {
+  if (const Paint ground = tinted(theme_, fill, tint_, &Tint::fill); ground[3] != 0) {
     set_color(ground);
     cairo_.fill_preserve(context_);
   }
-  const Paint line = tinted(*theme_, stroke.role, tint_, &Tint::line);
+  const Paint line = tinted(theme_, stroke.role, tint_, &Tint::line);
   if (line[3] != 0 && line_width > 0) {
     set_color(line);
     cairo_.set_line_width(context_, line_width);
@@ -238,8 +238,8 @@ void CairoPainter::add(const TextShape& shape) {
   Vec<2> at = beginning_of(shape);
   at.y = rounded(at.y);
   add_outlines(shape, at);
-  stroke_halo(tinted(*theme_, shape.halo, tint_, &Tint::line));
-  set_color(tinted(*theme_, shape.role, tint_, &Tint::fill));
+  stroke_halo(tinted(theme_, shape.halo, tint_, &Tint::line));
+  set_color(tinted(theme_, shape.role, tint_, &Tint::fill));
   cairo_.fill(context_);
 }
 
@@ -282,12 +282,12 @@ void CairoPainter::add_letters(const std::vector<const TextShape*>& parts) {
   const int count = static_cast<int>(glyphs.size());
   cairo_.set_font_face(context_, cairo_face(shape.weight));
   cairo_.set_font_size(context_, em);
-  if (const Paint halo = tinted(*theme_, shape.halo, tint_, &Tint::line); halo[3] != 0) {
+  if (const Paint halo = tinted(theme_, shape.halo, tint_, &Tint::line); halo[3] != 0) {
     cairo_.glyph_path(context_, glyphs.data(), count);
     stroke_halo(halo);
     cairo_.new_path(context_);
   }
-  const Paint ink = tinted(*theme_, shape.role, tint_, &Tint::fill);
+  const Paint ink = tinted(theme_, shape.role, tint_, &Tint::fill);
   if (ink[3] == 0) return;
   set_color(ink);
   cairo_.show_text_glyphs(context_, text.c_str(), static_cast<int>(text.size()), glyphs.data(),

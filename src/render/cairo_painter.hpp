@@ -120,7 +120,7 @@ class CairoPainter {
   void* context_;
   For for_;
   Canvas canvas_;
-  const Theme* theme_ = nullptr;
+  Theme theme_{};
   const Tint* tint_ = nullptr;  // of the shape that is being drawn
   std::map<std::pair<int, Weight>, std::vector<PathStep>> glyphs_;  // outlines
 };

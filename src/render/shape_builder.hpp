@@ -20,7 +20,7 @@ class ShapeBuilder {
   void build(const DrawList& list, const Theme& theme) {
     check_draw_list(list);
     canvas_ = Canvas(list.page, width_, height_);
-    theme_ = &theme;
+    theme_ = theme.with(list.paints);
     quads_.clear();
     if (masks_.start_frame()) {
       text_.forget();
@@ -99,7 +99,7 @@ class ShapeBuilder {
     const double width = shape.align == 0 ? 0 : text_width(shape.text, shape.size, shape.weight);
     const Vec<2> at = canvas_.pixel({shape.at.x - shape.align * width, shape.at.y});
     TextKey key{shape.text, shape.weight, pixels, 0, 0};
-    if (const Paint halo = tinted(*theme_, shape.halo, tint_, &Tint::line); halo[3] != 0) {
+    if (const Paint halo = tinted(theme_, shape.halo, tint_, &Tint::line); halo[3] != 0) {
       key.halo = 3 * canvas_.scale;
       add_text(key, at, halo);
       key.halo = 0;
@@ -246,9 +246,9 @@ class ShapeBuilder {
     return stroke.dash * canvas_.scale >= 1 && line[3] != 0;
   }
 
-  Paint fill_of(Role role) const { return tinted(*theme_, role, tint_, &Tint::fill); }
+  Paint fill_of(Role role) const { return tinted(theme_, role, tint_, &Tint::fill); }
   Paint line_of(const Stroke& stroke) const {
-    return stroke.width > 0 ? tinted(*theme_, stroke.role, tint_, &Tint::line) : Paint{};
+    return stroke.width > 0 ? tinted(theme_, stroke.role, tint_, &Tint::line) : Paint{};
   }
   static Instance paint(const Paint& fill, const Paint& line = {}) {
     return {.fill = fill, .stroke = line};
@@ -269,7 +269,7 @@ class ShapeBuilder {
 
   int width_, height_;
   Canvas canvas_;
-  const Theme* theme_ = nullptr;
+  Theme theme_{};
   const Tint* tint_ = nullptr;  // of the shape that is being added; none: as it says itself
   std::vector<Quad> quads_;
   MaskStore masks_;

@@ -31,7 +31,7 @@ std::string number(double x) {
 class SvgWriter {
  public:
   SvgWriter(const DrawList& list, const Theme& theme, const SvgWords& words)
-      : list_(list), theme_(theme), words_(words) {}
+      : list_(list), theme_(theme.with(list.paints)), words_(words) {}
 
   std::string write(bool transparent, int width, int height) {
     for (std::size_t i = 0; i < list_.shapes.size(); ++i) {
@@ -196,7 +196,7 @@ class SvgWriter {
   static constexpr const char* kFace = " font-family=\"Inter, sans-serif\" xml:space=\"preserve\"";
   static constexpr const char* kRoundCap = " stroke-linecap=\"round\"";
   const DrawList& list_;
-  const Theme& theme_;
+  const Theme theme_;
   const SvgWords& words_;
   const Tint* tint_ = nullptr;  // of the shape that is being added
   std::map<std::pair<int, Weight>, int> glyphs_;

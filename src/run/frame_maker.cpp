@@ -172,9 +172,12 @@ Frame FrameMaker::picture(const Touched& now, std::string_view event, bool midst
   frame.step = step_index_;
   frame.steps = static_cast<std::uint32_t>(scenario_.steps.size());
   frame.event = event;
+  frame.step_name = step_->name;
   frame.panels = panels_;
   frame.cast = static_cast<std::uint32_t>(scenario_.bodies.size());
-  if (!scenario_.world.land.empty()) frame.add<FrameLand>().land = scenario_.world.land;
+  if (!scenario_.world.land.empty())
+    frame.add<FrameLand>() = {scenario_.world.land, scenario_.world.sea};
+  if (!scenario_.paints.empty()) frame.add<FramePaints>().paints = scenario_.paints;
   frame.time = stage_.time;
   frame.dimension = scenario_.world.dimension;
   frame.bounds = scenario_.world.bounds;

@@ -147,6 +147,7 @@ class SidesRun : public Performance {
       });
       if (held) shown.since_last_frame.reset();
       if (frame.event.empty() && !held) frame.event = shown.event;
+      if (!held) frame.step_name = shown.step_name;
       frame.time = std::max(frame.time, shown.time);
     }
     frame.hash = state_hash(frame);

@@ -132,7 +132,8 @@ std::vector<Diagnostic> warnings_of_file(const Scenario& scenario) {
       {Warning::bodies, "names of bodies never enter the world"},
       {Warning::prototypes, "prototypes have nobody like them"},
       {Warning::letters, "letters stand nowhere in the map"},
-      {Warning::links, "springs and joints are there twice"}};
+      {Warning::links, "springs and joints are there twice"},
+      {Warning::paint, "paints stand out little"}};
   std::vector<Diagnostic> all;
   for (const auto& [kind, others] : kOthers) {
     Diagnostics found;

@@ -64,6 +64,7 @@ FrameBody frame_body(const Body<D>& body, const BodySpec& spec, std::size_t plac
   b.label = spec.label;
   b.look = spec.look;
   b.color = spec.color;
+  b.outline = spec.outline;
   b.shape = in_dimension<3>(body.shape);
   b.box = solid(body.box());
   b.is_static = !body.moves();

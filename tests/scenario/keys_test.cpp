@@ -344,6 +344,15 @@ void add_body_cases(std::vector<KeyCase>& cases) {
     add("drag", {"0", "3"}, bad_number("-0.1", "1.1e12"));
     add("angular_drag", {"0", "3"}, bad_number("-0.1", "1.1e12"));
     add("may_turn", {"true", "false"}, bad_truth());
+    Bad no_path = {{"@1", "must be a text"}};
+    if (table != "prototype")  // it is read with the body that is like it
+      no_path = {{"@1", "must be a text"},
+                 {"@\"L0 0\"", "begins with M"},
+                 {"@\"M0 0 X\"", "is none of its commands"},
+                 {"@\"M0 0 L4\"", "2 numbers"},
+                 {"@\"M0 0 L4 4\"", "area"}};
+    add("outline", {"\"M0 0 L4 0 2 3z\"", "\"m1,1h4v4Q0-3 1 1M9 9C0 0 1 1 2 3Z\""}, no_path);
+    add("paint", {"\"#0077aa\"", "\"#07a\""}, {{"@1", "must be a text"}, {"@\"blue\"", "six of"}});
     add("volume", {"true", "false"}, bad_truth());
     add("address", {"1", "4000000000"}, bad_whole("0", "4000000001", "1 to 4000000000"));
     add("integrator", {"\"explicit_euler\"", "\"implicit_midpoint\""},
@@ -742,6 +751,7 @@ std::vector<KeyCase> key_cases() {
         {"@[]", "must not be empty"},
         {"[@[[0, 0], [1, 1]]]", "at least 3 corners, not 2"},
         {"[[[0, 0], [8, 0], [8, @nan]]]", "must be finite"}}},
+      {"world", "sea", {"true", "false"}, bad_truth()},
       {"world",
        "quiet",
        {"[\"energy\"]",
@@ -995,6 +1005,7 @@ std::vector<KeyCase> key_cases() {
          {"\"two\"", "\"a_1\""},
          {{"@\"Two\"", "name = \"two\""}, {"@1", "must be a text"}, {"@\"\"", "cannot be"}}});
     cases.push_back({table, "plot", {}, {{"@1", "must be a text"}, {"@\"\"", "letters"}}});
+    cases.push_back({table, "repeat", {"1"}, bad_whole("0", "101", "1 to 100")});
     cases.push_back({table, "part", {"\"part 2\""}, bad_text("1 to 60", 60)});
     cases.push_back({table, "caption", {"\"\"", "\"Hello\""}, bad_text("0 to 180", 180)});
     cases.push_back({table, "after", {"\"\"", "\"Hello\""}, bad_text("0 to 180", 180)});

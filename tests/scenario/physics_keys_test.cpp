@@ -132,6 +132,40 @@ TEST(World, LandIsOfAFlatOneAndOfFewCorners) {
 
 // --- bodies ---
 
+TEST(Bodies, HaveOutlinesThatFillTheirBoxes) {
+  const BodySpec body =
+      flat_body("radius = 1\noutline = \"M10 20 h8 v4 H10 Z m2 1 Q12 30 14 21 z\"\n");
+  ASSERT_TRUE(body.outline);
+  ASSERT_EQ(body.outline->size(), 2u);
+  EXPECT_EQ(body.outline->at(0).at(0), Vec<2>(-1, -1)) << "as on the page, y down";
+  EXPECT_EQ(body.outline->at(0).at(2).x, 1);
+  EXPECT_EQ(body.outline->at(1).size(), 13u) << "a curve is twelve lines";
+  EXPECT_FALSE(flat_body("radius = 1\n").outline);
+}
+
+TEST(Bodies, PaintsTakeColoursThatNobodyHas) {
+  const auto body = [](const std::string& name, const std::string& color) {
+    return "[[body]]\nradius = 1\nposition = [1, 2]\nname = \"" + name + "\"\n" + color + "\n";
+  };
+  const Scenario s = good(kFlat + body("a", "paint = \"#0077aa\"") + body("b", "color = 1") +
+                          body("c", "paint = \"#07a\"") + body("d", "paint = \"#7a0\"") + kShow);
+  EXPECT_EQ(s.bodies[0].color, 2);
+  EXPECT_EQ(s.bodies[2].color, 2) << "the same paint";
+  EXPECT_EQ(s.bodies[3].color, 3);
+  ASSERT_EQ(s.paints.size(), 2u);
+  EXPECT_EQ(s.paints[0].rgb, 0x0077aau);
+  const auto warned = [&](const std::string& paint) {
+    return good(kFlat + body("a", "paint = \"" + paint + "\"") + kShow).noticed;
+  };
+  ASSERT_GE(warned("#ffff66").size(), 1u);
+  EXPECT_NE(warned("#ffff66")[0].message.find("from the ground of the light theme"),
+            std::string::npos);
+  std::string many;
+  for (int i = 1; i <= 8; ++i)
+    many += body("n" + std::to_string(i), "color = " + std::to_string(i));
+  expect_mistakes(kFlat + many + "@" + body("x", "paint = \"#07a\"") + kShow, {"8 colours"});
+}
+
 TEST(Bodies, HaveOneOfTheShapes) {
   EXPECT_EQ(std::get<Sphere>(flat_body("radius = 2\n").shape).radius, 2);
   EXPECT_EQ(std::get<AxisBox<3>>(deep_body("half_size = [1, 2, 3]\n").shape).half_size,

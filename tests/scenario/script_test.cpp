@@ -279,5 +279,22 @@ TEST(Script, CaptionsAreCheckedBeforeAnythingRuns) {
        steps({"do = \"show\"\ncaption = \"{texture} {refused_names} {refused:one/many}\""}));
 }
 
+TEST(Script, AStepThatRepeatsStandsThereAsOftenAsItSays) {
+  const Scenario s =
+      good(kScriptScene +
+           steps({"do = \"show\"\nname = \"again\"\nrepeat = 3\nending = true\nquestion = "
+                  "\"Many?\"\nanswer = \"None.\"\nexpect = { bodies = 0 }"}));
+  ASSERT_EQ(s.steps.size(), 3u);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_EQ(s.steps[i].name, "again");
+    EXPECT_EQ(s.steps[i].ending, i == 2) << i;
+    EXPECT_EQ(s.steps[i].question.empty(), i < 2) << "asked once";
+    EXPECT_EQ(s.steps[i].where.line, s.steps[0].where.line);
+    EXPECT_EQ(s.steps[i].expect.size(), 1u);
+  }
+  expect_mistakes(kScriptScene + steps({"do = \"insert\"\nrepeat = 2\nbodies = [@\"red\"]"}),
+                  {"is in the world already"});
+}
+
 }  // namespace
 }  // namespace lantern::run

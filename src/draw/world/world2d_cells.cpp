@@ -323,7 +323,8 @@ Grounds fill_views(const World2D& w) {
 }  // namespace
 
 bool draw_cells(World2D& w) {
-  w.list.crisp_rect(w.map.picture(), w.frame.get<FrameLand>().land.empty() ? Role::panel : kSea);
+  const auto& land = w.frame.get<FrameLand>();
+  w.list.crisp_rect(w.map.picture(), land.land.empty() || !land.sea ? Role::panel : kSea);
   if (w.frame.display.cells && w.frame.display.not_made) hatch_unmade(w);
   const Grounds under = fill_views(w);  // of what the cells' own grounds lie on
   if (!w.frame.display.cells) {

@@ -123,6 +123,11 @@ TableDoc step_table() {
       key(KeyType::text, "do", "The verb, one of those below.", must()),
       key(&Step::name, "name", "To ask for this step's frames with `--at`.", like(kEventPattern),
           or_else("the verb")),
+      key(&Step::repeat, "repeat",
+          "So many of this step, one after the other, as if it stood there so often; what it says "
+          "of "
+          "the `ending` and asks is of the last.",
+          range(1, 100)),
       key(&Step::part, "part", "Stands behind the title from here on.", range(1, 60),
           or_else("as before")),
       key(&Step::caption, "caption", "Explains the frame. It may quote counts.",

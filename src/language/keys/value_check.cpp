@@ -140,12 +140,9 @@ class Check {
     problems_.add(value.where, fmt::format("'{}' cannot be {}", doc_.key, in_quotes(*text)),
                   [&doc = doc_, &written = *text] {
                     std::string hint = nearest(written, doc.choices);
-                    if (doc.advice.empty()) return hint;
-                    const bool listed = !nearest_name(written, doc.choices);
-                    return fmt::format(
-                        "{} ({}{})", hint,
-                        listed ? "" : fmt::format("known: {}; ", fmt::join(doc.choices, ", ")),
-                        doc.advice);
+                    if (nearest_name(written, doc.choices))
+                      hint += fmt::format(" known here: {}", fmt::join(doc.choices, ", "));
+                    return doc.advice.empty() ? hint : fmt::format("{} ({})", hint, doc.advice);
                   });
   }
 

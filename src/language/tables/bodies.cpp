@@ -195,6 +195,8 @@ const char* size_key(const TableReader& table) {
   return "radius";
 }
 
+constexpr NamePattern kPaintPattern = {"#", "0-9a-fA-F", 7, "# and three or six of 0–9 and a–f"};
+
 KeyDoc color_key() {
   return key(
       &BodySpec::color, "color",
@@ -224,6 +226,16 @@ std::vector<KeyDoc> body_keys(std::vector<KeyDoc> first) {
   const std::vector<KeyDoc> shared = {
       key(&B::look, "look", "The character that is drawn.",
           or_else("`disc` with a radius or a capsule, `box` otherwise")),
+      key(KeyType::text, "outline",
+          "Instead of a look: an SVG path of M, L, H, V, C, Q and Z, which fills its box: `\"M0 0 "
+          "L4 "
+          "0 L2 3 Z\"`. Each closed part is filled by itself.",
+          range(1, 8000)),
+      key(&B::paint, "paint",
+          "A colour of its own instead, as `\"#0077aa\"`; print themes take its grey. Eight "
+          "colours "
+          "in all.",
+          like(kPaintPattern), or_else("the `color`")),
       key(KeyType::number, "radius", "Of a disc, or a ball in a 3D world.", range(0, kFar)),
       key(KeyType::point, "half_size", "Of a box.", range(0, kFar)),
       key(KeyType::two_numbers, "capsule",
@@ -330,6 +342,7 @@ BodySpec read_body_keys(const TableReader& table, Draft& draft) {
   table.fill(body);
   table.fill(body.material);
   body.where = draft.position(table.where());
+  body.outline = read_outline(table);
   check_oriented(table, body);
   body.shape = read_shape(table, draft.dimension);
   body.kind = read_kind(table, body.kind);
@@ -363,6 +376,7 @@ void read_bodies(const TableReader& file, Draft& draft) {
   read_map(file, draft);
   for (const TomlValue* value : patterns) read_pattern(*value, draft);
   find_the_followed(draft);
+  mix_paints(draft);
 }
 
 }  // namespace lantern::language

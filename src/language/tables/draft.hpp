@@ -85,6 +85,11 @@ struct Draft {
               const std::string& suggestion);
 };
 
+// A body's `outline`; null if there is none, or a bad one.
+std::shared_ptr<const Outline> read_outline(const TableReader& table);
+// Gives each paint a colour that no other body has, and notices one that stands out little.
+void mix_paints(Draft& draft);
+
 // A table within the file, whose points have as many numbers as the world has dimensions.
 inline TableReader open(const TomlValue& value, const TableDoc& doc, Draft& draft,
                         std::string_view called = {}) {

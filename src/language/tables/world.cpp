@@ -251,13 +251,15 @@ TableDoc world_table() {
           "Polygons that are only drawn, under all else in a 2D world, as the land of a map: "
           "`[[[0, 0], [8, 0], [8, 6]]]`. No body meets them. 2000 corners in all are allowed.",
           range(-kFar, kFar), or_else("none")),
+      key(&W::sea, "sea", "What is no `land` has the colour of water."),
       key(&W::quiet, "quiet",
           "What is intended and needs no warning: a `view` without any body, a body `outside` the "
           "world, bodies that fall into each other where `contacts` are off, `joints` that come "
           "apart, `energy` that grows though nothing drives it, a body pushed `through` a static "
           "one, a body that is `crush`ed between two others; an `expect` that cannot fail, "
           "`settings` of contacts where nothing touches, `bodies` that never enter, `prototypes` "
-          "that nobody is like, `letters` that stand nowhere in the map, `links` (springs or "
+          "that nobody is like, `letters` that stand nowhere in the map, `paint` that stands out "
+          "little, `links` (springs or "
           "joints) that are there twice, `needs` of a scenario that is not there, a `problem` "
           "whose solution is another one's.",
           or_else("nothing")),
