@@ -1,12 +1,18 @@
 #include "measure/records.hpp"
 
+#include <algorithm>
 #include <cstdlib>
 #include <ctime>
 #include <fstream>
+#include <map>
 
 #include <fmt/chrono.h>
 #include <sched.h>
+#include <sys/utsname.h>
+#include <unistd.h>
 
+#include "base/memory.hpp"
+#include "base/number.hpp"
 #include "embedded/lab_version.hpp"
 
 namespace lantern::measure {
@@ -72,11 +78,37 @@ std::string compiler() {
 #endif
 }
 
+std::string first_line(const char* path) {
+  std::string line;
+  std::getline(std::ifstream(path) >> std::ws, line);
+  return line;
+}
+
+// "AMD EPYC (family 25, model 1, stepping 1, cache 512 KB), 2 cores, 23.5 GB, Linux 6.1.0, governor
+// performance": a virtual machine's processor may have no more of a name.
 std::string processor() {
   std::ifstream file("/proc/cpuinfo");
-  for (std::string line; std::getline(file, line);)
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  return "unknown";
+  std::map<std::string, std::string> of_first;
+  for (std::string line; std::getline(file, line) && !line.empty();) {
+    const std::size_t colon = std::min(line.find(':'), line.size());
+    const std::string key = line.substr(0, line.find_last_not_of(" \t", colon - 1) + 1);
+    if (colon + 2 < line.size()) of_first[key] = line.substr(colon + 2);
+  }
+  std::string text = of_first.contains("model name") ? of_first["model name"] : "unknown", more;
+  for (const auto& [key, name] :
+       {std::pair("cpu family", "family"), std::pair("model", "model"),
+        std::pair("stepping", "stepping"), std::pair("cache size", "cache")})
+    if (of_first.contains(key))
+      more += fmt::format("{}{} {}", more.empty() ? "" : ", ", name, of_first[key]);
+  if (!more.empty()) text += fmt::format(" ({})", more);
+  const auto pages = static_cast<std::uint64_t>(std::max(::sysconf(_SC_PHYS_PAGES), 1L)),
+             page = static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  text += fmt::format(", {}, {}", counted(::sysconf(_SC_NPROCESSORS_ONLN), "core"),
+                      memory_text(pages * page));
+  if (utsname system{}; ::uname(&system) == 0)
+    text += fmt::format(", {} {}", system.sysname, system.release);
+  const std::string governor = first_line("/sys/devices/system/cpu/cpu0/cpufreq/scaling_governor");
+  return governor.empty() ? text : text + ", governor " + governor;
 }
 
 }  // namespace

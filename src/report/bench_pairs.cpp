@@ -205,7 +205,9 @@ class PairsBench : public ExperimentOf<BoxBenchResult> {
         only_option("only these: quadtree, sort_and_sweep, CGAL, ...", c.only),
         option("--boxes", &boxes_, {.value = "FILE", .without = "--workload"},
                "boxes of your own instead: CSV, a line a box (lo_x,lo_y,hi_x,hi_y or named "
-               "columns), or .aabbs of Broadmark"),
+               "columns, with id and frame if they move), or .aabbs of Broadmark"),
+        option("--columns", &columns_, {.value = "OURS=THEIRS,..."},
+               "what columns of --boxes are called: x=cx,y=cy,width=w,height=h"),
         {"--full", &c.full, "up to a million boxes: the better part of an hour"},
         peers_option("without other libraries", c.peers),
         option("--seconds", &seconds_, {.value = "S", .above_0 = true},
@@ -225,7 +227,7 @@ class PairsBench : public ExperimentOf<BoxBenchResult> {
     if (boxes_.empty())
       c.workloads = workloads();
     else
-      c.own = read_boxes(boxes_, c.seed);
+      c.own = read_boxes(boxes_, c.seed, columns_);
   }
   std::string unit() const override { return "worlds"; }
   std::size_t stages() const override { return box_stages(result_.config); }
@@ -255,7 +257,7 @@ class PairsBench : public ExperimentOf<BoxBenchResult> {
   }
 
   std::vector<std::string> workloads_;
-  std::string boxes_;
+  std::string boxes_, columns_;
   std::optional<double> seconds_, longest_;
 };
 

@@ -82,6 +82,8 @@ std::string to_text(const Table& table) {
 
 std::string to_text(const Document& document) {
   std::string text = document.about.empty() ? "" : folded(document.about);
+  for (const Circumstances& c : document.machines)
+    text += folded(fmt::format("{}: {}; {}", c.date, c.processor, c.compiler));
   for (const std::string& note : document.notes) text += folded(note);
   for (const Chapter& chapter : document.chapters) {
     if (!chapter.title.empty()) text += (text.empty() ? "" : "\n") + chapter.title + "\n";
@@ -113,8 +115,8 @@ std::string figure(double number) {
   if (!std::isfinite(number)) return "?";
   const double size = std::abs(number);
   if (size == 0) return "0";
-  if (size >= 0.9995e-3 && size < 1e5) {
-    if (size >= 999.5) return fmt::format("{:.0f}", number);
+  if (size >= 0.9995e-3 && size < 1e9) {
+    if (size >= 999.5) return grouped(std::llround(number));
     return fmt::format("{:.3g}", number);
   }
   std::string text = fmt::format("{:.2e}", number);

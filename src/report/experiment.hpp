@@ -134,7 +134,7 @@ std::string json_of(const Result& result, const Sheet<Row>& sheet) {
   json.line().member("command", result.command);
   json.line().member("version", c.version).member("sources", c.sources);
   json.line().member("compiler", c.compiler).member("flags", c.flags);
-  json.line().member("processor", c.processor);
+  json.line().member("processor", c.processor).member("date", c.date);
   write_rows("rows", result.rows, json);
   if (sheet.lists) sheet.lists(json);
   json.line().end_object();

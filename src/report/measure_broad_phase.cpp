@@ -61,12 +61,12 @@ Sheet<BroadPhaseCost> sheet_of(const BroadPhaseResult& result) {
                     ? fmt::format("capacity {}, depth limit {}", row.capacity, row.depth_limit)
                     : "";
        }},
-      {"pair tests", [](auto& row) { return fmt::format("{}", row.counts.pair_tests); }},
-      {"box tests", [](auto& row) { return fmt::format("{}", row.counts.box_tests); }},
-      {"entries", [](auto& row) { return fmt::format("{}", row.counts.entries); }},
+      {"pair tests", [](auto& row) { return count_text(row.counts.pair_tests); }},
+      {"box tests", [](auto& row) { return count_text(row.counts.box_tests); }},
+      {"entries", [](auto& row) { return count_text(row.counts.entries); }},
       {"false/true", [](auto& row) { return fmt::format("{:.2f}", row.false_per_true()); }},
       {"ent/body", [](auto& row) { return fmt::format("{:.2f}", row.entries_per_body()); }},
-      {"nodes", [](auto& row) { return fmt::format("{}", row.counts.nodes); }},
+      {"nodes", [](auto& row) { return count_text(row.counts.nodes); }},
       {"wrong", [](auto& row) { return fmt::format("{}", wrong_of(row)); }},
       {"ms", [](auto& row) { return in_thousandths(row.timing.median); }},
       {"least", [](auto& row) { return in_thousandths(row.timing.least); }},

@@ -48,6 +48,34 @@ TEST(BoxFiles, CsvHasCornersOrNamedColumns) {
   EXPECT_EQ(space[1][0], space[0][0]);
 }
 
+TEST(BoxFiles, CsvMayBeAnyTable) {
+  const std::string text =
+      "t;name;cx;cy;w;h;key\n0;a;1;2;2;4;7\n0;b;9;9;1;1;3\n1;b;8;9;1;1;3\n1;a;2;2;2;4;7\n";
+  const BoxScene scene =
+      read_boxes(written("any.csv", text), 1, "frame=t,x=cx,y=cy,width=w,height=h,id=key");
+  const auto& frames = std::get<BoxUpdates<2>>(scene.boxes).frames;
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(frames[0][1].box, (Box<2>{{0, 0}, {2, 4}})) << "by their keys";
+  EXPECT_EQ(frames[1][1].box, (Box<2>{{1, 0}, {3, 4}}));
+  EXPECT_NE(scene.words.find("which move: 2 frames"), std::string::npos) << scene.words;
+  EXPECT_NE(read_boxes(written("still.csv", "0,0,1,2\n3,4,5,6\n"), 1).words.find("at one moment"),
+            std::string::npos);
+  EXPECT_THROW(read_boxes(written("any.csv", text), 1, "x=cx,radius=w"), Refused);
+}
+
+TEST(BoxFiles, AllBadLinesOfCsvAreTold) {
+  std::string text = "0,0,1,1\n";
+  for (int i = 0; i < 14; ++i) text += "0,0,x,1\n";
+  try {
+    read_boxes(written("many.csv", text), 1);
+    FAIL();
+  } catch (const ScenarioError& error) {
+    ASSERT_EQ(error.diagnostics().size(), 11u);
+    EXPECT_EQ(error.diagnostics()[9].where.line, 11);
+    EXPECT_EQ(error.diagnostics()[10].message, "4 more bad lines");
+  }
+}
+
 TEST(BoxFiles, CsvMistakesHaveTheirPlace) {
   const struct {
     const char *text, *message;
@@ -59,7 +87,11 @@ TEST(BoxFiles, CsvMistakesHaveTheirPlace) {
       {"0,0,nan,1\n", "'nan' is no finite number", 1, 5},
       {"2,0,1,1\n", "the box ends before it begins", 1, 5},
       {"x,y,half_x,half_y\n0,0,-1,1\n", "a half size is negative", 2, 5},
-      {"x,y,half_x,hlf_y\n", "unknown column 'hlf_y'", 1, 12},
+      {"x,y,half_x,hlf_y\n", "column 'half_y' is missing", 1, 1},
+      {"x,y,width,height\n0,0,1,-1\n", "a size is negative", 2, 7},
+      {"id,lo_x,lo_y,hi_x,hi_y\n0.5,0,0,1,1\n", "an id is a whole number", 2, 1},
+      {"frame,lo_x,lo_y,hi_x,hi_y\n1,0,0,1,1\n2,0,0,1,1\n2,1,1,2,2\n",
+       "not every frame has the same boxes, each once", 4, 1},
       {"x,y,x,half_y\n", "column 'x' is there twice", 1, 5},
       {"lo_x,lo_y,hi_x\n", "column 'hi_y' is missing", 1, 1},
       {"lo_x,lo_y,hi_x,hi_y,half_x\n", "column 'x' is missing", 1, 1},
@@ -72,7 +104,8 @@ TEST(BoxFiles, CsvMistakesHaveTheirPlace) {
     EXPECT_EQ(told.where.column, one.column) << one.text;
     EXPECT_FALSE(told.source_line.empty());
   }
-  EXPECT_EQ(mistake("bad.csv", "x,y,half_x,hlf_y\n").suggestion, "did you mean 'half_y'?");
+  EXPECT_EQ(mistake("bad.csv", "x,y,half_x,hlf_y\n").suggestion,
+            "is it 'hlf_y'? --columns half_y=hlf_y");
   EXPECT_THROW(read_boxes(written("empty.csv", ""), 1), Refused);
   EXPECT_THROW(read_boxes(written("one.csv", "0,0,1,1"), 1), Refused);
   EXPECT_THROW(read_boxes("no/such.csv", 1), IoError);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/number.hpp"
 #include "report/document.hpp"
 
 namespace lantern::report {
@@ -16,6 +17,7 @@ TEST(Figures, AreShort) {
   EXPECT_EQ(figure(3.217e-9), "3.22e-9");
   EXPECT_EQ(figure(0.0123), "0.0123");
   EXPECT_EQ(figure(2060), "2060");
+  EXPECT_EQ(figure(4.5e6), grouped(4500000)) << "as 13 806 beside it";
   EXPECT_EQ(figure(0), "0");
   EXPECT_EQ(figure(std::nan("")), "?");
 }

@@ -51,8 +51,14 @@ BoxScene scene_of(const fs::path& file, int dimension, std::vector<std::vector<F
   const std::size_t bodies = frames[0].size();
   if (bodies < 2)
     throw Refused("{}: it has fewer than two boxes, so there is no pair", file.string());
+  const std::size_t told = frames.size();
   BoxScene scene{
-      file.stem().string(), fmt::format("the {} boxes of {}", bodies, file.string()), {}};
+      file.stem().string(),
+      fmt::format("the {} boxes of {}, {}", bodies, file.string(),
+                  told > 1 ? fmt::format("which move: {} frames", told)
+                           : "at one moment: from step to step each is moved by up to 5 % of its "
+                             "size, the static ones not"),
+      {}};
   if (dimension == 2)
     scene.boxes = in_space<2>(frames, seed);
   else
@@ -62,92 +68,150 @@ BoxScene scene_of(const fs::path& file, int dimension, std::vector<std::vector<F
 
 // --- CSV ---
 
+// Lines of boxes: of four or six numbers, or of what the first line names. Other columns are passed
+// over. Every bad line is a mistake, of which the first are told.
 class BoxesReader {
  public:
-  explicit BoxesReader(CsvFile csv) : csv_(std::move(csv)) {}
+  // `called` is what columns are called in the file instead: "x=cx,y=cy".
+  BoxesReader(CsvFile csv, std::string_view called) : csv_(std::move(csv)) {
+    for (std::string_view rest = called; !rest.empty();) {
+      const std::string_view one = rest.substr(0, rest.find(','));
+      rest.remove_prefix(std::min(one.size() + 1, rest.size()));
+      const std::size_t equals = std::min(one.find('='), one.size());
+      const auto column = std::ranges::find(kColumns, one.substr(0, equals));
+      if (column == kColumns.end() || equals + 1 >= one.size())
+        throw Refused("--columns {}: give ours = theirs, as x=cx,y=cy; ours are {}", one,
+                      fmt::join(kColumns, ", "));
+      names_[static_cast<std::size_t>(column - kColumns.begin())] = one.substr(equals + 1);
+    }
+  }
 
   // The dimension, 2 or 3.
-  int read(std::vector<FileBody>& bodies) {
-    csv_.each_line([&](const std::vector<CsvCell>& cells) { line(cells, bodies); });
+  int read(std::vector<std::vector<FileBody>>& frames) {
+    Diagnostics bad;
+    csv_.each_line([&](const std::vector<CsvCell>& cells) {
+      if (columns_.empty() && !begin(cells)) return;
+      try {
+        add(cells, frames);
+      } catch (const ScenarioError& error) {
+        bad.add([&] { return error.diagnostics()[0]; });
+      }
+    });
+    if (!bad.empty()) throw ScenarioError(bad.list("bad lines"));
+    for (std::vector<FileBody>& frame : frames) std::ranges::sort(frame, {}, &FileBody::id);
+    for (const std::vector<FileBody>& frame : frames)
+      if (!std::ranges::equal(frame, frames[0], {}, &FileBody::id, &FileBody::id))
+        csv_.fail(1, "not every frame has the same boxes, each once",
+                  "give each its id in every frame");
+    for (std::vector<FileBody>& frame : frames)
+      for (std::size_t i = 0; i < frame.size(); ++i) frame[i].id = static_cast<BodyId>(i);
     return dimension_;
   }
 
  private:
-  enum Column { lo_x, lo_y, lo_z, hi_x, hi_y, hi_z, x, y, z, half_x, half_y, half_z, is_static };
-  static constexpr std::array<std::string_view, 13> kColumns = {
-      "lo_x", "lo_y", "lo_z",   "hi_x",   "hi_y",   "hi_z",  "x",
-      "y",    "z",    "half_x", "half_y", "half_z", "static"};
+  enum Column { lo_x, lo_y, lo_z, hi_x, hi_y, hi_z, x, y, z, half_x, half_y, half_z, width };
+  enum { height = width + 1, depth, is_static, id, frame, kCount };
+  static constexpr std::array<std::string_view, kCount> kColumns = {
+      "lo_x",   "lo_y",   "lo_z",   "hi_x",  "hi_y",   "hi_z",  "x",      "y",  "z",
+      "half_x", "half_y", "half_z", "width", "height", "depth", "static", "id", "frame"};
 
-  void line(const std::vector<CsvCell>& cells, std::vector<FileBody>& bodies) {
-    if (columns_.empty()) {
-      if (!number_in<double>(cells[0].text)) return name_columns(cells);
-      columns_ = {lo_x, lo_y, hi_x, hi_y};
-      if (cells.size() != 4) columns_ = {lo_x, lo_y, lo_z, hi_x, hi_y, hi_z};
-      dimension_ = cells.size() == 4 ? 2 : 3;
+  // False if the line only names columns.
+  bool begin(const std::vector<CsvCell>& cells) {
+    const bool is_bare = number_in<double>(cells[0].text).has_value();
+    const bool flat = cells.size() == 4;
+    if (is_bare)
+      columns_ = flat ? std::vector<int>{lo_x, lo_y, hi_x, hi_y}
+                      : std::vector<int>{lo_x, lo_y, lo_z, hi_x, hi_y, hi_z};
+    for (std::size_t i = 0; !is_bare && i < cells.size(); ++i) {
+      const auto found = std::ranges::find(names_, cells[i].text);
+      const int column = found == names_.end() ? -1 : static_cast<int>(found - names_.begin());
+      if (column >= 0 && has(column))
+        csv_.fail(cells[i].column, fmt::format("column '{}' is there twice", cells[i].text));
+      columns_.push_back(column);
     }
+    sizes_ = has(half_x) ? half_x : has(width) ? width : hi_x;
+    from_ = sizes_ == hi_x ? lo_x : x;
+    dimension_ = has(from_ + 2) ? 3 : 2;
+    std::vector<std::string_view> others;
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      if (columns_[i] < 0) others.push_back(cells[i].text);
+    for (const int first : {from_, sizes_})
+      for (int column = first; column < first + dimension_; ++column)
+        if (!has(column)) miss(named(column), nearest_name(named(column), others));
+    return is_bare;
+  }
+
+  [[noreturn]] void miss(std::string_view column, const std::optional<std::string>& near) const {
+    csv_.fail(1, fmt::format("column '{}' is missing", column),
+              near ? fmt::format("is it '{0}'? --columns {1}={0}", *near, column)
+                   : "name lo_x,lo_y,hi_x,hi_y, x,y,half_x,half_y or x,y,width,height, in space "
+                     "lo_z,hi_z, z,half_z or z,depth, too; or say what they are called: --columns "
+                     "x=cx,y=cy");
+  }
+
+  bool has(int column) const { return std::ranges::find(columns_, column) != columns_.end(); }
+  std::string_view named(int column) const { return names_[static_cast<std::size_t>(column)]; }
+
+  void add(const std::vector<CsvCell>& cells, std::vector<std::vector<FileBody>>& frames) {
     if (cells.size() != columns_.size())
       csv_.fail(
           cells.back().column,
           fmt::format("{}, where {} are expected", counted(cells.size(), "value"), columns_.size()),
           "a box is lo_x,lo_y,hi_x,hi_y or lo_x,lo_y,lo_z,hi_x,hi_y,hi_z, or what the first line "
           "names");
-    bodies.push_back(body(cells, static_cast<BodyId>(bodies.size())));
-  }
-
-  void name_columns(const std::vector<CsvCell>& cells) {
-    for (const std::size_t column : csv_.named(cells, kColumns))
-      columns_.push_back(static_cast<Column>(column));
-    by_half_ = has(half_x);
-    dimension_ = has(lo_z) || has(z) ? 3 : 2;
-    for (const Column column : corners())
-      if (!has(column))
-        csv_.fail(
-            1, fmt::format("column '{}' is missing", kColumns[column]),
-            "name lo_x,lo_y,hi_x,hi_y or x,y,half_x,half_y, in space lo_z,hi_z or z,half_z, too");
-    if (columns_.size() != corners().size() + (has(is_static) ? 1 : 0))
-      csv_.fail(
-          1, "columns of corners and of half sizes are mixed",
-          "name lo_x,lo_y,hi_x,hi_y or x,y,half_x,half_y, in space lo_z,hi_z or z,half_z, too");
-  }
-
-  bool has(Column column) const { return std::ranges::find(columns_, column) != columns_.end(); }
-  std::vector<Column> corners() const {
-    if (by_half_)
-      return dimension_ == 2 ? std::vector{x, y, half_x, half_y}
-                             : std::vector{x, y, z, half_x, half_y, half_z};
-    return dimension_ == 2 ? std::vector{lo_x, lo_y, hi_x, hi_y}
-                           : std::vector{lo_x, lo_y, lo_z, hi_x, hi_y, hi_z};
-  }
-
-  FileBody body(const std::vector<CsvCell>& cells, BodyId id) const {
-    std::array<double, kColumns.size()> values{};
-    std::array<int, kColumns.size()> places{};
+    std::array<double, kCount> values{};
+    std::array<int, kCount> places{};
     for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (columns_[i] < 0) continue;
+      const auto column = static_cast<std::size_t>(columns_[i]);
       const auto value = number_in<double>(cells[i].text);
       if (!value || !std::isfinite(*value))
         csv_.fail(cells[i].column, fmt::format("{} is no finite number", in_quotes(cells[i].text)));
-      values[columns_[i]] = *value;
-      places[columns_[i]] = cells[i].column;
+      values[column] = *value;
+      places[column] = cells[i].column;
     }
     if (values[is_static] != 0 && values[is_static] != 1)
       csv_.fail(places[is_static], "static is 0 or 1");
-    const Vec<3> center(values[x], values[y], values[z]),
-        half(values[half_x], values[half_y], values[half_z]);
-    const Box<3> corners{{values[lo_x], values[lo_y], values[lo_z]},
-                         {values[hi_x], values[hi_y], values[hi_z]}};
-    const Box<3> box = by_half_ ? Box<3>::around(center, half) : corners;
-    for (int i = 0; i < 3; ++i)
-      if (!(box.lo[i] <= box.hi[i]))
-        csv_.fail(places[static_cast<std::size_t>((by_half_ ? half_x : hi_x) + i)],
-                  by_half_ ? "a half size is negative" : "the box ends before it begins");
-    if (!is_valid(box)) csv_.fail(1, "the box is too large");
-    return {id, box, values[is_static] == 1, true};
+    if (has(id) && !(values[id] >= 0 && values[id] < kNone && std::trunc(values[id]) == values[id]))
+      csv_.fail(places[id], "an id is a whole number");
+    if (frames.empty() || values[frame] != last_frame_) {
+      if (frames.size() == kMostFrames) return;
+      frames.emplace_back();
+    }
+    last_frame_ = values[frame];
+    const auto number =
+        has(id) ? static_cast<BodyId>(values[id]) : static_cast<BodyId>(frames.back().size());
+    frames.back().push_back({number, box(values, places), values[is_static] == 1, true});
   }
 
+  Box<3> box(const std::array<double, kCount>& values,
+             const std::array<int, kCount>& places) const {
+    const auto three = [&](int first) {
+      const auto i = static_cast<std::size_t>(first);
+      return Vec<3>(values[i], values[i + 1], values[i + 2]);
+    };
+    Box<3> box{three(from_), three(sizes_)};
+    if (sizes_ != hi_x) box = Box<3>::around(box.lo, box.hi * (sizes_ == width ? 0.5 : 1.0));
+    for (int i = 0; i < 3; ++i)
+      if (!(box.lo[i] <= box.hi[i]))
+        csv_.fail(places[static_cast<std::size_t>(sizes_ + i)],
+                  sizes_ == hi_x     ? "the box ends before it begins"
+                  : sizes_ == half_x ? "a half size is negative"
+                                     : "a size is negative");
+    if (!is_valid(box)) csv_.fail(1, "the box is too large");
+    return box;
+  }
+
+  static constexpr std::size_t kMostFrames = 24;  // that frames_for gives
   CsvFile csv_;
-  int dimension_ = 2;
-  bool by_half_ = false;
-  std::vector<Column> columns_;
+  std::array<std::string, kCount> names_ = [] {
+    std::array<std::string, kCount> names;
+    std::ranges::copy(kColumns, names.begin());
+    return names;
+  }();
+  int dimension_ = 2, from_ = lo_x, sizes_ = hi_x;
+  double last_frame_ = 0;
+  std::vector<int> columns_;  // of each cell; -1: passed over
 };
 
 // --- Broadmark ---
@@ -205,12 +269,14 @@ class AabbsReader {
 
 }  // namespace
 
-BoxScene read_boxes(const fs::path& file, std::uint64_t seed) {
+BoxScene read_boxes(const fs::path& file, std::uint64_t seed, const std::string& columns) {
   const std::string bytes = read_input(file, kMostBytes);
   require_memory(4 * bytes.size(), file.string() + ": its boxes", "take fewer of them");
   if (file.extension() == ".aabbs") return scene_of(file, 3, AabbsReader(file, bytes).read(), seed);
-  std::vector<std::vector<FileBody>> frames(1);
-  const int dimension = BoxesReader(CsvFile(file.string(), bytes)).read(frames[0]);
+  std::vector<std::vector<FileBody>> frames;
+  const int dimension = BoxesReader(CsvFile(file.string(), bytes), columns).read(frames);
+  if (frames.empty()) frames.emplace_back();
+  frames.resize(std::min(frames.size(), frames_for(frames[0].size())));
   return scene_of(file, dimension, std::move(frames), seed);
 }
 

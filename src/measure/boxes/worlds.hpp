@@ -94,13 +94,17 @@ inline constexpr std::size_t kQuestions = 400;
 // as `frames_for` allows.
 //
 // Any other file is CSV: a box a line. Columns are named by a first line, in any order:
-// lo_x, lo_y, hi_x, hi_y or x, y, half_x, half_y, in space lo_z, hi_z or z, half_z, too; and
-// static, 0 or 1. Without such a line there are 4 or 6 numbers: the lower corner, the upper one.
-// Empty lines and those that begin with # are passed over. The boxes lie still in it: so they are
-// moved, each by up to a tenth of its half sizes an axis and step, seeded.
+// lo_x, lo_y, hi_x, hi_y, or x, y, half_x, half_y, or x, y, width, height, in space lo_z, hi_z, or
+// z, half_z, or z, depth, too; static, 0 or 1; id, a whole number; frame, whose lines stand
+// together. Others are passed over. `columns` says what some are called there: "x=cx,y=cy". Without
+// such a line there are 4 or 6 numbers: the lower corner, the upper one. Empty lines and those that
+// begin with # are passed over. Boxes of one frame lie still in it: so they are moved, each by up
+// to a tenth of its half sizes an axis and step, seeded. The scene's words tell which it is.
 //
-// Throws ScenarioError with file, line and column, IoError for what cannot be read, Refused for
-// fewer than two boxes.
-BoxScene read_boxes(const std::filesystem::path& file, std::uint64_t seed);
+// Throws ScenarioError with file, line and column of the first ten mistakes and the number of
+// others, IoError for what cannot be read, Refused for fewer than two boxes, and for `columns`
+// that are none of ours.
+BoxScene read_boxes(const std::filesystem::path& file, std::uint64_t seed,
+                    const std::string& columns = {});
 
 }  // namespace lantern::measure
