@@ -196,7 +196,8 @@ struct DrawList {
   std::string prefix;          // of the keys to come: "eager/" while that side is drawn
   std::vector<WorldMap> maps;  // of the flat worlds on the page
   std::vector<SolidPanel> solids;
-  MarkSet marks;  // that are among the shapes, for a legend
+  MarkSet marks;     // that are among the shapes, for a legend
+  int left_out = 0;  // panels that had no room
   // Counts and measures that the page depicts, so that whoever reads one in the caption finds it.
   std::set<std::string, std::less<>> referents;
 

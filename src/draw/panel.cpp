@@ -202,7 +202,7 @@ void draw_panel(Panel panel, const Frame& frame, const Staging& staging, const B
   const PanelView& view = view_of(panel);
   const Box<2> place = shrunk(box, view.inset);
   const Vec<2> size = place.size();
-  if (size.x < view.smallest.x || size.y < view.smallest.y) return;
+  if (size.x < view.smallest.x || size.y < view.smallest.y) return void(++list.left_out);
   view.draw(frame, staging, place, list, labels);
 }
 

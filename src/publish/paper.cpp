@@ -25,12 +25,15 @@ constexpr double kMargin = 12, kTop = 21, kBottom = 14, kGapAcross = 7, kGapDown
 constexpr double kTitleLine = 14.5, kTitleRule = 17, kTitleSize = 4.6, kFootSize = 3.0;
 constexpr double kMostType = 3.3, kLeastType = 2.2;         // 9.4 and 6.2 points
 constexpr double kTypeOfWidth = 0.038;                      // of a picture
+constexpr double kMostTypeOfWidth = 0.06;                   // or its words have no room
 constexpr double kLineHeight = 1.32, kAboveCaption = 1.45;  // ems
 constexpr double kLeastWidth = 10, kLeastHeight = 10;       // of picture and caption
 constexpr double kUsualCaption = 190;                       // letters that have room
 constexpr double kMostWords = 0.55;                         // of the height of picture and caption
 constexpr double kLetter = 0.52;                            // ems, on average
-constexpr double kWidest = 16.0 / 9, kSquarest = 1.6;       // aspects of a picture
+constexpr double kWidest = 16.0 / 9, kSquarest = 1.25;      // aspects of a picture
+constexpr double kPoint = 25.4 / 72;
+const Vec<2> kRoomy(880, 540);  // page units that the panels of most scenarios need
 
 void move(RectShape& s, const Vec<2>& by) { s.box = {s.box.lo + by, s.box.hi + by}; }
 void move(LineShape& s, const Vec<2>& by) { s.from += by, s.to += by; }
@@ -41,11 +44,10 @@ void move(TextShape& s, const Vec<2>& by) { s.at += by; }
 
 // As many lines as there may be; the last one ends with an ellipsis if the text goes on.
 std::vector<std::string> lines_of(const std::string& text, double width, std::size_t most,
-                                  TextStyle& style) {
-  const double least = 0.82 * style.size;
+                                  double least, TextStyle& style) {
   std::vector<std::string> lines = wrapped(text, width, style);
   while (lines.size() > most && style.size > least) {
-    style.size *= 0.97;
+    style.size = std::max(least, 0.97 * style.size);
     lines = wrapped(text, width, style);
   }
   if (lines.size() <= most) return lines;
@@ -62,10 +64,14 @@ PdfDocument::PdfDocument(const PdfWords& words) {
   cairo_face(Weight::regular);  // before anything is made: what is missing is told at once
   surface_ = cairo().pdf_surface_create_for_stream(append, &bytes_, 1, 1);
   context_ = cairo().create(surface_);
+  say(words);
+  cairo().pdf_surface_set_metadata(surface_, kCreated, "");  // or it would be now
+}
+
+void PdfDocument::say(const PdfWords& words) {
   cairo().pdf_surface_set_metadata(surface_, kTitle, words.title.c_str());
   cairo().pdf_surface_set_metadata(surface_, kSubject, words.subject.c_str());
   cairo().pdf_surface_set_metadata(surface_, kCreator, words.creator.c_str());
-  cairo().pdf_surface_set_metadata(surface_, kCreated, "");  // or it would be now
 }
 
 PdfDocument::~PdfDocument() {
@@ -100,12 +106,13 @@ void PdfDocument::add_page(const DrawList& list, const Theme& theme, bool paper,
   ++pages_;
 }
 
-void PdfDocument::add_entry(const std::string& words) {
-  constexpr int kTopLevel = 0;
+int PdfDocument::add_entry(const std::string& words, int below) {
   LANTERN_CHECK(pages_, >, 0);
   const std::string link = fmt::format("page={} pos=[0 0]", pages_);
-  cairo().pdf_surface_add_outline(surface_, kTopLevel, words.c_str(), link.c_str(), 0);
+  const int entry =
+      cairo().pdf_surface_add_outline(surface_, below, words.c_str(), link.c_str(), 0);
   require_good();
+  return entry;
 }
 
 std::string PdfDocument::finish() {
@@ -122,7 +129,8 @@ std::optional<SheetGrid> sheet_grid(std::string_view words) {
   return SheetGrid{grid->first, grid->second};
 }
 
-SheetLayout::SheetLayout(const Vec<2>& paper, const SheetGrid& grid) : grid_(grid) {
+SheetLayout::SheetLayout(const Vec<2>& paper, const SheetGrid& grid, double least_points)
+    : paper_(paper), grid_(grid) {
   const double share = std::sqrt(paper.x * paper.y / (297.0 * 210.0));
   const Vec<2> size = paper / share;  // as large as A4
   const auto parts = [](double room, int number, double gap) {
@@ -133,7 +141,9 @@ SheetLayout::SheetLayout(const Vec<2>& paper, const SheetGrid& grid) : grid_(gri
   if (!(width >= kLeastWidth && height >= kLeastHeight))
     throw Refused("pages {:.3g} times as wide as high have no room for {} x {} pictures",
                   paper.x / paper.y, grid.columns, grid.rows);
-  const double type = std::clamp(kTypeOfWidth * width, kLeastType, kMostType);
+  const double wanted = least_points * kPoint / share;
+  const double least = std::min(wanted, std::max(kLeastType, kMostTypeOfWidth * width));
+  const double type = std::max(std::clamp(kTypeOfWidth * width, kLeastType, kMostType), least);
   lines_ = static_cast<std::size_t>(
       std::clamp(std::ceil(kUsualCaption * kLetter * type / width), 2.0, 5.0));
   const auto words = [&] {
@@ -143,11 +153,16 @@ SheetLayout::SheetLayout(const Vec<2>& paper, const SheetGrid& grid) : grid_(gri
   const double room = height - words();
   Vec<2> picture(width, std::min(room, width / kSquarest));
   picture.x = std::min(picture.x, picture.y * kWidest);
-  // A picture's own page says how many units it has.
-  picture_ = page_for(static_cast<int>(std::lround(16 * picture.x)),
-                      static_cast<int>(std::lround(16 * picture.y)));
-  unit_ = picture_.x / picture.x;
+  // A picture's own page says how many units it has, at most.
+  const double most = page_for(static_cast<int>(std::lround(16 * picture.x)),
+                               static_cast<int>(std::lround(16 * picture.y)))
+                          .x;
+  unit_ = std::min(most / picture.x, kLeastLabel / least);
+  units_ = unit_ / share;
+  picture_ = picture * unit_;
+  least_ = least * unit_;
   page_ = size * unit_;
+  is_roomy_ = least == wanted && picture_.x >= kRoomy.x && picture_.y >= kRoomy.y;
   cell_ = Vec<2>(width, height) * unit_;
   type_ = type * unit_;
 }
@@ -171,7 +186,7 @@ DrawList SheetLayout::page(const std::vector<SheetPicture>& pictures,
 void SheetLayout::add_words(const SheetWords& words, DrawList& list) const {
   const double left = kMargin * unit_, right = page_.x - left;
   if (!words.title.empty()) {
-    const TextStyle style{kTitleSize * unit_, Weight::semibold, Role::ink};
+    const TextStyle style{std::max(kTitleSize * unit_, least_), Weight::semibold, Role::ink};
     list.shapes.emplace_back(TextShape{shortened(words.title, right - left, style),
                                        {left, kTitleLine * unit_},
                                        style.size,
@@ -182,7 +197,7 @@ void SheetLayout::add_words(const SheetWords& words, DrawList& list) const {
   if (!words.page.empty())
     list.shapes.emplace_back(TextShape{words.page,
                                        {right, page_.y - 0.55 * kBottom * unit_},
-                                       kFootSize * unit_,
+                                       std::max(kFootSize * unit_, least_),
                                        Weight::regular,
                                        1,
                                        Role::quiet_ink});
@@ -202,7 +217,8 @@ void SheetLayout::add_picture(const SheetPicture& picture, const Vec<2>& corner,
   list.shapes.emplace_back(TextShape{picture.number, baseline, bold.size, bold.weight});
   const double indent = text_width(picture.number, bold) + 0.7 * type_;
   TextStyle style{type_, Weight::regular, Role::ink};
-  for (std::string& line : lines_of(picture.caption, cell_.x - indent, lines_, style)) {
+  for (std::string& line :
+       lines_of(picture.caption, cell_.x - indent, lines_, std::max(0.82 * type_, least_), style)) {
     list.shapes.emplace_back(
         TextShape{std::move(line), {baseline.x + indent, baseline.y}, style.size, style.weight});
     baseline.y += kLineHeight * style.size;

@@ -20,6 +20,8 @@ class PdfDocument {
   // Throws BackendError, naming the packages to install, if cairo or FreeType are missing.
   explicit PdfDocument(const PdfWords& words);
   ~PdfDocument();
+  // Other words than before.
+  void say(const PdfWords& words);
   PdfDocument& operator=(PdfDocument&&) = delete;  // nor any other copy or move
 
   // A page of this size, in points of 1/72 inch, with the draw list in its middle. `label` is the
@@ -28,8 +30,9 @@ class PdfDocument {
   void add_page(const DrawList& list, const Theme& theme, bool paper, const Vec<2>& size,
                 const std::string& label = {});
 
-  // An entry of the table of contents, for the page that was added last.
-  void add_entry(const std::string& words);
+  // An entry of the table of contents, for the page that was added last, below another one or at
+  // the top. Gives its number.
+  int add_entry(const std::string& words, int below = 0);
 
   int pages() const { return pages_; }
   // That the document has by now.
@@ -72,12 +75,22 @@ struct SheetWords {
 // drawn as they would be alone; type has its size from the paper.
 class SheetLayout {
  public:
+  // No type is smaller than this, in points, unless too little room is left then: a picture is laid
+  // out on so few units that its smallest letters are as large.
+  static constexpr double kLeastPoints = 6;
+
   // The paper, in millimetres. Throws Refused if it is so long or so high that pictures of the grid
   // have no room.
-  SheetLayout(const Vec<2>& paper, const SheetGrid& grid);
+  SheetLayout(const Vec<2>& paper, const SheetGrid& grid, double least_points = kLeastPoints);
 
+  const Vec<2>& paper() const { return paper_; }
+  const SheetGrid& grid() const { return grid_; }
   // The page that a picture is to be drawn for, page units.
   const Vec<2>& picture() const { return picture_; }
+  // Is that enough, with such type?
+  bool is_roomy() const { return is_roomy_; }
+  // Of a picture on the paper, square millimetres.
+  double area() const { return picture_.x * picture_.y / (units_ * units_); }
 
   // At most as many pictures as the grid has places, in the order of reading.
   DrawList page(const std::vector<SheetPicture>& pictures, const SheetWords& words) const;
@@ -86,8 +99,12 @@ class SheetLayout {
   void add_words(const SheetWords& words, DrawList& list) const;
   void add_picture(const SheetPicture& picture, const Vec<2>& corner, DrawList& list) const;
 
+  Vec<2> paper_;
   SheetGrid grid_;
-  double unit_ = 1;  // page units a millimetre of an A4 page, or its share of another one
+  double units_ = 1;  // page units a millimetre
+  double unit_ = 1;   // the same of an A4 page, or its share of another one
+  double least_ = 0;  // type, page units
+  bool is_roomy_ = false;
   Vec<2> page_{0.0}, picture_{0.0};
   Vec<2> cell_{0.0};       // picture and caption, page units
   double type_ = 0;        // em of captions, page units

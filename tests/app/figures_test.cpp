@@ -155,11 +155,71 @@ TEST(Sheet, OfAPdfHasAsManyPagesAsNeeded) {
   EXPECT_EQ(count(text, "Ghosts fill a quadtree"), 2u) << "once a page, not over each picture";
 }
 
+// A run has many frames; its last one is on paper.
+TEST(Sheet, HasAPictureAStepUnlessOthersAreAskedFor) {
+  const fs::path out = fresh_folder("sheet-steps");
+  const auto frames = [&](const std::string& words) {
+    const Outcome o = shell("lantern render " + scenario("broad_then_narrow") +
+                            " --json --sheet 2x2 -o " + (out / "a.pdf").string() + " " + words);
+    EXPECT_EQ(o.code, 0) << o.err;
+    return int{json::parse(o.out)["scenarios"][0]["frames"]};
+  };
+  const int steps = static_cast<int>(json::parse(
+      shell("lantern list --json " + scenario("broad_then_narrow")).out)["scenarios"][0]["steps"]);
+  EXPECT_EQ(frames(""), steps);
+  EXPECT_EQ(frames("--pace step"), steps);
+  EXPECT_GT(frames("--frames 0-"), steps);
+  EXPECT_GT(frames("--pace event"), steps);
+}
+
+TEST(Sheet, OfSeveralScenariosIsOneDocumentWithAHeadingEach) {
+  const fs::path file = fresh_folder("handout") / "new" / "handout.pdf";
+  const std::string both = kGhosts + " " + scenario("broad_then_narrow");
+  for (const std::string sheet : {"--sheet 2x3", ""}) {
+    const Outcome o = shell("lantern render " + both + " --json -o " + file.string() + " " + sheet);
+    ASSERT_EQ(o.code, 0) << o.err;
+    EXPECT_EQ(json::parse(o.out)["scenarios"][1]["files"], json::array({file.string()}));
+    EXPECT_EQ(number_of_files(file.parent_path()), 1u);
+    const std::string pdf = read_text(file);
+    EXPECT_NE(pdf.find("(Ghosts fill a quadtree, Broad phase, then narrow phase)"), pdf.npos);
+    if (sheet.empty()) continue;
+    EXPECT_EQ(count(pdf, "/MediaBox [ 0 0 595.275591 841.889764 ]"), 3u) << "A4 upright";
+    EXPECT_EQ(count(pdf, "/Title (Ghosts fill a quadtree)"), 1u) << "an entry of the contents";
+    if (!find_program("pdftotext")) continue;
+    const std::string text = shell("pdftotext " + file.string() + " -").out;
+    for (const char* words : {"Ghosts fill a quadtree", "Broad phase, then narrow phase", "page 3"})
+      EXPECT_NE(text.find(words), std::string::npos) << words;
+  }
+  // One that fails leaves the older file.
+  const fs::path bad = file.parent_path() / "bad.toml";
+  write_text(bad, "title = 1\n");
+  const std::string before = read_text(file);
+  EXPECT_EQ(shell("lantern render " + kGhosts + " " + bad.string() + " -o " + file.string()).code,
+            3);
+  EXPECT_EQ(read_text(file), before);
+}
+
+TEST(Sheet, HasFewerPicturesWhereLettersWouldBeTooSmall) {
+  const fs::path file = fresh_folder("sheet-letters") / "a.pdf";
+  const Outcome o = render("--sheet 5x5 -o " + file.string());
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.err.find("5x5 pictures a page have no room with letters of 6 pt: 2x3 it is"),
+            std::string::npos)
+      << o.err;
+  EXPECT_EQ(count(read_text(file), "/MediaBox"), 2u);
+  const Outcome large = render("--sheet 2x2 --letters 10pt --paper letter -o " + file.string());
+  EXPECT_NE(large.err.find("letters of 10 pt"), std::string::npos) << large.err;
+  EXPECT_EQ(count(read_text(file), "/MediaBox [ 0 0 612"), 4u) << "two pictures on upright letter";
+  for (const char* words : {"8", "cm", "8 pt", "-1pt", "0pt", "nanpt", "1e9cm"})
+    expect_refused("--sheet 2x2 -o a.pdf --letters '" + std::string(words) + "'", "--letters");
+  expect_refused("--sheet 2x2 -o a.pdf --paper a4 --size 100x100", "--size");
+}
+
 TEST(Sheet, OfPngIsAPageAFile) {
   const fs::path out = fresh_folder("png-sheet");
-  const std::string small = "--sheet 2x2 --size 320x226 ";
+  const std::string small = "--sheet 2x2 --size 600x420 --dpi 72 ";
   ASSERT_EQ(render(small + "--frames 4-7 -o " + (out / "one.png").string()).code, 0);
-  EXPECT_EQ(read_text(out / "one.png").substr(16, 8), std::string("\0\0\x01\x40\0\0\0\xe2", 8));
+  EXPECT_EQ(read_text(out / "one.png").substr(16, 8), std::string("\0\0\x02\x58\0\0\x01\xa4", 8));
   ASSERT_EQ(render(small + "-o " + (out / "p_{frame}.png").string()).code, 0);
   EXPECT_TRUE(fs::exists(out / "p_0000.png"));
   EXPECT_TRUE(fs::exists(out / "p_0004.png")) << "named after its first frame";

@@ -68,6 +68,27 @@ TEST(Sheet, PicturesAndCaptionsShareNoPlaceOnAnyGrid) {
       }
 }
 
+TEST(Sheet, NoTypeIsBelowItsLeast) {
+  for (const Vec<2> paper : {Vec<2>(297, 210), Vec<2>(210, 297), Vec<2>(148, 105)})
+    for (const int columns : {1, 2, 4})
+      for (const double points : {6.0, 9.0}) {
+        const SheetGrid grid{columns, 2};
+        const SheetLayout layout(paper, grid, points);
+        if (!layout.is_roomy()) continue;
+        SheetPicture picture{{}, "17", std::string(300, 'm')};
+        picture.list.page = layout.picture();
+        picture.list.shapes = {text("a", 50, 50, draw::kLeastLabel)};
+        const DrawList page = layout.page({picture}, {"The title", "page 1 of 1"});
+        for (const DrawShape& shape : page.shapes)
+          if (const auto* s = std::get_if<TextShape>(&shape))
+            EXPECT_GE(s->size * paper.x / page.page.x * 72 / 25.4, points - 1e-6)
+                << s->text << " on " << columns << " columns";
+      }
+  EXPECT_TRUE(SheetLayout({210, 297}, {2, 3}).is_roomy());
+  EXPECT_FALSE(SheetLayout({297, 210}, {4, 4}).is_roomy());
+  EXPECT_FALSE(SheetLayout({60, 90}, {10, 10}).is_roomy());
+}
+
 TEST(Sheet, AStripOfPaperIsRefused) {
   EXPECT_THROW(SheetLayout({500, 1}, {1, 1}), Refused);
   EXPECT_THROW(SheetLayout({1, 500}, {1, 1}), Refused);

@@ -26,15 +26,21 @@ Options watch_options(RenderOptions& o) {
        "document, .html a lesson page; {scenario}, {step} and {frame} in its name make "
        "several, of a film with {step} a clip a step; - writes one picture to standard output",
        OptionTraits{.value = "PATH"}},
-      {"--sheet", &o.sheet, "so many frames across and down a page, with -o x.pdf or x.png",
+      {"--sheet", &o.sheet,
+       "so many pictures across and down a page, with -o x.pdf or x.png: one a step, but with "
+       "--frames, --at or --pace event each frame; where letters would be too small, fewer",
        OptionTraits{.value = "CxR"}},
       {"--frames", &o.frames, "only these frames: 7, 3-9, 3- or -9", {.value = "A-B"}},
       {"--at", &o.at,
        "only the frames of this step or event (its name, split, store, ...), or the first "
        "frame at or after this time in seconds",
        OptionTraits{.value = "EVENT|TIME"}},
-      {"--size", &o.size, "pixels; the default is 1600x900, of a sheet A4 across",
+      {"--size", &o.size, "pixels; the default is 1600x900, of a sheet its --paper",
        OptionTraits{.value = "WxH"}},
+      {"--paper", &o.paper, "of a sheet, upright or lying as its pictures get larger",
+       OptionTraits{.words = {"a4", "letter"}, .without = "--size"}},
+      {"--letters", &o.letters, "the smallest letters on paper; the default is 6pt on a sheet",
+       OptionTraits{.value = "LENGTH"}},
       {"--dpi", &o.dpi, "pixels to the inch: how large a PDF's page is, and a PNG on paper",
        OptionTraits{.value = "N", .least = 72, .most = 1200}},
       {"--format", &o.format, "file format in a folder",
@@ -146,13 +152,22 @@ void list_lessons(const Destination& to) {
               : fmt::format("{} is not of this kind and was left alone", index.string()));
 }
 
+// When all scenarios are in it.
+void write_shared(PaperForAll& paper, Work& work) {
+  const std::string bytes = paper.pdf->finish();
+  write_file(*paper.place, bytes);
+  paper.place->folder.settle();
+  work.bytes_written += bytes.size();
+}
+
 // Draws scenario `index`, or the shard's part of it; the exit code that it deserves.
 int render_one(const RenderJob& job, const Destination& to, const Scenario& scenario, Work& work,
-               JsonWriter& json, RenderShard& shard, std::size_t index) {
+               JsonWriter& json, RenderShard& shard, std::size_t index, PaperForAll* paper) {
   const RenderOptions& options = job.options;
-  const Pace pace = pace_of(options.pace, scenario);
+  const bool is_sheet = to.kind() == OutputKind::sheet;
+  const Pace pace = is_sheet && options.pace.empty() ? Pace::step : pace_of(options.pace, scenario);
   Selection selection(options.frames, options.at, extent_of(scenario, pace).frames);
-  const Sequence sequence{job, to, scenario, pace, selection, work};
+  const Sequence sequence{job, to, scenario, pace, selection, work, paper};
   if (to.kind() != OutputKind::folder) {
     const auto sink = make_file_sink(sequence);
     const RunResult result = run_scenario(scenario, pace, *sink, work, selection.most());
@@ -188,7 +203,7 @@ void require_fit(const RenderOptions& options, const Destination& to, std::size_
     refuse(
         "writes a picture to standard output, where --json writes, too; name a file after -o, or "
         "leave out --json");
-  if (!is_folder && files > 1 && !to.is_by("scenario"))
+  if (!is_folder && files > 1 && !to.is_by("scenario") && !to.is_one_document())
     refuse(fmt::format("a file for each of {} scenarios; write {{scenario}} in it", files));
   if (is_folder && options.tween && options.fps)
     refuse("--tween and --fps both say how many in-betweens; give one of them");
@@ -223,10 +238,12 @@ int draw_scenarios(const RenderOptions& asked) {
   JsonWriter json = answer_of("render");
   json.line().key("scenarios").begin_array();
   RenderShard shard(job, scenarios);
+  PaperForAll paper;
+  PaperForAll* const shared = files.size() > 1 && to.is_one_document() ? &paper : nullptr;
   bool whole = scenarios.size() == files.size();
   for (std::size_t i = 0; i < scenarios.size(); ++i) {
     try {
-      code = std::max(code, render_one(job, to, scenarios[i], work, json, shard, i));
+      code = std::max(code, render_one(job, to, scenarios[i], work, json, shard, i, shared));
     } catch (const ScenarioError& e) {
       complain(e);
       code = std::max(code, exit_code_of(e));
@@ -239,6 +256,7 @@ int draw_scenarios(const RenderOptions& asked) {
     }
   }
   if (whole) shard.finish();
+  if (whole && shared) write_shared(paper, work);
   list_lessons(to);
   json.line().end_array().line().key("work");
   write(json, work);

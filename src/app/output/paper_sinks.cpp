@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -28,100 +29,203 @@ publish::PdfWords words_of(const Scenario& scenario) {
           fmt::format("Lantern {}", kVersion)};
 }
 
+// Pages of a document of its own, or of the one that all scenarios share.
+class PaperSink : public FileSink {
+ public:
+  explicit PaperSink(const Sequence& sequence) : FileSink(sequence) {
+    refuse_in_betweens(sequence);
+  }
+
+ protected:
+  std::optional<publish::PdfDocument>& pdf() { return of_.paper ? of_.paper->pdf : own_; }
+
+  void begin_document() {
+    publish::PdfWords words = words_of(of_.scenario);
+    entry_.reset();
+    if (!of_.paper || !of_.paper->pdf) {
+      pdf().emplace(words);
+    } else {
+      const publish::PdfWords& before = of_.paper->words;
+      words.title = before.title + ", " + words.title;
+      words.subject = before.subject + "; " + words.subject;
+      pdf()->say(words);
+    }
+    if (of_.paper) of_.paper->words = std::move(words);
+  }
+
+  // Of the page that was added last. The scenario's own, if it shares its document.
+  void add_entry(const std::string& words) {
+    if (of_.paper && !entry_) entry_ = pdf()->add_entry(of_.scenario.title);
+    if (!words.empty()) pdf()->add_entry(words, entry_.value_or(0));
+  }
+
+  void write_document(const fs::path& file, std::uint64_t frames) {
+    if (!of_.paper) return write(file, pdf()->finish(), frames);
+    of_.paper->place.emplace(place_of(file));
+    made_.frames += frames;
+    made_.files = {file};
+  }
+
+ private:
+  std::optional<publish::PdfDocument> own_;
+  std::optional<int> entry_;
+};
+
 // A page a frame. Frames whose name is the same stand in one document: all of them, those of a
 // step, or each alone.
-class DocumentSink : public FileSink {
+class DocumentSink : public PaperSink {
  public:
-  explicit DocumentSink(const Sequence& sequence) : FileSink(sequence) {
-    refuse_in_betweens(sequence);
+  explicit DocumentSink(const Sequence& sequence) : PaperSink(sequence) {
     begin();  // what is missing for it is told before the run
   }
 
  protected:
   void take(const Frame& frame, const Staging& staging) override {
     const fs::path file = of_.file_of(frame);
-    if (document_->pages() > 0 && file != file_) {
+    if (pages_ > 0 && file != file_) {
       end();
       begin();
     }
     file_ = file;
     const RenderJob& job = of_.job;
-    document_->add_page(job.page_of(frame, staging, of_.work), job.picture.theme,
-                        !job.picture.transparent, job.points(), fmt::format("{}", frame.index));
-    if (step_ != frame.step)
-      document_->add_entry(fmt::format("{}: {}", frame.step + 1, frame.caption));
+    pdf()->add_page(job.page_of(frame, staging, of_.work), job.picture.theme,
+                    !job.picture.transparent, job.points(), fmt::format("{}", frame.index));
+    if (pages_++ == 0) first_ = description_of(frame);
+    if (step_ != frame.step) add_entry(fmt::format("{}: {}", frame.step + 1, frame.caption));
     step_ = frame.step;
     ++of_.work.frames_drawn;
     // A document is in memory until it is whole.
     as_asked([&] {
-      require_memory(2 * document_->bytes(),
-                     fmt::format("documents of {} pages", document_->pages()),
+      require_memory(2 * pdf()->bytes(), fmt::format("documents of {} pages", pdf()->pages()),
                      "choose some (--frames, --at), or write {frame} in the name: a file a frame");
     });
   }
+  // A figure says what there is to see.
   void end() override {
-    const auto pages = static_cast<std::uint64_t>(document_->pages());
-    write(file_, document_->finish(), pages);
+    publish::PdfWords words = words_of(of_.scenario);
+    if (pages_ == 1 && !of_.paper && !first_.empty()) {
+      words.subject += ": " + first_;
+      pdf()->say(words);
+    }
+    write_document(file_, pages_);
   }
 
  private:
   void begin() {
-    document_.emplace(words_of(of_.scenario));
+    begin_document();
     step_.reset();
+    pages_ = 0;
   }
 
   fs::path file_;
-  std::optional<publish::PdfDocument> document_;
+  std::string first_;                  // what is told of the first page
+  std::uint64_t pages_ = 0;            // of this scenario
   std::optional<std::uint32_t> step_;  // of the page before
 };
 
 constexpr double kMillimetres = 25.4;  // in an inch
 constexpr double kPoints = 72;
 
-publish::SheetGrid grid_of(const std::string& words) {
-  if (const auto grid = publish::sheet_grid(words)) return *grid;
-  throw UsageError(
-      "--sheet {}: write how many pictures across and down a page, each from 1 to {}: 3x2", words,
-      publish::SheetGrid::kMost);
+// The sheet that is asked for, and those with fewer pictures, the most first and of as many the
+// largest; each upright or lying, unless it has a size. Only those with room for a picture, if any
+// has.
+std::vector<publish::SheetLayout> layouts_of(const RenderJob& job) {
+  const RenderOptions& o = job.options;
+  const auto asked = publish::sheet_grid(o.sheet);
+  if (!asked)
+    throw UsageError(
+        "--sheet {}: write how many pictures across and down a page, each from 1 to {}: 3x2",
+        o.sheet, publish::SheetGrid::kMost);
+  std::vector<Vec<2>> papers = {{297, 210}, {210, 297}};
+  if (o.paper == "letter") papers = {{279.4, 215.9}, {215.9, 279.4}};
+  if (!o.size.empty())
+    papers = {Vec<2>(job.picture.width, job.picture.height) * (kMillimetres / o.dpi)};
+  std::vector<publish::SheetLayout> all;
+  for (const Vec<2>& paper : papers)
+    for (int columns = asked->columns; columns > 0; --columns)
+      for (int rows = asked->rows; rows > 0; --rows)
+        as_asked(
+            [&] {
+              all.emplace_back(paper, publish::SheetGrid{columns, rows}, job.letters);
+            },
+            "--sheet: ", "; choose another --size");
+  std::ranges::sort(all, [](const auto& a, const auto& b) {
+    return std::tuple(!a.is_roomy(), b.grid().pictures(), b.area()) <
+           std::tuple(!b.is_roomy(), a.grid().pictures(), a.area());
+  });
+  const auto rough = std::ranges::find_if_not(all, &publish::SheetLayout::is_roomy);
+  if (rough != all.begin())
+    all.erase(rough, all.end());
+  else
+    all.erase(all.begin(), all.end() - std::ssize(papers));
+  return all;
 }
 
-// A4 across, unless a size is asked for; in millimetres.
-Vec<2> paper_of(const RenderJob& job) {
-  if (job.options.size.empty()) return {297, 210};
-  return Vec<2>(job.picture.width, job.picture.height) * (kMillimetres / job.options.dpi);
+// The panels alone: what is said of them stands on the sheet.
+DrawList bare_picture(const Sequence& of, const Frame& frame, const Staging& staging,
+                      const publish::SheetLayout& layout) {
+  Frame bare = frame;
+  bare.display = of.job.display_of(frame);
+  bare.display.title = bare.display.caption = bare.display.counters = false;
+  return draw_frame(bare, staging, layout.picture(), of.work);
 }
 
-// Draws none of the frames: only a run can tell how many pages there are.
-std::uint64_t pages_of(const Sequence& sequence, const publish::SheetGrid& grid) {
-  struct CountingSink : FrameSink {
-    explicit CountingSink(const Selection& of) : selection(of) {}
-    void frame(const Frame& frame) override { chosen += selection.takes(frame); }
-    void finish(const DirectorReport&) override { selection.require_some(); }
-    Selection selection;
-    std::uint64_t chosen = 0;
-  } sink(sequence.selection);  // as it is before the run
-  run_scenario(sequence.scenario, sequence.pace, sink, sequence.work, sink.selection.most());
-  return (sink.chosen + grid.pictures() - 1) / grid.pictures();
-}
+// A run that tells how many pages there are, and on which sheet all panels have room.
+class SheetTrial : public StagedSink {
+ public:
+  SheetTrial(const Sequence& of, std::vector<publish::SheetLayout> layouts)
+      : of_(of), selection_(of.selection), layouts_(std::move(layouts)) {
+    run_scenario(of.scenario, of.pace, *this, of.work, selection_.most());
+  }
+  const publish::SheetLayout& layout() const { return layouts_[chosen_]; }
+  std::uint64_t pages() const {
+    return (frames_ + layout().grid().pictures() - 1) / layout().grid().pictures();
+  }
+
+ private:
+  void draw(const Frame& frame, const Staging& staging) override {
+    if (!selection_.takes(frame) || !(ends_step() || !of_.is_by_step())) return;
+    ++frames_;
+    while (chosen_ + 1 < layouts_.size() && bare_picture(of_, frame, staging, layout()).left_out)
+      ++chosen_;
+  }
+  void close(const DirectorReport&) override { selection_.require_some(); }
+
+  const Sequence& of_;
+  Selection selection_;  // as it is before the run
+  std::vector<publish::SheetLayout> layouts_;
+  std::size_t chosen_ = 0;
+  std::uint64_t frames_ = 0;
+};
 
 // Makes pages: PNG or PDF.
-class SheetSink : public FileSink {
+class SheetSink : public PaperSink {
  public:
-  explicit SheetSink(const Sequence& sequence) : FileSink(sequence) {
-    refuse_in_betweens(sequence);
+  explicit SheetSink(const Sequence& sequence) : PaperSink(sequence) {
     if (sequence.to.is_by("step"))
       sequence.refuse(
           "steps share the pages of a sheet; write {frame}, which is the first one of each page");
-    if (sequence.to.ending() == "pdf")
-      document_.emplace(words_of(sequence.scenario));
+    std::vector<publish::SheetLayout> layouts = layouts_of(sequence.job);
+    is_pdf_ = sequence.to.ending() == "pdf";
+    if (is_pdf_)
+      begin_document();
     else
-      begin_pictures();
-    pages_ = pages_of(sequence, grid_);
+      begin_pictures(layouts.front().paper());
+    const bool by_step = sequence.is_by_step();
+    const SheetTrial trial(sequence, std::move(layouts));
+    layout_ = trial.layout();
+    pages_ = trial.pages();
+    const auto& [columns, rows] = layout_->grid();
+    if (const auto grid = fmt::format("{}x{}", columns, rows); grid != sequence.job.options.sheet)
+      say(fmt::format("{}: {} pictures a page have no room with letters of {:.3g} pt: {} it is",
+                      sequence.scenario.name, sequence.job.options.sheet, sequence.job.letters,
+                      grid));
     if (renderer_ && pages_ > 1 && !sequence.to.is_by("frame"))
       sequence.refuse(fmt::format(
           "a PNG is one page, and these are {}; write {{frame}} in its name, make it a .pdf, or "
           "choose fewer frames (--frames, --at)",
           pages_));
+    by_step_ = by_step;
   }
 
  protected:
@@ -130,17 +234,19 @@ class SheetSink : public FileSink {
       first_ = of_.file_of(frame);
       title_ = of_.job.display_of(frame).title ? frame.title : "";
     }
-    waiting_.push_back(bare_picture(frame, staging));
-    if (waiting_.size() == grid_.pictures()) add_page();
+    waiting_.push_back({bare_picture(of_, frame, staging, *layout_),
+                        fmt::format("{}", (by_step_ ? frame.step : frame.index) + 1),
+                        description_of(frame, of_.job.display_of(frame))});
+    if (waiting_.size() == layout_->grid().pictures()) add_page();
   }
   void end() override {
     if (!waiting_.empty()) add_page();
-    if (document_ && document_->pages() > 0) write_document();
+    if (is_pdf_ && in_document_ > 0) write_pages();
   }
 
  private:
-  void begin_pictures() {
-    const Vec<2> pixels = paper_ * (of_.job.options.dpi / kMillimetres);
+  void begin_pictures(const Vec<2>& paper) {
+    const Vec<2> pixels = paper * (of_.job.options.dpi / kMillimetres);
     const int width = static_cast<int>(std::lround(pixels.x));
     const int height = static_cast<int>(std::lround(pixels.y));
     if (std::max(width, height) > render::kMostSide)
@@ -150,25 +256,11 @@ class SheetSink : public FileSink {
           width, height, render::kMostSide);
     renderer_ = &of_.job.renderer(width, height, of_.work);
   }
-  // The panels alone: what is said of them stands on the sheet.
-  publish::SheetPicture bare_picture(const Frame& frame, const Staging& staging) const {
-    const Display display = of_.job.display_of(frame);
-    Frame bare = frame;
-    bare.display = display;
-    bare.display.title = bare.display.caption = bare.display.counters = false;
-    std::string caption;
-    if (display.caption)
-      caption = frame.part.empty() ? frame.caption : frame.part + ": " + frame.caption;
-    if (const auto counters = counter_texts(frame); display.counters && !counters.empty())
-      caption += fmt::format("{}({})", caption.empty() ? "" : " ", fmt::join(counters, ", "));
-    return {draw_frame(bare, staging, layout_.picture(), of_.work),
-            fmt::format("{}", frame.index + 1), std::move(caption)};
-  }
   void add_page() {
-    const std::string number = fmt::format("page {} of {}", ++page_, pages_);
-    const DrawList list = layout_.page(waiting_, {title_, number});
+    const std::string number = of_.paper ? fmt::format("page {}", pdf()->pages() + 1)
+                                         : fmt::format("page {} of {}", ++page_, pages_);
+    const DrawList list = layout_->page(waiting_, {title_, number});
     const std::uint64_t frames = waiting_.size();
-    waiting_.clear();
     of_.work.frames_drawn += frames;
     const auto& picture = of_.job.picture;
     if (renderer_) {
@@ -176,34 +268,36 @@ class SheetSink : public FileSink {
       ++of_.work.frames_encoded;
       write(first_, encode_png(image_, picture.effort, texts(number), picture.pixels_per_metre),
             frames);
-      return;
+      return waiting_.clear();
     }
-    document_->add_page(list, picture.theme, !picture.transparent,
-                        paper_ * (kPoints / kMillimetres));
+    waiting_.clear();
+    pdf()->add_page(list, picture.theme, !picture.transparent,
+                    layout_->paper() * (kPoints / kMillimetres));
+    add_entry("");
     in_document_ += frames;
     if (file_.empty()) file_ = first_;
     if (!of_.to.is_by("frame")) return;
-    write_document();
-    document_.emplace(words_of(of_.scenario));
-    in_document_ = 0;
+    write_pages();
+    begin_document();
   }
-  void write_document() {
-    write(file_, document_->finish(), in_document_);
+  void write_pages() {
+    write_document(file_, std::exchange(in_document_, 0));
     file_.clear();
   }
   std::vector<PngText> texts(const std::string& number) const {
+    std::string told;
+    for (const publish::SheetPicture& one : waiting_)
+      told += fmt::format("{}{}: {}", told.empty() ? "" : "\n", one.number, one.caption);
     return {{"Title", title_.empty() ? of_.scenario.title : title_},
+            {"Description", told},
             {"Software", fmt::format("Lantern {}", kVersion)},
             {"Scenario", of_.scenario.name},
             {"Sheet", number}};
   }
 
-  publish::SheetGrid grid_ = grid_of(of_.job.options.sheet);
-  Vec<2> paper_ = paper_of(of_.job);  // millimetres
-  publish::SheetLayout layout_ = as_asked([&] { return publish::SheetLayout(paper_, grid_); },
-                                          "--sheet: ", "; choose another --size");
-  std::optional<publish::PdfDocument> document_;  // one of these two
-  Renderer* renderer_ = nullptr;
+  std::optional<publish::SheetLayout> layout_;
+  bool is_pdf_ = false, by_step_ = false;
+  Renderer* renderer_ = nullptr;  // of a PNG
   Image image_;
   std::uint64_t pages_ = 0, page_ = 0, in_document_ = 0;
   // Of the page that is being filled.

@@ -16,6 +16,7 @@
 #include "base/suggest.hpp"
 #include "draw/page.hpp"
 #include "embedded/version.hpp"
+#include "publish/paper.hpp"
 #include "render/svg.hpp"
 #include "spatial/structure_kind.hpp"
 
@@ -132,6 +133,8 @@ RenderJob::RenderJob(const RenderOptions& o)
       parse_size(o.size.empty() ? kUsualSize : o.size, render::kMostSide);
   picture.theme = *theme_named(o.theme);
   picture.transparent = o.transparent;
+  letters =
+      o.letters.empty() ? publish::SheetLayout::kLeastPoints : parse_length("--letters", o.letters);
   picture.effort = o.png == "small" ? PngEffort::small : PngEffort::fast;
   picture.pixels_per_metre = static_cast<int>(std::lround(o.dpi / 0.0254));
   picture.threads =
@@ -197,6 +200,14 @@ Renderer& RenderJob::renderer(int width, int height, Work& work) const {
 std::unique_ptr<Pipeline> RenderJob::make_pipeline(Work& work) const {
   Renderer& graphics = renderer(picture.width, picture.height, work);
   return as_asked([&] { return std::make_unique<Pipeline>(graphics, picture, work); });
+}
+
+std::string description_of(const Frame& frame, const Display& of) {
+  std::string text;
+  if (of.caption) text = frame.part.empty() ? frame.caption : frame.part + ": " + frame.caption;
+  if (const auto counters = counter_texts(frame); of.counters && !counters.empty())
+    text += fmt::format("{}({})", text.empty() ? "" : " ", fmt::join(counters, ", "));
+  return text;
 }
 
 std::vector<PngText> texts_of(const Frame& frame) {
@@ -275,6 +286,17 @@ fs::path Destination::file(const NameParts& parts) const {
       name += fmt::format("{:04}", part == "step" ? parts.step : parts.frame);
   });
   return name;
+}
+
+double parse_length(std::string_view option, const std::string& text) {
+  constexpr std::pair<std::string_view, double> kUnits[] = {
+      {"cm", 72 / 2.54}, {"mm", 72 / 25.4}, {"in", 72}, {"pt", 1}};
+  for (const auto& [unit, points] : kUnits) {
+    if (!text.ends_with(unit)) continue;
+    const auto number = number_in<double>(text.substr(0, text.size() - unit.size()));
+    if (number && *number * points >= 1 && *number * points <= 14400) return *number * points;
+  }
+  throw UsageError("{} {}: give a length on paper, as 8cm, 80mm, 3.2in or 227pt", option, text);
 }
 
 std::pair<int, int> parse_size(const std::string& text, int most) {

@@ -58,6 +58,8 @@ struct RenderOptions {
   std::string frames;             // "7", "3-9", "3-", "-9"; empty for all
   std::string at;                 // an event or a time in seconds; empty for all
   std::string size;               // pixels; empty for 1600x900, and for a sheet A4 across
+  std::string paper = "a4";       // of a sheet without a size: a4, letter
+  std::string letters;            // the least on paper, "8pt"; empty for the usual
   int dpi = 160;                  // pixels to the inch, where a picture meets paper
   std::string format = "png";     // png, svg
   std::string text = "outlines";  // of SVG: outlines, text
@@ -105,6 +107,7 @@ struct RenderJob {
   Backend backend = Backend::automatic;
   FileKind format = FileKind::png;  // of a frame's picture, where it is a file
   InBetweens in_betweens;
+  double letters = 0;  // on paper, points, at least
 
   // What of the frame is shown: as the scenario has it, and the command line.
   Display display_of(const Frame& frame) const;
@@ -130,6 +133,10 @@ struct RenderJob {
   // One at a time: its context is current from when it is made until another one is.
   mutable std::unique_ptr<Renderer> renderer_;
 };
+
+// The frame in words, of those that are displayed: "left: The root splits. (4 nodes, 2 pairs)".
+std::string description_of(const Frame& frame, const Display& of);
+inline std::string description_of(const Frame& frame) { return description_of(frame, Display()); }
 
 // What a PNG says of its frame.
 std::vector<PngText> texts_of(const Frame& frame);
@@ -207,6 +214,8 @@ class Destination {
   bool is_a_folder_of_scenarios() const {
     return is_by("scenario") && file({"a"}).parent_path() == file({"b"}).parent_path();
   }
+  // A document that several scenarios can share.
+  bool is_one_document() const { return ending_ == "pdf" && words_.find('{') == words_.npos; }
   // What of these files' folders stands before the first placeholder.
   fs::path users_folder() const;
 
@@ -214,6 +223,10 @@ class Destination {
   std::string words_, ending_;
   OutputKind kind_ = OutputKind::folder;
 };
+
+// "8cm", "80mm", "3.2in" or "227pt" in points of 1/72 inch. Throws UsageError that names the option
+// for any other word, and for less than a point.
+double parse_length(std::string_view option, const std::string& text);
 
 // "1280x720" as width and height. Throws UsageError unless both are 16 ... `most`.
 std::pair<int, int> parse_size(const std::string& text, int most);

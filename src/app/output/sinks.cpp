@@ -17,18 +17,19 @@ namespace lantern::app {
 void StagedSink::frame(const Frame& frame) {
   constexpr std::size_t kMostFrames = 1000, kMostBytes = std::size_t{64} << 20;
   const std::size_t bytes = estimated_bytes(frame);
-  if (!waiting_.empty() && (waiting_.size() >= kMostFrames || bytes_ + bytes > kMostBytes)) flush();
+  if (!waiting_.empty() && (waiting_.size() >= kMostFrames || bytes_ + bytes > kMostBytes))
+    flush(&frame);
   waiting_.push_back(frame);
   ++undrawn_;
   bytes_ += bytes;
 }
 
 void StagedSink::finish(const DirectorReport& report) {
-  flush();
+  flush(nullptr);
   close(report);
 }
 
-void StagedSink::flush() {
+void StagedSink::flush(const Frame* next) {
   draw::AxisRanges axes;
   for (const Frame& frame : waiting_) axes.see(frame);
   for (std::span<const Frame> rest = waiting_; !rest.empty();) {
@@ -36,6 +37,8 @@ void StagedSink::flush() {
     const Staging staging(group, axes);
     for (const Frame& frame : group) {
       stop_if_asked();
+      const Frame* after = &frame == &waiting_.back() ? next : &frame + 1;
+      ends_step_ = after == nullptr || after->step != frame.step;
       draw(frame, staging);
       --undrawn_;
     }
@@ -59,15 +62,20 @@ void Sequence::refuse(const std::string& why) const {
   throw UsageError("-o {}: {}", job.options.output, why);
 }
 
+bool Sequence::is_by_step() const {
+  return to.kind() == OutputKind::sheet && selection.takes_all() && job.options.pace != "event";
+}
+
 void FileSink::draw(const Frame& frame, const Staging& staging) {
-  if (of_.selection.takes(frame)) take(frame, staging);
+  if (of_.selection.takes(frame) && (ends_step() || !of_.is_by_step())) take(frame, staging);
 }
 
 void FileSink::close(const DirectorReport&) {
   of_.selection.require_some();
   end();
   std::set<fs::path> folders;
-  for (const fs::path& file : made_.files) folders.insert(folder_of(file));
+  if (!of_.paper)  // which is not there yet
+    for (const fs::path& file : made_.files) folders.insert(folder_of(file));
   for (const fs::path& folder : folders) Folder(folder).settle();
 }
 

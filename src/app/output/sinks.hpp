@@ -17,6 +17,7 @@
 #include "base/work.hpp"
 #include "draw/staging.hpp"
 #include "publish/lesson.hpp"
+#include "publish/paper.hpp"
 
 namespace lantern::app {
 
@@ -35,13 +36,24 @@ class StagedSink : public FrameSink {
   virtual void draw(const Frame& frame, const Staging& staging) = 0;
   // After the last one.
   virtual void close(const DirectorReport& report) = 0;
+  // Is the frame that is being drawn the last one of its step?
+  bool ends_step() const { return ends_step_; }
 
  private:
-  void flush();
+  void flush(const Frame* next);
+
+  bool ends_step_ = false;
 
   std::vector<Frame> waiting_;
   std::size_t bytes_ = 0;  // of those
   std::atomic<std::uint64_t> undrawn_{0};
+};
+
+// A document of several scenarios, each with an entry of its own in the table of contents.
+struct PaperForAll {
+  std::optional<publish::PdfDocument> pdf;
+  publish::PdfWords words;  // of all so far
+  std::optional<FilePlace> place;
 };
 
 // What a sink is made for. All of it must outlive the sink.
@@ -52,7 +64,10 @@ struct Sequence {
   Pace pace;
   Selection& selection;
   Work& work;
+  PaperForAll* paper = nullptr;  // the document that all scenarios share, if they do
 
+  // Of a sheet a picture a step, the last one, unless frames are chosen or events asked for.
+  bool is_by_step() const;
   fs::path file_of(const Frame& frame) const {
     return to.file({scenario.name, frame.step, frame.index});
   }
