@@ -21,6 +21,7 @@ namespace {
 
 constexpr double kCaption = 30, kEnding = 34;
 constexpr double kLine = 46;        // from baseline to baseline
+constexpr double kNarrowLine = 34;  // the same on a narrow page
 constexpr double kBelowLast = 54;   // from the last baseline to the page's edge
 constexpr double kAboveFirst = 52;  // from the hairline to the first baseline
 constexpr double kWidePage = 1400;  // a narrower page has its counters under the caption
@@ -281,11 +282,20 @@ std::vector<std::string> counter_texts(const Frame& frame) {
   });
 }
 
-double draw_footer(const Frame& frame, double margin, DrawList& list, Labels& labels) {
-  const bool wide = list.page.x >= kWidePage;
+double draw_footer(const Frame& frame, const Staging& staging, double margin, DrawList& list,
+                   Labels& labels) {
+  const bool wide = list.page.x >= kWidePage, narrow = list.page.x < kNarrowPage;
+  constexpr double kBar = 8, kBesideBar = 20;
+  const TextStyle small{kLeastCaption, Weight::regular, Role::ink};
+  const double room = list.page.x - 2 * margin - kBar - kBesideBar;
+  std::size_t lines = 2;
+  if (narrow && frame.display.caption)
+    for (const Frame* one : staging.frames())
+      lines = std::max(lines, wrapped(one->caption, room, small).size());
   if (!frame.display.caption && !frame.display.counters) return list.page.y - 26;
   const double row = wide ? 0 : kLine + 4;
-  const double first = list.page.y - kBelowLast - row - kLine;
+  const double line = narrow ? kNarrowLine : kLine;
+  const double first = list.page.y - kBelowLast - row - line * static_cast<double>(lines - 1);
   const double top = first - kAboveFirst;
   const Box<2> band{{margin, top + 4}, {list.page.x - margin, list.page.y - 20}};
   const std::vector<Counter> counters =
@@ -295,9 +305,9 @@ double draw_footer(const Frame& frame, double margin, DrawList& list, Labels& la
   double left = band.lo.x, right = band.hi.x;
   TextStyle style{kCaption, Weight::regular, Role::ink};
   if (frame.ending) {
-    constexpr double kBar = 8;
-    list.rect({{left, first - 36}, {left + kBar, first + kLine + 14}}, Role::lit, {}, kBar / 2);
-    left += kBar + 20;
+    const double last = first + line * static_cast<double>(lines - 1);
+    list.rect({{left, first - 36}, {left + kBar, last + 14}}, Role::lit, {}, kBar / 2);
+    left += kBar + kBesideBar;
     style = {kEnding, Weight::semibold, Role::ink};
   }
   if (!wide)
@@ -308,9 +318,11 @@ double draw_footer(const Frame& frame, double margin, DrawList& list, Labels& la
     right = draw_column(counters, band, first, labels) - 40;
   double baseline = first;
   if (!frame.display.caption) return top;
-  for (const std::string& line : caption_lines(frame.caption, right - left, style)) {
-    labels.add(line, {{left, baseline}, 0}, style, band);
-    baseline += kLine;
+  if (narrow) style = small;
+  for (const std::string& words : narrow ? wrapped(frame.caption, right - left, style)
+                                         : caption_lines(frame.caption, right - left, style)) {
+    labels.add(words, {{left, baseline}, 0}, style, band);
+    baseline += line;
   }
   return top;
 }

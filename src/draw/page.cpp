@@ -246,7 +246,7 @@ std::optional<DrawList> laid_out(const Frame& frame, const Staging& staging, con
   list.page = page;
   list.paints = frame.get<FramePaints>().paints;
   Labels labels(list);
-  const double margin = page.x < 1000 ? 40 : 60;
+  const double margin = page.x < kNarrowPage ? 40 : 60;
   const auto has_notes = [](const Frame& f) { return !f.notes.empty(); };
   if (has_notes(frame) || std::ranges::any_of(frame.sides, has_notes)) labels.expect_notes();
   const bool has_foot = frame.display.caption || frame.display.counters;
@@ -259,7 +259,7 @@ std::optional<DrawList> laid_out(const Frame& frame, const Staging& staging, con
       write_title(frame.title, frame.part, 26, {margin, kTitleLine}, right, band, labels);
       add_rule(list, kTitleRule, margin);
     }
-    bottom = draw_footer(frame, margin, list, labels);
+    bottom = draw_footer(frame, staging, margin, list, labels);
     if (has_foot) add_rule(list, bottom, margin);
   }
   Box<2> area{{margin, frame.display.title ? kTop : kTopWithoutTitle},
@@ -282,6 +282,23 @@ std::optional<DrawList> laid_out(const Frame& frame, const Staging& staging, con
 Vec<2> page_for(int width, int height) {
   const double pixels = std::min(width / 1600.0, height / 900.0);  // a unit
   return {width / pixels, height / pixels};
+}
+
+Vec<2> page_across(const Frame& frame, const Staging& staging, double width) {
+  constexpr double kSeveral = 9.0 / 16, kNarrow = 1200, kPlain = 0.62, kWords = 250;
+  double height = width < kNarrow ? width : kSeveral * width;
+  if (frame.panels.size() == 1 && frame.sides.empty()) {
+    const PanelView& only = view_of(frame.panels[0]);
+    height = only.strip ? only.strip(frame, {width, width}) + 60
+             : is(frame.panels[0], "world") ? std::min(2.0, 1.15 / world_aspect(frame)) * width
+             : only.size ? width
+                         : kPlain * width;
+  }
+  const Display& shown = frame.display;
+  if (shown.title) height += kTop;
+  if (shown.caption || shown.counters) height += kWords;
+  // Higher pages are enlarged by draw_frame().
+  return Vec<2>(width, height) * (height > 900 ? kMostEnlarged : 1);
 }
 
 // The layout is made for a page about 900 units high and then scaled, so that type keeps its part

@@ -25,6 +25,10 @@ DrawList draw_frame(const Frame& frame, const Staging& staging, const Vec<2>& pa
 // The same of a frame that stands alone.
 DrawList draw_frame(const Frame& frame, const Vec<2>& page, Work& work);
 
+// A page on which a layout is so many units wide, and as high as its panels want, for draw_frame():
+// its own letters may be larger by page.x / width.
+Vec<2> page_across(const Frame& frame, const Staging& staging, double width);
+
 // The numbers beside the caption, as "3 candidate pairs", the main one first; at most three.
 std::vector<std::string> counter_texts(const Frame& frame);
 

@@ -126,8 +126,11 @@ inline bool is_in_pieces(const Frame& frame) {
 // the way has one step only.
 std::string short_label(const std::string& label);
 
-// The caption, and the counters at its right; gives the y of the hairline above them.
-double draw_footer(const Frame& frame, double margin, DrawList& list, Labels& labels);
+// The caption, and the counters at its right; gives the y of the hairline above them. On a narrow
+// page the caption has as many lines as the longest of the group needs.
+double draw_footer(const Frame& frame, const Staging& staging, double margin, DrawList& list,
+                   Labels& labels);
+inline constexpr double kNarrowPage = 1000;
 
 // --- notes: a few words beside what they are about, each with a thin line to it ---
 

@@ -121,6 +121,12 @@ std::string PdfDocument::finish() {
   return std::move(bytes_);
 }
 
+DrawList part_of(DrawList list, const Box<2>& part) {
+  for (DrawShape& shape : list.shapes) std::visit([&](auto& s) { move(s, -part.lo); }, shape);
+  list.page = part.size();
+  return list;
+}
+
 std::optional<SheetGrid> sheet_grid(std::string_view words) {
   const auto grid = two_numbers_in<int>(words, 'x');
   if (!grid || std::min(grid->first, grid->second) < 1 ||

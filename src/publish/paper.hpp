@@ -51,6 +51,9 @@ class PdfDocument {
   int pages_ = 0;
 };
 
+// What stands in this part of a page, as a page of its own.
+DrawList part_of(DrawList list, const Box<2>& part);
+
 // A contact sheet: several pictures a page, each with its number and caption.
 struct SheetGrid {
   static constexpr int kMost = 10;  // across or down: more could not be read

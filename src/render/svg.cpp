@@ -45,7 +45,8 @@ class SvgWriter {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" "
         "xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"{}\" height=\"{}\" "
         "viewBox=\"0 0 {} {}\"{}{}>\n{}",
-        width, height, w, h, words_.letters ? kFace : "", lang() + role(), told());
+        length(0, width), length(1, height), w, h, words_.letters ? kFace : "", lang() + role(),
+        told());
     if (!defs_.empty()) svg += fmt::format("<defs>\n{}</defs>\n", defs_);
     if (!transparent)
       svg += fmt::format("<rect width=\"{}\" height=\"{}\"{}/>\n", w, h,
@@ -56,6 +57,9 @@ class SvgWriter {
  private:
   static std::string lang() {
     return spoken() ? fmt::format(" lang=\"{}\"", spoken()->language) : "";
+  }
+  std::string length(int axis, int pixels) const {
+    return words_.points ? number((*words_.points)[axis]) + "pt" : fmt::format("{}", pixels);
   }
   // For screen readers: it is one picture, with this name.
   std::string role() const {

@@ -1,6 +1,8 @@
 // A DrawList as SVG: no graphics library.
 #pragma once
 
+#include <optional>
+
 #include "draw/draw_list.hpp"
 #include "draw/theme.hpp"
 
@@ -13,6 +15,7 @@ struct SvgWords {
   // Letters as <text> in whatever face of the name is there, as wide as they are in Inter; else as
   // outlines, which need no font.
   bool letters = false;
+  std::optional<Vec<2>> points = std::nullopt;  // its size on paper, instead of one in pixels
 };
 
 // One file that stands alone; width and height in pixels, the page as its view box.

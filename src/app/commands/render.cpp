@@ -39,10 +39,18 @@ Options watch_options(RenderOptions& o) {
        OptionTraits{.value = "WxH"}},
       {"--paper", &o.paper, "of a sheet, upright or lying as its pictures get larger",
        OptionTraits{.words = {"a4", "letter"}, .without = "--size"}},
-      {"--letters", &o.letters, "the smallest letters on paper; the default is 6pt on a sheet",
+      {"--letters", &o.letters, "the smallest letters on paper; the default is 6pt on a sheet, 8pt of a figure",
        OptionTraits{.value = "LENGTH"}},
-      {"--dpi", &o.dpi, "pixels to the inch: how large a PDF's page is, and a PNG on paper",
-       OptionTraits{.value = "N", .least = 72, .most = 1200}},
+      {"--width", &o.width,
+       "of a figure on paper, 8cm: pictures are laid out anew for it, with letters of 8 pt, as high "
+       "as their panels want, and cut to what is drawn; into .pdf, .svg or .png",
+       OptionTraits{.value = "LENGTH", .without = "--size,--sheet"}},
+      {"--panel", &o.panel, "of a figure this panel alone: world, tree, chart, ...",
+       OptionTraits{.value = "NAME", .without = "--size,--sheet"}},
+      {"--dpi", &o.dpi,
+       "pixels to the inch: how large a PDF's page is, and a PNG on paper; the default of a figure "
+       "is 300",
+       OptionTraits{.value = "N", .least = 72, .most = 1200, .given = &o.dpi_given}},
       {"--format", &o.format, "file format in a folder",
        OptionTraits{.words = {"png", "svg"}, .given = &o.format_given}},
       {"--text", &o.text, "an SVG's letters: outlines, or text in the reader's Inter",
@@ -161,12 +169,18 @@ void write_shared(PaperForAll& paper, Work& work) {
 }
 
 // Draws scenario `index`, or the shard's part of it; the exit code that it deserves.
-int render_one(const RenderJob& job, const Destination& to, const Scenario& scenario, Work& work,
+int render_one(const RenderJob& its, const Destination& to, const Scenario& scenario, Work& work,
                JsonWriter& json, RenderShard& shard, std::size_t index, PaperForAll* paper) {
-  const RenderOptions& options = job.options;
+  const RenderOptions& options = its.options;
   const bool is_sheet = to.kind() == OutputKind::sheet;
   const Pace pace = is_sheet && options.pace.empty() ? Pace::step : pace_of(options.pace, scenario);
   Selection selection(options.frames, options.at, extent_of(scenario, pace).frames);
+  std::optional<RenderJob> figure;  // each scenario's are of their own size
+  if (options.is_figure()) {
+    figure.emplace(options);
+    lay_out_figure({*figure, to, scenario, pace, selection, work}, *figure);
+  }
+  const RenderJob& job = figure ? *figure : its;
   const Sequence sequence{job, to, scenario, pace, selection, work, paper};
   if (to.kind() != OutputKind::folder) {
     const auto sink = make_file_sink(sequence);
@@ -212,6 +226,9 @@ void require_fit(const RenderOptions& options, const Destination& to, std::size_
   if (options.live && kind != OutputKind::page)
     refuse("only a lesson page is live (--live), such as lesson.html");
   if (!options.engine.empty() && !options.live) refuse("no page is live; leave out --engine");
+  if (options.is_figure() && kind != OutputKind::document && kind != OutputKind::picture &&
+      !is_stdout)
+    refuse("figures (--width, --letters, --panel) are .pdf, .svg or .png");
   if (options.hold && !is_film) refuse("only a film is held (--hold), such as talk.mp4");
   if (is_folder || is_stdout) return;
   if (options.format_given && options.format != to.ending())

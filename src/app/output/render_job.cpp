@@ -30,14 +30,21 @@ std::uint64_t within(double seconds, double fps) {
 }
 
 constexpr const char* kUsualSize = "1600x900";
-constexpr int kUsualDots = 160;  // to the inch: a frame of 1600 pixels is 10 inches wide on paper
+constexpr double kInch = 72;      // points
+constexpr int kFigureDots = 300;  // to the inch, of what is laid out for paper
+constexpr int kUsualDots = 160;   // to the inch: a frame of 1600 pixels is 10 inches wide on paper
 
 // The ids of two files differ unless they show the same frame in the same way. A new version of
 // Lantern changes none of them, so that files can be compared.
 SvgWords svg_words(const RenderJob& job, const Frame& frame, const MadeFrom& from) {
   const std::uint64_t key = Hash().add(frame.scenario).add(from.picture).value();
-  return {frame.title, frame.caption, fmt::format("l{:08x}-", key >> 32),
-          job.options.text == "text"};
+  SvgWords words{frame.title, frame.caption, fmt::format("l{:08x}-", key >> 32),
+                 job.options.text == "text"};
+  if (job.options.is_figure()) {
+    words.description = description_of(frame);
+    words.points = job.points();
+  }
+  return words;
 }
 
 // What a structure that this program was given says depends on its code, which is no part of
@@ -133,10 +140,17 @@ RenderJob::RenderJob(const RenderOptions& o)
       parse_size(o.size.empty() ? kUsualSize : o.size, render::kMostSide);
   picture.theme = *theme_named(o.theme);
   picture.transparent = o.transparent;
-  letters =
-      o.letters.empty() ? publish::SheetLayout::kLeastPoints : parse_length("--letters", o.letters);
+  letters = !o.letters.empty() ? parse_length("--letters", o.letters)
+            : o.sheet.empty()  ? 0
+                               : publish::SheetLayout::kLeastPoints;
+  width = o.width.empty() ? picture.width * kInch / kUsualDots : parse_length("--width", o.width);
+  const std::vector<std::string_view> panels = names(language::Panel());
+  if (!o.panel.empty() && std::ranges::find(panels, o.panel) == panels.end())
+    throw UsageError(with_suggestion(fmt::format("--panel {}: there is no such panel", o.panel),
+                                     o.panel, panels, panels.size()));
   picture.effort = o.png == "small" ? PngEffort::small : PngEffort::fast;
-  picture.pixels_per_metre = static_cast<int>(std::lround(o.dpi / 0.0254));
+  dpi = o.is_figure() && !o.dpi_given ? kFigureDots : o.dpi;
+  picture.pixels_per_metre = static_cast<int>(std::lround(dpi / 0.0254));
   picture.threads =
       o.threads.value_or(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
 }
@@ -151,10 +165,44 @@ Display RenderJob::display_of(const Frame& frame) const {
 }
 
 Vec<2> RenderJob::points() const {
-  return Vec<2>(picture.width, picture.height) * (72.0 / options.dpi);
+  if (figure_) return figure_->part.size() * (width / figure_->part.size().x);
+  return Vec<2>(picture.width, picture.height) * (kInch / dpi);
+}
+
+void RenderJob::set(const Figure& figure) {
+  figure_ = figure;
+  const Vec<2> pixels = points() * (dpi / kInch);
+  picture.width = std::max(1, static_cast<int>(std::lround(pixels.x)));
+  picture.height = std::max(1, static_cast<int>(std::lround(pixels.y)));
+  if (std::max(picture.width, picture.height) > render::kMostSide)
+    throw UsageError("a figure of {} x {} pixels is more than {}; ask for fewer dots (--dpi)",
+                     picture.width, picture.height, render::kMostSide);
+}
+
+Frame RenderJob::shown(const Frame& frame) const {
+  Frame shown = frame;
+  shown.display = display_of(frame);
+  if (options.panel.empty()) return shown;
+  shown.display.title = shown.display.caption = shown.display.counters = false;
+  std::set<std::string_view> there;
+  bool any = false;
+  const auto keep = [&](Frame& one) {
+    for (const auto panel : one.panels) there.insert(kind_of(panel).name);
+    std::erase_if(one.panels, [&](const auto panel) { return !is(panel, options.panel); });
+    any |= !one.panels.empty();
+    if (options.panel != "world") one.notes.clear();  // most are about what is not there
+  };
+  keep(shown);
+  for (Frame& side : shown.sides) keep(side);
+  if (!any)
+    throw UsageError("--panel {}: frame {} of {} has none; it has: {}", options.panel, frame.index,
+                     frame.scenario, fmt::join(there, ", "));
+  return shown;
 }
 
 DrawList RenderJob::page_of(const Frame& frame, const Staging& staging, Work& work) const {
+  if (figure_)
+    return publish::part_of(draw_frame(shown(frame), staging, figure_->page, work), figure_->part);
   const Vec<2> page = page_for(picture.width, picture.height);
   const Display display = display_of(frame);
   if (display == frame.display) return draw_frame(frame, staging, page, work);
@@ -182,6 +230,8 @@ Manifest RenderJob::manifest(const Scenario& scenario, Pace pace) const {
        {std::pair{options.no_title, "no-title"}, std::pair{options.no_caption, "no-caption"},
         std::pair{options.no_counters, "no-counters"}, std::pair{options.legend, "legend"}})
     if (on) m.switches.emplace_back(name);
+  for (const std::string* word : {&options.width, &options.letters, &options.panel})
+    if (!word->empty()) m.switches.push_back("figure-" + *word);
   if (format == FileKind::svg && options.text == "text") m.switches.emplace_back("text");
   if (format == FileKind::png && options.dpi != kUsualDots)
     m.switches.push_back(fmt::format("dpi-{}", options.dpi));

@@ -60,6 +60,8 @@ struct RenderOptions {
   std::string size;               // pixels; empty for 1600x900, and for a sheet A4 across
   std::string paper = "a4";       // of a sheet without a size: a4, letter
   std::string letters;            // the least on paper, "8pt"; empty for the usual
+  std::string width;              // of a figure on paper, "8cm"; empty for what pixels make
+  std::string panel;              // that is shown alone; empty for all
   int dpi = 160;                  // pixels to the inch, where a picture meets paper
   std::string format = "png";     // png, svg
   std::string text = "outlines";  // of SVG: outlines, text
@@ -82,6 +84,18 @@ struct RenderOptions {
   bool live = false;                             // a lesson page carries the engine
   std::string engine = "";                       // its file; empty for where it is looked for
   bool json = false;
+  bool dpi_given = false;
+
+  // Laid out anew for its place on paper.
+  bool is_figure() const {
+    return sheet.empty() && !(letters.empty() && width.empty() && panel.empty());
+  }
+};
+
+// A picture laid out for its width on paper: on which page, and the part of that which is shown.
+struct Figure {
+  Vec<2> page{0.0};
+  Box<2> part;
 };
 
 // Draws what is asked for; gives the exit code.
@@ -107,7 +121,9 @@ struct RenderJob {
   Backend backend = Backend::automatic;
   FileKind format = FileKind::png;  // of a frame's picture, where it is a file
   InBetweens in_betweens;
-  double letters = 0;  // on paper, points, at least
+  double letters = 0;  // on paper, points, at least; 0 for the usual ones
+  double width = 0;    // of the picture on paper, points
+  double dpi = 0;      // there
 
   // What of the frame is shown: as the scenario has it, and the command line.
   Display display_of(const Frame& frame) const;
@@ -115,7 +131,13 @@ struct RenderJob {
   // The picture on paper, in points of 1/72 inch.
   Vec<2> points() const;
 
-  // The frame as a page, with what the command line switches on and off.
+  // From here on pictures are such.
+  void set(const Figure& figure);
+
+  // The frame with what the command line switches on and off, and of its panels those that it
+  // wants. Throws UsageError if there are none of these.
+  Frame shown(const Frame& frame) const;
+  // That as a page.
   DrawList page_of(const Frame& frame, const Staging& staging, Work& work) const;
 
   // Graphics for pictures of this size, until another size is asked for: all scenarios of a job
@@ -132,6 +154,7 @@ struct RenderJob {
  private:
   // One at a time: its context is current from when it is made until another one is.
   mutable std::unique_ptr<Renderer> renderer_;
+  std::optional<Figure> figure_;
 };
 
 // The frame in words, of those that are displayed: "left: The root splits. (4 nodes, 2 pairs)".

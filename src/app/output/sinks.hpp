@@ -177,6 +177,10 @@ class FilmClock {
   std::uint64_t words_since_ = 0;  // from this moment on
 };
 
+// Lays the chosen frames out for paper, in a run of their own, so that all have room on one page,
+// and tells the job. Throws UsageError if they have none.
+void lay_out_figure(const Sequence& sequence, RenderJob& job);
+
 // The sink for this kind of output, which is no folder.
 std::unique_ptr<FileSink> make_file_sink(const Sequence& sequence);
 // Of the kinds that have a file of their own.
