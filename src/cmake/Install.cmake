@@ -1,5 +1,6 @@
-# What `cmake --install` puts where, and what other projects link. Two components: `runtime` is the
-# program and what it brings along, `development` the libraries, their headers and CMake's files.
+# What `cmake --install` puts where, and what other projects link. Four components: `runtime` is the
+# program and what it brings along, `lab` what measures and the engines beside it, `development` the
+# libraries, their headers and CMake's files, `documentation` what one reads and begins from.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
@@ -74,6 +75,30 @@ function(lantern_install_development)
     DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/lantern-dev COMPONENT development)
 endfunction()
 
+# The README with what it shows and leads to, and examples to begin from: a project with a structure
+# of one's own, a workflow, a hook, programs for the libraries.
+function(lantern_install_documentation)
+  set(here ${CMAKE_INSTALL_DATADIR}/doc/lantern-doc)
+  install(FILES ${PROJECT_SOURCE_DIR}/README.md ${PROJECT_SOURCE_DIR}/src/cmake/copyright
+    DESTINATION ${here} COMPONENT documentation)
+  install(DIRECTORY ${PROJECT_SOURCE_DIR}/tests/example ${PROJECT_SOURCE_DIR}/tests/example_api
+    DESTINATION ${here}/tests COMPONENT documentation)
+  file(STRINGS ${PROJECT_SOURCE_DIR}/README.md shown REGEX "tests/golden/")
+  string(REGEX MATCHALL "tests/golden/[a-z_0-9/]+[.]png" shown "${shown}")
+  foreach(picture ${shown})
+    cmake_path(GET picture PARENT_PATH folder)
+    install(FILES ${PROJECT_SOURCE_DIR}/${picture} DESTINATION ${here}/${folder}
+      COMPONENT documentation)
+  endforeach()
+  install(FILES ${PROJECT_SOURCE_DIR}/tests/README.md DESTINATION ${here}/tests
+    COMPONENT documentation)
+  install(FILES ${PROJECT_SOURCE_DIR}/src/ARCHITECTURE.md DESTINATION ${here}/src
+    COMPONENT documentation)
+  # The scenarios come with the program.
+  install(CODE "file(CREATE_LINK ../../lantern/scenarios
+    \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${here}/scenarios\" SYMBOLIC)" COMPONENT documentation)
+endfunction()
+
 # lantern_install(): after all rooms and the program.
 function(lantern_install)
   foreach(embedded font shaders lecture_source examples words lesson_files output_schema)
@@ -81,6 +106,7 @@ function(lantern_install)
   endforeach()
   lantern_link_headers()
   lantern_install_development()
+  lantern_install_documentation()
   install(TARGETS lantern RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios
     DESTINATION ${CMAKE_INSTALL_DATADIR}/lantern COMPONENT runtime)

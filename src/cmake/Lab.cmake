@@ -27,7 +27,9 @@ add_library(lab MODULE $<TARGET_OBJECTS:lantern_problems> $<TARGET_OBJECTS:lante
 set_target_properties(lab PROPERTIES PREFIX "" OUTPUT_NAME lantern_lab SUFFIX ".so"
   LINKER_LANGUAGE CXX LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR})
 target_link_libraries(lab PRIVATE fmt::fmt)
-install(TARGETS lab LIBRARY DESTINATION lib/lantern COMPONENT runtime OPTIONAL)
+install(TARGETS lab LIBRARY DESTINATION lib/lantern COMPONENT lab OPTIONAL)
+install(FILES ${PROJECT_SOURCE_DIR}/src/cmake/copyright
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/lantern-lab COMPONENT lab)
 
 # Other physics engines that Lantern is measured beside: each a module of its own in build/peers,
 # loaded only while it is measured. All are optional; what is not installed is left out.
@@ -53,6 +55,7 @@ function(lantern_peer name version)
   target_compile_options(lantern_peer_${name} PRIVATE ${PEER_OPTIONS})
   target_link_libraries(lantern_peer_${name} PRIVATE fmt::fmt glm::glm ${PEER_LIBRARIES})
   add_dependencies(lantern_peers lantern_peer_${name})
+  install(TARGETS lantern_peer_${name} LIBRARY DESTINATION lib/lantern/peers COMPONENT lab OPTIONAL)
 endfunction()
 
 lantern_peer(bullet "${bullet_VERSION} (double)" FOUND ${bullet_FOUND}
