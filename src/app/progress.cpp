@@ -74,6 +74,8 @@ RunExtent extent_of(const Scenario& scenario, Pace pace) {
 // that are drawn.
 std::optional<TimeLeft> time_left(const RunExtent& extent, const RunState& state) {
   std::optional<TimeLeft> left = run_left(extent, state);
+  if (extent.pictures && state.drawn > 0)
+    return TimeLeft{share_left(*extent.pictures, state.drawn, state.draw_seconds), false};
   if (state.waiting == 0) return left;
   const std::uint64_t drawn = state.frames - state.waiting;
   if (drawn > 0 && extent.frames) {
@@ -112,6 +114,12 @@ std::string forecast_text(const RunExtent& extent, const RunState& state) {
 
 std::string progress_text(const RunExtent& extent, const RunState& state) {
   const std::uint64_t frames = state.frames - state.waiting;
+  if (extent.pictures && state.drawn >= *extent.pictures)
+    return counted_plainly(state.drawn, "picture") + " drawn, the file is being finished";
+  if (extent.pictures && state.drawn > 0)
+    return fmt::format("{} of {}{}", lantern::grouped(state.drawn, " "),
+                       counted_plainly(*extent.pictures, "picture"),
+                       left_text(time_left(extent, state)));
   std::string text = extent.frames
                          ? fmt::format("{} of {}", frames, counted_plainly(*extent.frames, "frame"))
                          : counted_plainly(frames, "frame");

@@ -26,6 +26,8 @@ struct RunExtent {
   std::optional<std::uint64_t> chosen = std::nullopt;
   // Before each frame that is written but the first, at most.
   std::uint64_t in_betweens = 0;
+  // That are drawn in the end, if it is known: of a film.
+  std::optional<std::uint64_t> pictures = std::nullopt;
 };
 RunExtent extent_of(const Scenario& scenario, Pace pace);
 

@@ -69,7 +69,14 @@ std::vector<fs::path> toml_files(const fs::path& folder, std::error_code& error)
 std::string nearest_of(const std::string& name, const std::vector<std::string>& names) {
   const std::vector<std::string_view> known(names.begin(), names.end());
   const std::string near = suggestion(name, known, 0);
-  return near.empty() ? "'lantern list' names those that there are" : near;
+  if (!near.empty()) return near;
+  constexpr std::size_t kMost = 5;
+  std::vector<std::string_view> holding;
+  for (const std::string_view one : known)
+    if (!name.empty() && one.find(name) != one.npos && holding.size() < kMost)
+      holding.push_back(one);
+  return holding.empty() ? "'lantern list' names those that there are"
+                         : fmt::format("did you mean '{}'?", fmt::join(holding, "', '"));
 }
 
 // In the order of a lecture; those that have no place in it come last.
@@ -242,6 +249,7 @@ std::string scenario_file(const std::string& words) {
       for (const fs::path& file : toml_files(folder / sub, error))
         names.push_back(file.stem().string());
   std::ranges::sort(names);
+  names.erase(std::ranges::unique(names).begin(), names.end());
   throw IoError("there is no file '{}' and no scenario of that name; {}", words,
                 nearest_of(words, names));
 }
@@ -309,6 +317,7 @@ RunResult run_scenario(const Scenario& scenario, Pace pace, FrameSink& sink, Wor
   extent.in_betweens = in_betweens;
   const Speaking speaking(scenario.words.get());
   draw::set_more_letters(japanese_typeface);
+  extent.pictures = sink.pictures();
   Progress progress(scenario.name, extent, work, memory_budget(), [&] { return sink.waiting(); });
   Trials trials([&] { return progress.long_left(); }, work);
   RunWatch watch(scenario, shows_a_body, &trials);

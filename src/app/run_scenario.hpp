@@ -26,6 +26,8 @@ class FrameSink {
   virtual Wanted wants() const { return Wanted::all; }
   // After the last one. What is to be whole stands whole from here on.
   virtual void finish(const DirectorReport& /*report*/) {}
+  // How many pictures it will have drawn in the end, if that is known.
+  virtual std::optional<std::uint64_t> pictures() const { return std::nullopt; }
   // How many of the frames that it was given it has still to deal with; from any thread.
   virtual std::uint64_t waiting() const { return 0; }
 };

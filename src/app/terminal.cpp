@@ -5,6 +5,7 @@
 #include <mutex>
 
 #include <fmt/format.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include "app/commands/command.hpp"
@@ -21,6 +22,7 @@ constexpr std::string_view kClear = "\r\033[K";  // the line that the cursor is 
 std::mutex writing;  // who holds it may write to standard error
 bool status_shown = false;
 bool keeps = false;
+std::string* heard = nullptr;
 std::vector<Diagnostic> kept;
 
 std::atomic<bool> quiet{false};
@@ -45,6 +47,7 @@ bool colourful() {
 void keep(const Diagnostic& diagnostic) noexcept try {
   const std::lock_guard guard(writing);
   if (keeps) kept.push_back(diagnostic);
+  if (heard && diagnostic.severity == Severity::error) *heard += to_string(diagnostic) + '\n';
 } catch (const std::exception&) {  // no room for it: it is still said
 }
 
@@ -133,6 +136,11 @@ void complain(const BackendError& error) noexcept {
 }
 void complain(const ScenarioError& error) noexcept { complain(error.diagnostics()); }
 
+void hear_errors(std::string* lines) noexcept {
+  const std::lock_guard guard(writing);
+  heard = lines;
+}
+
 void complain(const std::vector<Diagnostic>& diagnostics) noexcept {
   for (const Diagnostic& diagnostic : diagnostics) {
     keep(diagnostic);
@@ -165,6 +173,13 @@ std::string table(std::vector<std::vector<std::string>> rows) {
     text += '\n';
   }
   return text;
+}
+
+std::optional<std::size_t> terminal_width() {
+  winsize size{};
+  if (::isatty(STDOUT_FILENO) != 1) return std::nullopt;
+  const bool told = ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+  return told ? size.ws_col : 80;
 }
 
 void show_status(std::string_view line) noexcept {

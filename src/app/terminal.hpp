@@ -4,6 +4,7 @@
 // that reads a command's JSON.
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -35,11 +36,17 @@ void complain(const BackendError& error) noexcept;   // the same, and a line a b
 void complain(const ScenarioError& error) noexcept;  // each of its diagnostics
 void complain(const std::vector<Diagnostic>& diagnostics) noexcept;  // errors and warnings
 
+// From here on errors are added to these lines, too; null for no more.
+void hear_errors(std::string* lines) noexcept;
+
 // Lines for a person on standard output, printable, too. Throws IoError as write_stdout does.
 void print(std::string_view text);
 
 // Columns of text: rows of equally many cells, each a printable line, padded to columns.
 std::string table(std::vector<std::vector<std::string>> rows);
+
+// Letters in a line of standard output, if it is a terminal.
+std::optional<std::size_t> terminal_width();
 
 // What a bad word on the command line gets. Exit code 2.
 class UsageError : public Told<std::runtime_error> {

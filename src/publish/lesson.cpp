@@ -62,6 +62,8 @@ std::string scenario_list(const std::vector<LiveScenario>& scenarios) {
 
 constexpr std::string_view kIndexMark =
     "<meta name=\"generator\" content=\"Lantern lesson index\">";
+constexpr std::string_view kAskedMark = "<!-- in the order asked for -->\n";
+constexpr std::string_view kPictureLink = "<a class=\"picture\" href=\"";
 constexpr const char* kIndex = "index.html";
 constexpr std::size_t kMostPage = std::size_t{256} << 20;
 
@@ -119,20 +121,6 @@ std::optional<Listed> listed(const Folder& folder, const std::string& file) {
   return Listed{file, std::move(*card), std::string(*picture)};
 }
 
-std::vector<Listed> lessons_in(const Folder& folder) {
-  std::vector<Listed> lessons;
-  for (const std::string& name : folder.names()) {
-    if (!name.ends_with(".html") || name == kIndex || !folder.has_file(name)) continue;
-    if (auto lesson = listed(folder, name)) lessons.push_back(std::move(*lesson));
-  }
-  std::ranges::sort(lessons, [](const Listed& a, const Listed& b) {
-    if (a.card.lecture.has_value() != b.card.lecture.has_value()) return a.card.lecture.has_value();
-    return std::tie(a.card.lecture, a.card.scenario, a.file) <
-           std::tie(b.card.lecture, b.card.scenario, b.file);
-  });
-  return lessons;
-}
-
 // A file's name as a relative URL.
 std::string url_of(std::string_view file) {
   std::string url;
@@ -144,8 +132,47 @@ std::string url_of(std::string_view file) {
   return url;
 }
 
+std::vector<Listed> lessons_in(const Folder& folder, const std::vector<std::string>& order) {
+  std::vector<Listed> lessons;
+  for (const std::string& name : folder.names()) {
+    if (!name.ends_with(".html") || name == kIndex || !folder.has_file(name)) continue;
+    if (auto lesson = listed(folder, name)) lessons.push_back(std::move(*lesson));
+  }
+  const auto place = [&](const Listed& one) {
+    return std::ranges::find_if(
+        order, [&](const auto& file) { return file == one.file || file == url_of(one.file); });
+  };
+  std::ranges::sort(lessons, [&](const Listed& a, const Listed& b) {
+    if (place(a) != place(b)) return place(a) < place(b);
+    if (a.card.lecture.has_value() != b.card.lecture.has_value()) return a.card.lecture.has_value();
+    return std::tie(a.card.lecture, a.card.scenario, a.file) <
+           std::tie(b.card.lecture, b.card.scenario, b.file);
+  });
+  return lessons;
+}
+
 std::string link_to(const std::string& file, std::string_view words) {
   return fmt::format("<a href=\"{}\">{}</a>", url_of(file), escaped(words));
+}
+
+// The pages that an index lists, as it links them.
+std::vector<std::string> linked_in(std::string_view index) {
+  std::vector<std::string> links;
+  while (const auto link = between_marks(index, kPictureLink, "\"")) {
+    links.emplace_back(*link);
+    index.remove_prefix(static_cast<std::size_t>(link->data() - index.data()));
+  }
+  return links;
+}
+
+// What `escaped` was made of.
+std::string unescaped(std::optional<std::string_view> html) {
+  std::string text(html.value_or(""));
+  for (const auto& [name, letter] : {std::pair{"&lt;", "<"}, std::pair{"&gt;", ">"},
+                                     std::pair{"&quot;", "\""}, std::pair{"&amp;", "&"}})
+    for (std::size_t at = 0; (at = text.find(name, at)) != text.npos; ++at)
+      text.replace(at, std::string_view(name).size(), letter);
+  return text;
 }
 
 // The lessons to be seen before, linked where they stand in the folder.
@@ -164,10 +191,10 @@ std::string entry_of(const Listed& lesson, const std::map<std::string, const Lis
   const LessonCard& card = lesson.card;
   const std::string number = card.lecture ? fmt::format("<b>{}</b> ", *card.lecture) : "";
   return fmt::format(
-      "<li>\n<a class=\"picture\" href=\"{}\" tabindex=\"-1\" aria-hidden=\"true\">"
+      "<li>\n{}{}\" tabindex=\"-1\" aria-hidden=\"true\">"
       "<img src=\"{}\" alt=\"\" loading=\"lazy\"></a>\n<h2>{}{}</h2>\n<p class=\"idea\">{}</p>\n{}"
       "{}<p class=\"length\">{}</p>\n</li>\n",
-      url_of(lesson.file), lesson.picture, number, link_to(lesson.file, card.title),
+      kPictureLink, url_of(lesson.file), lesson.picture, number, link_to(lesson.file, card.title),
       escaped(card.idea), needs_of(lesson, by_name), question_list(card, url_of(lesson.file)),
       say_count(card.steps, "step/steps"));
 }
@@ -208,6 +235,11 @@ std::string to_json(const LessonCard& card) {
         .members("asked", q.asked, "answer", q.answer, "frame", q.frame, "predict", q.predict)
         .end_object();
   json.end_array();
+  if (!card.next_file.empty()) {
+    json.key("next").begin_object().members("file", url_of(card.next_file), "title",
+                                            card.next_title);
+    json.end_object();
+  }
   return json.end_object().text();
 }
 
@@ -344,28 +376,34 @@ bool write_engine(const Folder& folder, std::string_view packed) {
   return true;
 }
 
-std::string lesson_index(const Folder& folder) {
-  const std::vector<Listed> lessons = lessons_in(folder);
+std::string lesson_index(const Folder& folder, const std::vector<std::string>& order,
+                         const std::string& title) {
+  const std::vector<Listed> lessons = lessons_in(folder, order);
   const auto words = language::words_in(lessons.empty() ? "" : lessons.front().card.language);
   const Speaking speaking(words.get());
+  const std::string heading = title.empty() ? word("Lessons") : title;
   std::map<std::string, const Listed*> by_name;
   for (const Listed& lesson : lessons) by_name.emplace(lesson.card.scenario, &lesson);
-  return html_page(word("Lessons"), filled(said(page::index_html), [&](std::string_view name) {
+  return html_page(heading, filled(said(page::index_html), [&](std::string_view name) {
+                     if (name == "title") return escaped(heading);
                      if (name == "mark") return std::string(kIndexMark);
                      if (name == "colours") return lesson_colours();
                      if (name == "style") return std::string(page::index_css);
-                     if (name == "count") return say("{}, in the order of teaching", say_count(lessons.size(), "lesson/lessons"));
-                     std::string entries;
+                     if (name == "count") return say_count(lessons.size(), "lesson/lessons");
+                     std::string entries(order.empty() ? "" : kAskedMark);
                      for (const Listed& lesson : lessons) entries += entry_of(lesson, by_name);
                      return entries;
                    }));
 }
 
-bool write_lesson_index(const Folder& folder) {
+bool write_lesson_index(const Folder& folder, std::vector<std::string> order, std::string title) {
   if (folder.has(kIndex) && !folder.has_file(kIndex)) return false;
   const auto before = folder.read(kIndex, kMostPage);
   if (before && before->find(kIndexMark) == std::string::npos) return false;
-  write_file({folder, kIndex}, lesson_index(folder));
+  if (before && order.empty() && before->find(kAskedMark) != before->npos)
+    order = linked_in(*before);
+  if (before && title.empty()) title = unescaped(between_marks(*before, "<h1>", "</h1>"));
+  write_file({folder, kIndex}, lesson_index(folder, order, title));
   return true;
 }
 

@@ -23,6 +23,8 @@ struct LessonCard {
   std::uint64_t steps = 0, frames = 0;
   std::vector<LessonQuestion> questions = {};
   std::string language = {};  // "de"; empty: English
+  // The lesson that comes after it in its folder: its file and its title; empty for none.
+  std::string next_file = {}, next_title = {};
 };
 // As one line of JSON; back from it, nothing if it is not that.
 std::string to_json(const LessonCard& card);
@@ -63,6 +65,11 @@ class Lesson {
   // opens in. The card's frames are counted here, and its questions gathered from them.
   Lesson(LessonCard card, std::string theme) : card_(std::move(card)), theme_(std::move(theme)) {}
 
+  // The lesson that comes after it.
+  void set_next(std::string file, std::string title) {
+    card_.next_file = std::move(file), card_.next_title = std::move(title);
+  }
+
   // In order. The list must be one that a renderer takes (check_draw_list), or Refused is thrown.
   void add(const Frame& frame, const DrawList& list, const FrameWords& words);
 
@@ -92,14 +99,16 @@ class Lesson {
   std::string last_caption_;  // of those
 };
 
-// index.html of a folder: each lesson page that stands in it, in the order of the lecture, those
-// without a place there behind the others by name, with its first picture, its idea, how many steps
-// it has and what is to be seen before. Made from those pages alone, so that it is the same
-// whichever of them were written last. Throws IoError if the folder or a page cannot be read.
-std::string lesson_index(const Folder& folder);
+// index.html of a folder: each lesson page that stands in it, with its last picture, its idea, how
+// many steps it has and what is to be seen before. Those of the files in `order` come first, then
+// those with a place in the lecture, then the others by name. Throws IoError if the folder or a
+// page cannot be read.
+std::string lesson_index(const Folder& folder, const std::vector<std::string>& order = {},
+                         const std::string& title = "");
 
-// Writes it. False, and nothing is touched, if an index.html stands there that is not of this kind.
-// Throws IoError.
-bool write_lesson_index(const Folder& folder);
+// Writes it. Where there is one and no order or title is given, it keeps its own. False, and
+// nothing is touched, if an index.html stands there that is not of this kind. Throws IoError.
+bool write_lesson_index(const Folder& folder, std::vector<std::string> order = {},
+                        std::string title = "");
 
 }  // namespace lantern::publish

@@ -7,6 +7,9 @@
 // {lantern: "go", frame: 7}, and is told {lantern: "frame", frame, frames, step, steps} of every
 // frame that is shown. Frames are numbered from 0, as in file names and behind the address's #.
 
+// On a black slide: <iframe src="lesson.html?embed&theme=dark&ground=none">; a theme is dark, light
+// or grey, and without a ground what lies behind the page shows through.
+
 const $ = (id) => document.getElementById(id);
 
 class Page {
@@ -19,7 +22,8 @@ class Page {
     this.byEvent = lesson.stepStops.length === 1;
     this.withMotion = false;
     this.playing = 0; // the animation frame that is asked for, while something plays
-    this.embedded = new URLSearchParams(location.search).has("embed");
+    this.embedded = ASKED.has("embed");
+    this.nextLesson = JSON.parse($("card").textContent).next;
     document.body.classList.toggle("embedded", this.embedded);
   }
 
@@ -90,7 +94,9 @@ class Page {
     this.words.show(this.lesson.frames[this.index]);
     this.tellStop(step, caption);
     $("back").disabled = this.index === 0;
-    $("next").disabled = this.index === this.lesson.last;
+    const onto = this.index === this.lesson.last && this.nextLesson;
+    $("next").disabled = this.index === this.lesson.last && !onto;
+    $("next").title = onto ? say("Next lesson: {} (→)", onto.title) : say("Next (→)");
     history.replaceState(null, "", `#${this.index}${this.behind}`);
     this.post({ frame: this.index, frames: this.lesson.frames.length, step, steps: this.lesson.steps });
   }
@@ -261,6 +267,7 @@ class Page {
   // At either end a reveal.js deck goes on with its own slides.
   leave(method) {
     if (window.parent !== window) window.parent.postMessage(JSON.stringify({ method }), "*");
+    else if (method === "next" && this.nextLesson) location.href = this.nextLesson.file + location.search;
   }
 
   receive(data) {
@@ -353,6 +360,16 @@ function listenToThings(page) {
 const indexFromHash = () => Number.parseInt(location.hash.slice(1), 10) || 0;
 const behindHash = () => location.hash.match(/&.*/)?.[0] ?? "";
 
+const ASKED = new URLSearchParams(location.search);
+const theme = Object.keys(THEMES).find((name) => [name, THEMES[name]].includes(ASKED.get("theme")));
+if (theme) document.documentElement.dataset.theme = theme;
+document.documentElement.classList.toggle("bare", ASKED.get("ground") === "none");
+
+// Who prints before the pictures are there is asked once more when they are.
+let printedEarly = false;
+const printEarly = () => (printedEarly = true);
+window.addEventListener("beforeprint", printEarly);
+
 async function open() {
   const lesson = new Lesson((await unpacked("frames-packed")) ?? EMPTY);
   document.head.append(element(document, "style", { id: "styles", text: styleSheet(lesson) }));
@@ -366,6 +383,7 @@ async function open() {
     page.go(indexFromHash());
   });
   window.addEventListener("message", (event) => page.receive(event.data));
+  window.removeEventListener("beforeprint", printEarly);
   window.addEventListener("beforeprint", () => fillHandout($("handout"), page.lesson, document.title));
   window.addEventListener("afterprint", () => $("handout").replaceChildren());
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", nameTheme);
@@ -374,6 +392,7 @@ async function open() {
   page.go(indexFromHash()); // before anything writes a number there
   page.words.fit();
   document.documentElement.dataset.ready = Math.round(performance.now());
+  if (printedEarly) window.print();
   window.lantern = page; // for those who look into it, and for tests
   page.know((await unpacked("facts-packed")) ?? [[]]);
   return page;

@@ -1,8 +1,13 @@
 // The command line as a user meets it: streams, exit codes, selections.
+#include <algorithm>
+#include <sstream>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "app/process.hpp"
+#include "base/child.hpp"
+#include "base/printable.hpp"
 
 namespace lantern::app {
 namespace {
@@ -37,6 +42,40 @@ TEST(CommandLine, WrongWordsAreUsageErrorsWithAHint) {
        {"lantern", "lantern render", "lantern render --theme pink x.toml", "lantern check --no x",
         "lantern render -j 0 x.toml", "lantern compare one.png"})
     EXPECT_EQ(shell(command).code, 2) << command;
+}
+
+TEST(CommandLine, WithoutAWordItSaysWhatToDoFirst) {
+  const Outcome o = shell("lantern");
+  EXPECT_EQ(o.out, "");
+  EXPECT_EQ(std::ranges::count(o.err, '\n'), 5) << o.err;
+  EXPECT_NE(o.err.find("lantern render ghost_quadtree"), o.err.npos) << o.err;
+}
+
+TEST(CommandLine, NamesAreSuggestedAndListed) {
+  const Outcome o = shell("lantern check quadtree");
+  EXPECT_EQ(o.code, 1);
+  EXPECT_NE(o.err.find("did you mean 'ghost_quadtree', 'raycast_quadtree'?"), o.err.npos) << o.err;
+  EXPECT_NE(shell("lantern check ghost_quadtre").err.find("did you mean 'ghost_quadtree'?"),
+            std::string::npos);
+  const std::string names = shell("lantern list --names " + repository("scenarios").string()).out;
+  EXPECT_NE(names.find("ghost_quadtree\n"), names.npos);
+  EXPECT_EQ(names.find(' '), names.npos);
+}
+
+TEST(CommandLine, AListFitsTheTerminal) {
+  if (!find_program("script")) GTEST_SKIP() << "no script(1)";
+  const std::string list = LANTERN_BINARY " list " + repository("scenarios").string();
+  const std::string out =
+      shell("script -qec 'stty cols 60; " + list + "' /dev/null </dev/null").out;
+  std::istringstream lines(out);
+  std::size_t longest = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    longest = std::max(longest, letters(line));
+  }
+  EXPECT_EQ(longest, 60u) << out;
+  EXPECT_GT(shell("lantern list " + repository("scenarios").string()).out.size(), out.size())
+      << "a pipe gets all";
 }
 
 TEST(CommandLine, BadSelectionsAreUsageErrors) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 #include <string>
+#include <tuple>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -294,6 +295,83 @@ TEST(Figures, AResumedRunDrawsAnewWhatIsAskedForOtherwise) {
   EXPECT_EQ(run("--format svg --text text --dpi 300"), 0) << "no matter for an SVG";
   EXPECT_NE(read_text(out / "ghost_quadtree" / "ghost_quadtree_0003.svg").find("<text "),
             std::string::npos);
+}
+
+// --- laid out for paper ---
+
+double number_after(const std::string& text, const std::string& words) {
+  const std::size_t at = text.find(words);
+  return at == text.npos ? -1 : std::stod(text.substr(at + words.size()));
+}
+
+// The smallest letters of an SVG, in points on paper.
+double least_letters(const std::string& svg) {
+  double least = 1e9;
+  for (std::size_t at = svg.find("font-size=\""); at != svg.npos;
+       at = svg.find("font-size=\"", at + 1))
+    least = std::min(least, std::stod(svg.substr(at + 11)));
+  return least * number_after(svg, " width=\"") / number_after(svg, "viewBox=\"0 0 ");
+}
+
+TEST(Figures, AreLaidOutForTheirWidthAndTheirLetters) {
+  const fs::path out = fresh_folder("figures-width");
+  double before = 1e9;
+  for (const auto& [words, width, letters] :
+       {std::tuple{"--width 8cm", 226.772, 8.0},
+        std::tuple{"--width 80mm --letters 6pt", 226.772, 6.0},
+        std::tuple{"--width 5in --letters 10pt --no-caption", 360.0, 10.0}}) {
+    const fs::path file = out / "a.svg";
+    const Outcome o = render("--frames 5 --text text -o " + file.string() + " " + words);
+    ASSERT_EQ(o.code, 0) << o.err;
+    const std::string svg = read_text(file);
+    EXPECT_NEAR(number_after(svg, " width=\""), width, 0.01);
+    EXPECT_NE(svg.find("pt\" height="), svg.npos);
+    EXPECT_GE(least_letters(svg), letters - 1e-3) << words;
+    EXPECT_LT(least_letters(svg), 1.2 * letters) << words;
+    EXPECT_NE(svg.find("candidate pair"), svg.npos) << "its description";
+    EXPECT_NE(number_after(svg, "viewBox=\"0 0 "), before) << "laid out anew";
+    before = number_after(svg, "viewBox=\"0 0 ");
+  }
+}
+
+TEST(Figures, AreOfOneSizeAndAlikeInAllFormats) {
+  const fs::path out = fresh_folder("figures-formats");
+  ASSERT_EQ(render("--width 8cm -o '" + (out / "{frame}.svg").string() + "'").code, 0);
+  std::set<double> heights;
+  for (const auto& one : fs::directory_iterator(out))
+    heights.insert(number_after(read_text(one.path()), "pt\" height=\""));
+  EXPECT_EQ(heights.size(), 1u) << "as LaTeX's animate wants them";
+  ASSERT_EQ(render("--width 8cm -o " + (out / "a.pdf").string()).code, 0);
+  const std::string pdf = read_text(out / "a.pdf");
+  EXPECT_NEAR(number_after(pdf, "/MediaBox [ 0 0 "), 226.772, 0.01);
+  ASSERT_EQ(render("--width 8cm --frames 5 -o " + (out / "a.png").string()).code, 0);
+  const std::string png = read_text(out / "a.png");
+  EXPECT_EQ(png.substr(16, 4), std::string("\0\0\x03\xb1", 4)) << "8 cm of 300 dots an inch";
+  EXPECT_NE(png.find("Description"), png.npos);
+  const Outcome one = render("--width 8cm --frames 5 -o " + (out / "one.pdf").string());
+  EXPECT_NE(read_text(out / "one.pdf").find("pairs in all"), std::string::npos) << "its subject";
+}
+
+TEST(Figures, OfOnePanelShowItAlone) {
+  const fs::path out = fresh_folder("figures-panel");
+  std::set<std::string> all;
+  for (const char* panel : {"world", "tree"}) {
+    const fs::path file = out / (std::string(panel) + ".svg");
+    const Outcome o = render("--frames 5 --text text --width 6cm --panel " + std::string(panel) +
+                             " -o " + file.string());
+    ASSERT_EQ(o.code, 0) << o.err;
+    const std::string svg = read_text(file);
+    EXPECT_EQ(count(svg, ">root</text>") > 0, std::string(panel) == "tree");
+    EXPECT_EQ(count(svg, ">Ghosts fill a quadtree</text>"), 0u);
+    EXPECT_EQ(count(svg, ">Ghosts fill a quadtree</title>"), 1u);
+    EXPECT_TRUE(all.insert(svg).second);
+  }
+  expect_refused("--panel tre -o a.svg", "did you mean 'tree'?");
+  expect_refused("--panel chart --frames 5 -o a.svg", "it has: tree, world");
+  expect_refused("--width 8cm --letters 40pt --frames 5 -o a.svg", "leave no room");
+  expect_refused("--width 8cm", "figures (--width, --letters, --panel) are");
+  expect_refused("--width 8cm --size 80x80 -o a.svg", "--size");
+  expect_refused("--width 8 --frames 5 -o a.svg", "8cm");
 }
 
 // --- letters ---

@@ -107,5 +107,24 @@ TEST(FilmClock, EachStepEndsWithAStill) {
   EXPECT_TRUE(FilmClock::is_still(at(0), at(0.1), false));
 }
 
+TEST(FilmPlan, LastsAsLongAsIsAskedFor) {
+  std::vector<Frame> frames;
+  for (int i = 0; i < 6; ++i) {
+    frames.push_back(at(0.5 * i, static_cast<std::uint32_t>(i), std::string(30 * i, 'a')));
+    frames.back().index = static_cast<std::uint32_t>(i);
+  }
+  const FilmClock::Settings clock{30};
+  const FilmPlan usual = film_plan(frames, clock, false);
+  EXPECT_GT(usual.moments, 0u);
+  for (const std::uint64_t moments : {150u, 600u, 3000u}) {
+    const FilmPlan plan = film_plan_for(moments, frames, clock, false);
+    EXPECT_EQ(plan.moments, moments);
+    EXPECT_NEAR(static_cast<double>(film_plan(frames, plan.clock, false).moments),
+                static_cast<double>(moments), 6.0);
+    EXPECT_EQ(plan.clock.slower > 1, moments > usual.moments);
+  }
+  EXPECT_THROW(film_plan_for(10, frames, clock, false), UsageError) << "what moves takes longer";
+}
+
 }  // namespace
 }  // namespace lantern::app

@@ -114,5 +114,22 @@ TEST(Forecast, UnitsFitTheSize) {
   EXPECT_EQ(duration_text(200 * 3600), "8 days");
 }
 
+// A film's frames are few and its pictures many.
+TEST(Forecast, OfAFilmIsByItsPictures) {
+  RunExtent film{9, 0};
+  film.pictures = 600;
+  RunState state = after(10, 9, 0, 10);
+  state.waiting = 3;
+  state.drawn = 200;
+  state.draw_seconds = 10;
+  EXPECT_EQ(progress_text(film, state), "200 of 600 pictures, about 20 s left");
+  state.waiting = 0;
+  state.drawn = 590;
+  state.draw_seconds = 29.5;
+  EXPECT_EQ(progress_text(film, state), "590 of 600 pictures, about 1 s left");
+  state.drawn = 600;
+  EXPECT_EQ(progress_text(film, state), "600 pictures drawn, the file is being finished");
+}
+
 }  // namespace
 }  // namespace lantern::app

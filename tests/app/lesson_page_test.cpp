@@ -62,6 +62,42 @@ TEST_F(LessonPage, IsTheSameAtEachRunAndListsItselfBesideOthers) {
   EXPECT_LT(fs::file_size(folder_ / "one/ghost_quadtree.html"), 200'000u);
 }
 
+TEST_F(LessonPage, StandsInTheOrderAskedForAndLeadsToTheNext) {
+  const std::string other = scenario("children_on_demand"), third = scenario("buckets");
+  const auto places = [&] {
+    const std::string index = read_text(folder_ / "index.html");
+    std::vector<std::size_t> at;
+    for (const char* name : {"ghost_quadtree", "children_on_demand", "buckets"})
+      at.push_back(index.find(fmt::format("href=\"{}.html\"", name)));
+    return at;
+  };
+  const auto next = [&](const char* name) {
+    const std::string page = read_text(folder_ / fmt::format("{}.html", name));
+    const std::size_t at = page.find("\"next\": {\"file\": \"");
+    return at == page.npos ? "" : page.substr(at + 18, page.find('"', at + 18) - at - 18);
+  };
+  Outcome o = render(fmt::format("{} {} {} --title 'Trees & more' -o '{}'", kGhosts, third, other,
+                                 file("{scenario}.html")));
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_EQ(next("ghost_quadtree"), "buckets.html");
+  EXPECT_EQ(next("buckets"), "children_on_demand.html");
+  EXPECT_EQ(next("children_on_demand"), "");
+  o = render(fmt::format("{} {} {} -o '{}'", other, kGhosts, third, file("{scenario}.html")));
+  EXPECT_LT(places()[1], places()[0]);
+  EXPECT_LT(places()[0], places()[2]);
+  EXPECT_NE(read_text(folder_ / "index.html").find("<h1>Trees &amp; more</h1>"), std::string::npos)
+      << "its title stays";
+  ASSERT_EQ(render(fmt::format("{} -o '{}'", kGhosts, file("{scenario}.html"))).code, 0);
+  EXPECT_LT(places()[1], places()[0]) << "its order stays";
+  // By the alphabet, as a * of the shell gives them, is no order.
+  ASSERT_EQ(
+      render(fmt::format("{} {} {} -o '{}'", third, other, kGhosts, file("new/{scenario}.html")))
+          .code,
+      0);
+  const std::string index = read_text(folder_ / "new/index.html");
+  EXPECT_LT(index.find("href=\"ghost_quadtree.html\""), index.find("href=\"buckets.html\""));
+}
+
 TEST_F(LessonPage, LeavesAnIndexAloneThatIsNotItsOwn) {
   write_text(folder_ / "index.html", "mine");
   const Outcome o = render(fmt::format("{} -o '{}'", kGhosts, file("{scenario}.html")));

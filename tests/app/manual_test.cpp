@@ -145,6 +145,15 @@ TEST(Completions, OfBashOfferWhatMayStandThere) {
   EXPECT_EQ(o.err, "");
 }
 
+TEST(Completions, OfBashOfferTheNamesOfScenarios) {
+  const fs::path folder = fresh_folder("bash-names");
+  write_text(folder / "lantern.bash", shell("lantern completions bash").out);
+  write_text(folder / "try.bash",
+             ". ./lantern.bash\nCOMP_WORDS=(" LANTERN_BINARY
+             " render ghost_q); COMP_CWORD=2; _lantern; echo ${COMPREPLY[*]}\n");
+  EXPECT_EQ(shell("cd " + folder.string() + "; bash try.bash").out, "ghost_quadtree\n");
+}
+
 TEST(Completions, AreRightForTheirShells) {
   const fs::path folder = fresh_folder("shells");
   for (const std::string name : {"bash", "zsh", "fish"}) {

@@ -115,6 +115,26 @@ TEST(Watch, TellsOfAFileThatIsGoneAndLeavesNothingBehind) {
   EXPECT_EQ(o.out, "said\nw.html\nw.toml\n");
 }
 
+TEST(Watch, ShowsAnErrorOnThePageUntilItIsMended) {
+  const fs::path home = fresh_folder("watch-error");
+  const std::string text = read_text(scenario("pong_bsp"));
+  write_text(home / "w.toml", text);
+  std::string wrong = text;
+  wrong.replace(wrong.find("[world]"), 7, "[wrold]");
+  write_text(home / "wrong", wrong);
+  const Outcome o = shell(
+      "cd " + home.string() + "; cp w.toml right" +
+      "\nenv --default-signal=HUP " LANTERN_BINARY
+      " watch w.toml --frames 0-1 -o w.html 2>said & lantern=$!\n" +
+      until("grep -q 'watching w.toml' said") + "cp w.html.version.js before\n" +
+      "cp wrong w.toml\n" + until("grep -q wrold w.html.version.js") +
+      "cp w.html.version.js during\ncp right w.toml\n" + until("cmp -s before w.html.version.js") +
+      "kill -HUP $lantern; wait $lantern; cat during; ls *.js");
+  EXPECT_NE(o.out.find("w.toml:"), std::string::npos) << o.out << o.err;
+  EXPECT_EQ(o.out.find("w.html.version.js"), std::string::npos) << "it is left behind";
+  EXPECT_NE(read_text(home / "w.html").find("lantern-error"), std::string::npos);
+}
+
 // Only what it has written, and where it has written it.
 TEST(Watch, RemovesNothingOfAnybodyElse) {
   const auto watched = [](const std::string& before, const std::string& words,

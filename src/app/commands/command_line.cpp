@@ -182,6 +182,14 @@ void owe_answer_if_wanted(const Named& named, int argc, const char* const* argv)
   owe_answer(names.empty() || !named.unknown.empty() ? "error" : names);
 }
 
+// What to do first, for whoever has given no word.
+constexpr const char* kFirst[] = {
+    "lantern list                                  the scenarios that there are",
+    "lantern render ghost_quadtree                 one of them as pictures, into output/",
+    "lantern render ghost_quadtree -o lesson.html  as a page to step through in a browser",
+    "lantern watch my.toml -o my.html              one of your own, drawn again when saved",
+    "lantern help                                  all commands; lantern help render, one of them"};
+
 struct HelpOptions {
   Words names;
 };
@@ -213,6 +221,11 @@ Run read_command_line(int argc, const char* const* argv) {
   CLI::App app;
   Run run;
   add_commands(app, run);
+  if (argc < 2)
+    return [] {
+      for (const char* line : kFirst) say(line);
+      return int{kUsage};
+    };
   const Named named = named_by(app, argc, argv);
   owe_answer_if_wanted(named, argc, argv);
   try {

@@ -32,8 +32,8 @@ constexpr Offer kOffers[] = {
     {ValueKind::none, "return", " ", ""},
     {ValueKind::free, "return", " ", ""},
     {ValueKind::words, "_lantern_words {}", "({})", " -a {}"},
-    {ValueKind::scenario, "_lantern_scenarios", "_files -g \"*.toml\"",
-     " -k -a '(__fish_complete_suffix .toml)'"},
+    {ValueKind::scenario, "_lantern_scenarios", "_lantern_scenarios",
+     " -k -a '(__fish_complete_suffix .toml; lantern list --names 2>/dev/null)'"},
     {ValueKind::folder, "_lantern_folders", "_files -/", " -a '(__fish_complete_directories)'"},
     {ValueKind::file, "_lantern_files", "_files", " -F"},
 };
@@ -76,7 +76,7 @@ std::string bash_rest(const CommandPath& path) {
 }
 
 constexpr const char* kBashHead =
-    R"(# Completion for bash: put it where bash-completion looks, or source it.
+    R"bash(# Completion for bash: put it where bash-completion looks, or source it.
 _lantern_words() { mapfile -t COMPREPLY < <(compgen -W "$1" -- "$cur"); }
 _lantern_files() {
   compopt -o filenames 2>/dev/null
@@ -88,7 +88,8 @@ _lantern_folders() {
 }
 _lantern_scenarios() {
   compopt -o filenames 2>/dev/null
-  mapfile -t COMPREPLY < <(compgen -f -X '!*.toml' -- "$cur"; compgen -d -- "$cur")
+  mapfile -t COMPREPLY < <(compgen -f -X '!*.toml' -- "$cur"; compgen -d -- "$cur"
+    [[ -z $cur || $cur == */* ]] || compgen -W "$("${COMP_WORDS[0]}" list --names 2>/dev/null)" -- "$cur")
 }
 _lantern() {
   local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} command="" i
@@ -97,7 +98,7 @@ _lantern() {
   if [[ $cur == "=" ]]; then cur=""; elif [[ $prev == "=" ]]; then prev=${COMP_WORDS[COMP_CWORD-2]}; fi
   for ((i = 1; i < COMP_CWORD; i++)); do
     case "$command ${COMP_WORDS[i]}" in
-)";
+)bash";
 
 std::string for_bash(const std::vector<CommandPath>& all) {
   std::string text = kBashHead;
@@ -172,7 +173,10 @@ std::string zsh_branches(const CommandPath& path) {
 }
 
 std::string for_zsh(const std::vector<CommandPath>& all) {
-  std::string text = "#compdef lantern\n";
+  std::string text =
+      "#compdef lantern\n_lantern_scenarios() {\n  local -a names=(${(f)\"$(lantern list --names "
+      "2>/dev/null)\"})\n  _alternative 'files:file:_files -g \"*.toml\"' "
+      "'names:scenario:compadd -a names'\n}\n";
   for (const CommandPath& path : all)
     text += fmt::format(
         "{}() {{\n{}}}\n", zsh_function(path),

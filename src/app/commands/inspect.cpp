@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -302,12 +303,13 @@ int print_course(const std::vector<std::string>& files) {
 
 struct ListOptions {
   std::vector<std::string> folders;
-  bool course = false, json = false;
+  bool course = false, json = false, names = false;
 };
 
 Options list_options(ListOptions& o) {
   return {{"DIR", &o.folders, "folders or files; the default is scenarios"},
           json_option(o.json),
+          {"--names", &o.names, "names alone, a line each", OptionTraits{.without = "--json"}},
           {"--course", &o.course,
            "run them, and print the course as Markdown: ideas, what comes before, questions "
            "with their answers",
@@ -331,9 +333,33 @@ void add_member(JsonWriter& json, const Scenario& s) {
   json.end_object();
 }
 
+// Lines no longer than that; on no terminal as they are.
+std::string cut_to(std::optional<std::size_t> width, const std::string& lines) {
+  if (!width) return lines;
+  std::string cut;
+  std::istringstream each(lines);
+  for (std::string line; std::getline(each, line);) {
+    const bool fits = letters(line) <= *width;
+    for (bool is_whole = fits; !is_whole; is_whole = letters(line) < *width) {
+      const auto begins_letter = [](char c) { return (c & 0xc0) != 0x80; };
+      line.erase(std::find_if(line.rbegin(), line.rend(), begins_letter).base() - 1, line.end());
+    }
+    cut += line + (fits ? "\n" : "…\n");
+  }
+  return cut;
+}
+
 int list_scenarios(const ListOptions& options) {
   const std::vector<std::string> files = listed_files(options.folders);
   if (options.course) return print_course(files);
+  if (options.names) {
+    std::string names;
+    for (const std::string& file : files) names += fs::path(file).stem().string() + "\n";
+    print(names);
+    return kGood;
+  }
+  constexpr std::size_t kWithIdeas = 120, kWithoutIdea = 3;
+  const auto width = terminal_width();
   std::vector<std::vector<std::string>> rows;
   JsonWriter json = answer_of("list");
   json.line().key("scenarios").begin_array();
@@ -341,10 +367,11 @@ int list_scenarios(const ListOptions& options) {
   for (const std::string& file : files)
     if (const auto scenario = load_or_complain(file, code)) {
       rows.push_back(row_of(*scenario));
+      if (width && *width < kWithIdeas) rows.back().resize(kWithoutIdea);
       add_member(json, *scenario);
     }
   json.line().end_array().line().end_object();
-  options.json ? answer(json.text()) : print(table(rows));
+  options.json ? answer(json.text()) : print(cut_to(width, table(rows)));
   return code;
 }
 

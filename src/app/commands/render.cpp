@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -39,10 +40,12 @@ Options watch_options(RenderOptions& o) {
        OptionTraits{.value = "WxH"}},
       {"--paper", &o.paper, "of a sheet, upright or lying as its pictures get larger",
        OptionTraits{.words = {"a4", "letter"}, .without = "--size"}},
-      {"--letters", &o.letters, "the smallest letters on paper; the default is 6pt on a sheet, 8pt of a figure",
+      {"--letters", &o.letters,
+       "the smallest letters on paper; the default is 6pt on a sheet, 8pt of a figure",
        OptionTraits{.value = "LENGTH"}},
       {"--width", &o.width,
-       "of a figure on paper, 8cm: pictures are laid out anew for it, with letters of 8 pt, as high "
+       "of a figure on paper, 8cm: pictures are laid out anew for it, with letters of 8 pt, as "
+       "high "
        "as their panels want, and cut to what is drawn; into .pdf, .svg or .png",
        OptionTraits{.value = "LENGTH", .without = "--size,--sheet"}},
       {"--panel", &o.panel, "of a figure this panel alone: world, tree, chart, ...",
@@ -67,6 +70,12 @@ Options watch_options(RenderOptions& o) {
        "how long a film stands still where nothing moves, seconds; the default is as long "
        "as it takes to read the caption",
        OptionTraits{.value = "S", .most = 3600}},
+      {"--length", &o.length,
+       "how long a film is, seconds: its stills stand as much longer or shorter",
+       OptionTraits{.value = "S", .most = 36000, .above_0 = true, .without = "--hold"}},
+      {"--title", &o.title,
+       "of the page that lists the lessons of a folder; the default is its own",
+       OptionTraits{.value = "WORDS"}},
       {"--theme", &o.theme, "colours", {.words = kThemes}},
       pace_option(o.pace, "one frame per step, or one for each thing the algorithm does"),
       {"--png", &o.png, "fast to write, or small",
@@ -150,12 +159,41 @@ void tell_of(const FileSink::Made& made, const Scenario& scenario, const Directo
   say(fmt::format("{}: {} in {}{}", scenario.name, counted(made.frames, "frame"), where, length));
 }
 
+// In which lessons follow each other: as they were named; but in the order of the lecture, if they
+// were named by the alphabet, as a * of the shell does it.
+struct Course {
+  std::vector<const Scenario*> lessons;
+  bool is_asked = false;  // it is another order than that of the lecture
+
+  const Scenario* after(const Scenario& one) const {
+    const auto place = std::ranges::find(lessons, &one);
+    return place == lessons.end() || place + 1 == lessons.end() ? nullptr : place[1];
+  }
+};
+
+Course course_of(const std::vector<Scenario>& scenarios) {
+  Course course;
+  for (const Scenario& one : scenarios) course.lessons.push_back(&one);
+  auto taught = course.lessons;
+  std::ranges::sort(taught, {}, [](const Scenario* one) {
+    return std::tuple(!one->lecture, one->lecture, one->name);
+  });
+  course.is_asked =
+      taught != course.lessons && !std::ranges::is_sorted(scenarios, {}, &Scenario::name);
+  if (!course.is_asked) course.lessons = std::move(taught);
+  return course;
+}
+
 // Of the lesson pages that stand in one folder, a file a scenario, a page that lists them.
-void list_lessons(const Destination& to) {
+void list_lessons(const Destination& to, const Course& course, const std::string& title) {
   if (to.kind() != OutputKind::page || !to.is_a_folder_of_scenarios()) return;
   const auto folder = to.file({}).parent_path();
   const auto index = folder / "index.html";
-  const bool written = publish::write_lesson_index(Folder(folder));
+  std::vector<std::string> order;
+  if (course.is_asked)
+    for (const Scenario* one : course.lessons)
+      order.push_back(to.file({one->name}).filename().string());
+  const bool written = publish::write_lesson_index(Folder(folder), order, title);
   say(written ? fmt::format("all lessons there are listed in {}", index.string())
               : fmt::format("{} is not of this kind and was left alone", index.string()));
 }
@@ -170,7 +208,8 @@ void write_shared(PaperForAll& paper, Work& work) {
 
 // Draws scenario `index`, or the shard's part of it; the exit code that it deserves.
 int render_one(const RenderJob& its, const Destination& to, const Scenario& scenario, Work& work,
-               JsonWriter& json, RenderShard& shard, std::size_t index, PaperForAll* paper) {
+               JsonWriter& json, RenderShard& shard, std::size_t index, PaperForAll* paper,
+               const Scenario* next) {
   const RenderOptions& options = its.options;
   const bool is_sheet = to.kind() == OutputKind::sheet;
   const Pace pace = is_sheet && options.pace.empty() ? Pace::step : pace_of(options.pace, scenario);
@@ -181,7 +220,7 @@ int render_one(const RenderJob& its, const Destination& to, const Scenario& scen
     lay_out_figure({*figure, to, scenario, pace, selection, work}, *figure);
   }
   const RenderJob& job = figure ? *figure : its;
-  const Sequence sequence{job, to, scenario, pace, selection, work, paper};
+  const Sequence sequence{job, to, scenario, pace, selection, work, paper, next};
   if (to.kind() != OutputKind::folder) {
     const auto sink = make_file_sink(sequence);
     const RunResult result = run_scenario(scenario, pace, *sink, work, selection.most());
@@ -229,7 +268,10 @@ void require_fit(const RenderOptions& options, const Destination& to, std::size_
   if (options.is_figure() && kind != OutputKind::document && kind != OutputKind::picture &&
       !is_stdout)
     refuse("figures (--width, --letters, --panel) are .pdf, .svg or .png");
-  if (options.hold && !is_film) refuse("only a film is held (--hold), such as talk.mp4");
+  if ((options.hold || options.length) && !is_film)
+    refuse("only a film is held or has a length (--hold, --length), such as talk.mp4");
+  if (!options.title.empty() && !(kind == OutputKind::page && to.is_a_folder_of_scenarios()))
+    refuse("only a list of lessons has a title (--title): 'lessons/{scenario}.html'");
   if (is_folder || is_stdout) return;
   if (options.format_given && options.format != to.ending())
     refuse(fmt::format("the ending says what it becomes; leave out --format {}", options.format));
@@ -255,12 +297,15 @@ int draw_scenarios(const RenderOptions& asked) {
   JsonWriter json = answer_of("render");
   json.line().key("scenarios").begin_array();
   RenderShard shard(job, scenarios);
+  const Course course = course_of(scenarios);
   PaperForAll paper;
   PaperForAll* const shared = files.size() > 1 && to.is_one_document() ? &paper : nullptr;
   bool whole = scenarios.size() == files.size();
   for (std::size_t i = 0; i < scenarios.size(); ++i) {
     try {
-      code = std::max(code, render_one(job, to, scenarios[i], work, json, shard, i, shared));
+      code = std::max(
+          code, render_one(job, to, scenarios[i], work, json, shard, i, shared,
+                           to.is_a_folder_of_scenarios() ? course.after(scenarios[i]) : nullptr));
     } catch (const ScenarioError& e) {
       complain(e);
       code = std::max(code, exit_code_of(e));
@@ -274,7 +319,7 @@ int draw_scenarios(const RenderOptions& asked) {
   }
   if (whole) shard.finish();
   if (whole && shared) write_shared(paper, work);
-  list_lessons(to);
+  list_lessons(to, course, options.title);
   json.line().end_array().line().key("work");
   write(json, work);
   json.line().end_object();

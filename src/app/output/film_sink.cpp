@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 #include "app/output/sinks.hpp"
 #include "app/terminal.hpp"
 #include "base/error.hpp"
@@ -40,11 +42,29 @@ FilmSettings film_settings(const Sequence& s) {
   return film;
 }
 
+FilmPlan plan_of(const Sequence& of, double rate) {
+  const RenderOptions& o = of.job.options;
+  const FilmClock::Settings clock{rate, o.hold, o.tween};
+  const bool clips = of.to.is_by("step");
+  std::vector<Frame> chosen;  // of each what a plan needs
+  look_at_chosen(of, [&](const Frame& frame, const Staging&) {
+    Frame& one = chosen.emplace_back();
+    one.index = frame.index, one.step = frame.step, one.time = frame.time;
+    one.caption = frame.caption;
+  });
+  const FilmPlan plan = o.length ? film_plan_for(pictures(*o.length, rate), chosen, clock, clips)
+                                 : film_plan(chosen, clock, clips);
+  say(fmt::format("{}: {:.1f} s, {} pictures to draw", of.scenario.name,
+                  static_cast<double>(plan.moments) / rate, plan.pictures));
+  return plan;
+}
+
 // All chosen frames as one film, or, where {step} stands in its name, as a clip a step. A clip
 // begins with the still that the one before ended on.
 class FilmSink : public FileSink {
  public:
   using FileSink::FileSink;
+  std::optional<std::uint64_t> pictures() const override { return plan_.pictures; }
 
  protected:
   void take(const Frame& frame, const Staging& staging) override {
@@ -58,6 +78,7 @@ class FilmSink : public FileSink {
     const Frame& last = walk_.here();
     show(last, walk_.page(), clock_.now());
     clock_.hold(last);
+    clock_.hold_until(plan_.moments - plan_.twice);
     finish_film();
   }
 
@@ -114,7 +135,8 @@ class FilmSink : public FileSink {
   const fs::path ffmpeg_ = require_ffmpeg();
   const bool is_clips_ = of_.to.is_by("step");
   FrameWalk walk_{of_.job, of_.work};
-  FilmClock clock_{{settings_.rate, of_.job.options.hold, of_.job.options.tween}};
+  const FilmPlan plan_ = plan_of(of_, settings_.rate);
+  FilmClock clock_{plan_.clock};
   std::optional<Film> film_;  // that is being made,
   fs::path file_;             // of this name,
   std::uint64_t begun_ = 0;   // begun at this moment
@@ -122,6 +144,50 @@ class FilmSink : public FileSink {
 };
 
 }  // namespace
+
+FilmPlan film_plan(const std::vector<Frame>& frames, const FilmClock::Settings& clock, bool clips) {
+  FilmPlan plan{clock};
+  FilmClock now(clock);
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    const Frame &a = frames[i - 1], &b = frames[i];
+    const bool goes_on = a.index + 1 == b.index;
+    if (FilmClock::is_still(a, b, goes_on)) {
+      now.hold(a);
+      ++plan.pictures;
+      plan.twice += clips && goes_on && a.step != b.step;
+    }
+    plan.pictures += now.way(a, b, goes_on).size();
+  }
+  now.hold(frames.back());
+  plan.pictures += 1 + plan.twice;
+  plan.moments = now.now() + plan.twice;
+  return plan;
+}
+
+FilmPlan film_plan_for(std::uint64_t moments, const std::vector<Frame>& frames,
+                       FilmClock::Settings clock, bool clips) {
+  const auto at = [&](double slower) {
+    clock.slower = slower;
+    return film_plan(frames, clock, clips);
+  };
+  FilmPlan best = at(0);
+  if (best.moments > moments)
+    throw UsageError("--length {:.4g}: what moves takes {:.1f} s; choose fewer frames (--frames)",
+                     static_cast<double>(moments) / clock.rate,
+                     static_cast<double>(best.moments) / clock.rate);
+  constexpr double kSlowest = 1e6;
+  double least = 0, most = 1;
+  while (most < kSlowest && at(most).moments <= moments) most *= 2;
+  for (int i = 0; i < 50; ++i) {
+    const double middle = 0.5 * (least + most);
+    FilmPlan plan = at(middle);
+    const bool fits = plan.moments <= moments;
+    (fits ? least : most) = middle;
+    if (fits) best = std::move(plan);
+  }
+  best.moments = moments;
+  return best;
+}
 
 bool FilmClock::is_still(const Frame& a, const Frame& b, bool goes_on) {
   return !goes_on || a.step != b.step || !is_one_movement(a, b);
@@ -142,7 +208,7 @@ double FilmClock::seconds_of(const Frame& still) {
 
 void FilmClock::hold(const Frame& still) {
   see(still);
-  now_ += pictures(seconds_of(still), settings_.rate);
+  now_ += pictures(settings_.slower * seconds_of(still), settings_.rate);
   moving_ = false;
 }
 

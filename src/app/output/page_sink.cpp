@@ -52,8 +52,11 @@ class PageSink : public FileSink {
       throw UsageError(
           "a lesson page makes in-betweens itself, while it plays: leave out --tween and --fps");
     if (options_.transparent)
-      throw UsageError("a lesson page has a ground of its own: leave out --transparent");
+      throw UsageError(
+          "a lesson page has a ground of its own: leave out --transparent, and open it as "
+          "lesson.html?ground=none");
     if (s.selection.takes_all()) require_few(expected_.value_or(0));
+    if (s.next) lesson_.set_next(s.to.file({s.next->name}).filename().string(), s.next->title);
     if (!options_.live) return;
     engine_ = &packed_engine(options_.engine);
     lesson_.make_live({{live_scenario(s.scenario)}, has_list_beside() ? "" : *engine_});

@@ -170,34 +170,6 @@ DrawList bare_picture(const Sequence& of, const Frame& frame, const Staging& sta
   return draw_frame(bare, staging, layout.picture(), of.work);
 }
 
-// A run that tells how many pages there are, and on which sheet all panels have room.
-class SheetTrial : public StagedSink {
- public:
-  SheetTrial(const Sequence& of, std::vector<publish::SheetLayout> layouts)
-      : of_(of), selection_(of.selection), layouts_(std::move(layouts)) {
-    run_scenario(of.scenario, of.pace, *this, of.work, selection_.most());
-  }
-  const publish::SheetLayout& layout() const { return layouts_[chosen_]; }
-  std::uint64_t pages() const {
-    return (frames_ + layout().grid().pictures() - 1) / layout().grid().pictures();
-  }
-
- private:
-  void draw(const Frame& frame, const Staging& staging) override {
-    if (!selection_.takes(frame) || !(ends_step() || !of_.is_by_step())) return;
-    ++frames_;
-    while (chosen_ + 1 < layouts_.size() && bare_picture(of_, frame, staging, layout()).left_out)
-      ++chosen_;
-  }
-  void close(const DirectorReport&) override { selection_.require_some(); }
-
-  const Sequence& of_;
-  Selection selection_;  // as it is before the run
-  std::vector<publish::SheetLayout> layouts_;
-  std::size_t chosen_ = 0;
-  std::uint64_t frames_ = 0;
-};
-
 // Makes pages: PNG or PDF.
 class SheetSink : public PaperSink {
  public:
@@ -205,16 +177,21 @@ class SheetSink : public PaperSink {
     if (sequence.to.is_by("step"))
       sequence.refuse(
           "steps share the pages of a sheet; write {frame}, which is the first one of each page");
-    std::vector<publish::SheetLayout> layouts = layouts_of(sequence.job);
+    const std::vector<publish::SheetLayout> layouts = layouts_of(sequence.job);
     is_pdf_ = sequence.to.ending() == "pdf";
     if (is_pdf_)
       begin_document();
     else
       begin_pictures(layouts.front().paper());
-    const bool by_step = sequence.is_by_step();
-    const SheetTrial trial(sequence, std::move(layouts));
-    layout_ = trial.layout();
-    pages_ = trial.pages();
+    auto layout = layouts.begin();  // on which all panels have room
+    std::uint64_t frames = 0;
+    look_at_chosen(of_, [&](const Frame& frame, const Staging& staging) {
+      ++frames;
+      while (layout + 1 != layouts.end() && bare_picture(of_, frame, staging, *layout).left_out)
+        ++layout;
+    });
+    layout_ = *layout;
+    pages_ = (frames + layout->grid().pictures() - 1) / layout->grid().pictures();
     const auto& [columns, rows] = layout_->grid();
     if (const auto grid = fmt::format("{}x{}", columns, rows); grid != sequence.job.options.sheet)
       say(fmt::format("{}: {} pictures a page have no room with letters of {:.3g} pt: {} it is",
@@ -225,7 +202,6 @@ class SheetSink : public PaperSink {
           "a PNG is one page, and these are {}; write {{frame}} in its name, make it a .pdf, or "
           "choose fewer frames (--frames, --at)",
           pages_));
-    by_step_ = by_step;
   }
 
  protected:
@@ -235,7 +211,7 @@ class SheetSink : public PaperSink {
       title_ = of_.job.display_of(frame).title ? frame.title : "";
     }
     waiting_.push_back({bare_picture(of_, frame, staging, *layout_),
-                        fmt::format("{}", (by_step_ ? frame.step : frame.index) + 1),
+                        fmt::format("{}", (of_.is_by_step() ? frame.step : frame.index) + 1),
                         description_of(frame, of_.job.display_of(frame))});
     if (waiting_.size() == layout_->grid().pictures()) add_page();
   }
@@ -296,7 +272,7 @@ class SheetSink : public PaperSink {
   }
 
   std::optional<publish::SheetLayout> layout_;
-  bool is_pdf_ = false, by_step_ = false;
+  bool is_pdf_ = false;
   Renderer* renderer_ = nullptr;  // of a PNG
   Image image_;
   std::uint64_t pages_ = 0, page_ = 0, in_document_ = 0;

@@ -143,7 +143,8 @@ RenderJob::RenderJob(const RenderOptions& o)
   letters = !o.letters.empty() ? parse_length("--letters", o.letters)
             : o.sheet.empty()  ? 0
                                : publish::SheetLayout::kLeastPoints;
-  width = o.width.empty() ? picture.width * kInch / kUsualDots : parse_length("--width", o.width);
+  on_paper =
+      o.width.empty() ? picture.width * kInch / kUsualDots : parse_length("--width", o.width);
   const std::vector<std::string_view> panels = names(language::Panel());
   if (!o.panel.empty() && std::ranges::find(panels, o.panel) == panels.end())
     throw UsageError(with_suggestion(fmt::format("--panel {}: there is no such panel", o.panel),
@@ -165,7 +166,7 @@ Display RenderJob::display_of(const Frame& frame) const {
 }
 
 Vec<2> RenderJob::points() const {
-  if (figure_) return figure_->part.size() * (width / figure_->part.size().x);
+  if (figure_) return figure_->part.size() * (on_paper / figure_->part.size().x);
   return Vec<2>(picture.width, picture.height) * (kInch / dpi);
 }
 
@@ -260,12 +261,14 @@ std::string description_of(const Frame& frame, const Display& of) {
   return text;
 }
 
-std::vector<PngText> texts_of(const Frame& frame) {
-  return {{"Title", frame.title},
-          {"Software", fmt::format("Lantern {}", kVersion)},
-          {"Scenario", frame.scenario},
-          {"Frame", fmt::format("{}", frame.index)},
-          {"Seed", fmt::format("{}", frame.seed)}};
+std::vector<PngText> texts_of(const Frame& frame, const RenderOptions& options) {
+  std::vector<PngText> texts = {{"Title", frame.title},
+                                {"Software", fmt::format("Lantern {}", kVersion)},
+                                {"Scenario", frame.scenario},
+                                {"Frame", fmt::format("{}", frame.index)},
+                                {"Seed", fmt::format("{}", frame.seed)}};
+  if (options.is_figure()) texts.push_back({"Description", description_of(frame)});
+  return texts;
 }
 
 std::string picture_of(const RenderJob& job, const Pipeline::Config& as, const Frame& frame,
@@ -279,7 +282,8 @@ std::string picture_of(const RenderJob& job, const Pipeline::Config& as, const F
   job.renderer(as.width, as.height, work).draw(list, as.theme, as.transparent, image);
   ++work.frames_drawn;
   ++work.frames_encoded;
-  return sealed(FileKind::png, encode_png(image, as.effort, texts_of(frame), as.pixels_per_metre),
+  return sealed(FileKind::png,
+                encode_png(image, as.effort, texts_of(frame, job.options), as.pixels_per_metre),
                 from);
 }
 

@@ -80,6 +80,8 @@ struct RenderOptions {
       false;  // a page loads itself again when it was made again (app/output/watch.hpp)
   std::string shard = "";                        // "2/4": the second of four parts; empty for all
   std::optional<double> hold = std::nullopt;     // seconds of each still of a film
+  std::optional<double> length = std::nullopt;   // or of the film
+  std::string title = "";                        // of an index of lessons
   bool format_given = false, png_given = false;  // on the command line
   bool live = false;                             // a lesson page carries the engine
   std::string engine = "";                       // its file; empty for where it is looked for
@@ -121,9 +123,9 @@ struct RenderJob {
   Backend backend = Backend::automatic;
   FileKind format = FileKind::png;  // of a frame's picture, where it is a file
   InBetweens in_betweens;
-  double letters = 0;  // on paper, points, at least; 0 for the usual ones
-  double width = 0;    // of the picture on paper, points
-  double dpi = 0;      // there
+  double letters = 0;   // on paper, points, at least; 0 for the usual ones
+  double on_paper = 0;  // the width of the picture, points
+  double dpi = 0;       // there
 
   // What of the frame is shown: as the scenario has it, and the command line.
   Display display_of(const Frame& frame) const;
@@ -161,8 +163,8 @@ struct RenderJob {
 std::string description_of(const Frame& frame, const Display& of);
 inline std::string description_of(const Frame& frame) { return description_of(frame, Display()); }
 
-// What a PNG says of its frame.
-std::vector<PngText> texts_of(const Frame& frame);
+// What a PNG says of its frame. Beside a figure lie no facts: it is described.
+std::vector<PngText> texts_of(const Frame& frame, const RenderOptions& options = {});
 
 // A whole file, sealed, in the job's format; `as` tells size and style, which the job's own
 // pictures take from job.picture.

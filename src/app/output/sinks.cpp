@@ -67,7 +67,28 @@ bool Sequence::is_by_step() const {
 }
 
 void FileSink::draw(const Frame& frame, const Staging& staging) {
-  if (of_.selection.takes(frame) && (ends_step() || !of_.is_by_step())) take(frame, staging);
+  if (of_.takes(frame, ends_step(), of_.selection)) take(frame, staging);
+}
+
+void look_at_chosen(const Sequence& sequence,
+                    const std::function<void(const Frame&, const Staging&)>& look) {
+  using Look = std::function<void(const Frame&, const Staging&)>;
+  class Looking : public StagedSink {
+   public:
+    Looking(const Sequence& of, const Look& look)
+        : of_(of), selection_(of.selection), look_(look) {}
+
+   private:
+    void draw(const Frame& frame, const Staging& staging) override {
+      if (of_.takes(frame, ends_step(), selection_)) look_(frame, staging);
+    }
+    void close(const DirectorReport&) override { selection_.require_some(); }
+
+    const Sequence& of_;
+    Selection selection_;  // as it is before the run
+    const Look& look_;
+  } sink(sequence, look);
+  run_scenario(sequence.scenario, sequence.pace, sink, sequence.work, sequence.selection.most());
 }
 
 void FileSink::close(const DirectorReport&) {
@@ -111,7 +132,7 @@ class PictureSink : public FileSink {
     const MadeFrom from = from_.frame_from(frame.index);
     if (of_.to.is_by("frame") && of_.job.format == FileKind::png) {
       if (!pipeline_) pipeline_ = of_.job.make_pipeline(of_.work);
-      pipeline_->submit(list, texts_of(frame), place_of(file), from);
+      pipeline_->submit(list, texts_of(frame, of_.job.options), place_of(file), from);
       ++made_.frames;
       made_.files.push_back(file);
       return;
@@ -281,7 +302,7 @@ class FolderSink : public StagedSink {
       write_counted(file, picture_of(job_, job_.picture, frame, list, from, of_.work));
       ++of_.work.frames_written;
     } else {
-      pipeline().submit(list, texts_of(frame), {folder_->folder(), file}, from);
+      pipeline().submit(list, texts_of(frame, job_.options), {folder_->folder(), file}, from);
       written_.insert(file);
     }
   }

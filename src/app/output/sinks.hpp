@@ -1,9 +1,11 @@
 // Where frames go that are drawn: they wait until all are there that share a layout with them.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -64,10 +66,14 @@ struct Sequence {
   Pace pace;
   Selection& selection;
   Work& work;
-  PaperForAll* paper = nullptr;  // the document that all scenarios share, if they do
+  PaperForAll* paper = nullptr;    // the document that all scenarios share, if they do
+  const Scenario* next = nullptr;  // whose lesson page comes after this one
 
   // Of a sheet a picture a step, the last one, unless frames are chosen or events asked for.
   bool is_by_step() const;
+  bool takes(const Frame& frame, bool ends_step, Selection& asked) const {
+    return asked.takes(frame) && (ends_step || !is_by_step());
+  }
   fs::path file_of(const Frame& frame) const {
     return to.file({scenario.name, frame.step, frame.index});
   }
@@ -143,6 +149,7 @@ class FilmClock {
     std::optional<double> hold = std::nullopt;  // seconds of each still, whatever its words
     // Different ones between two frames; none: all that the rate has room for; 0: cuts.
     std::optional<std::uint64_t> in_betweens = std::nullopt;
+    double slower = 1;  // stills stand so many times as long
   };
   explicit FilmClock(const Settings& settings) : settings_(settings) {}
 
@@ -154,6 +161,8 @@ class FilmClock {
 
   // The frame is shown from now on, as a still. When that ends is the new now().
   void hold(const Frame& still);
+  // And until this moment.
+  void hold_until(std::uint64_t moment) { now_ = std::max(now_, moment); }
 
   // What is shown on the way from `a` to `b`, `b` itself left out; 0 is `a`. Then it is b's turn.
   struct Shot {
@@ -177,9 +186,26 @@ class FilmClock {
   std::uint64_t words_since_ = 0;  // from this moment on
 };
 
+// A run in which the chosen frames are only looked at, before that in which they are drawn.
+void look_at_chosen(const Sequence& sequence,
+                    const std::function<void(const Frame&, const Staging&)>& look);
+
 // Lays the chosen frames out for paper, in a run of their own, so that all have room on one page,
 // and tells the job. Throws UsageError if they have none.
 void lay_out_figure(const Sequence& sequence, RenderJob& job);
+
+// How long a film of these frames is, and of how many pictures. Of a frame counts when it is, its
+// step and its caption.
+struct FilmPlan {
+  FilmClock::Settings clock;
+  std::uint64_t moments = 0, pictures = 0;
+  std::uint64_t twice = 0;  // of the moments: with what one clip ends the next one begins
+};
+FilmPlan film_plan(const std::vector<Frame>& frames, const FilmClock::Settings& clock, bool clips);
+// The same of a film that lasts so many moments: its stills stand as much longer or shorter, and
+// the last one for what is left. Throws UsageError if what moves takes longer.
+FilmPlan film_plan_for(std::uint64_t moments, const std::vector<Frame>& frames,
+                       FilmClock::Settings clock, bool clips);
 
 // The sink for this kind of output, which is no folder.
 std::unique_ptr<FileSink> make_file_sink(const Sequence& sequence);

@@ -28,9 +28,14 @@ std::optional<std::uint64_t> hash_of(const std::string& file) try {
 constexpr const char* kScript = R"(<script>
 (() => {{
   let known = null;
-  window.lanternVersion = version => {{
+  const told = document.createElement("pre");
+  told.id = "lantern-error";
+  told.style = "position:fixed;z-index:99;inset:0 0 auto;max-height:60vh;overflow:auto;margin:0;padding:1rem;background:#8a1c1c;color:#fff;white-space:pre-wrap";
+  window.lanternVersion = (version, error = "") => {{
     if (known !== null && known !== version) location.reload();
     known = version;
+    told.textContent = error;
+    error ? document.body.append(told) : told.remove();
   }};
   setInterval(() => {{
     const script = document.createElement("script");
@@ -46,6 +51,7 @@ constexpr std::string_view kCall = "lanternVersion(";
 
 struct Version {
   FilePlace place;
+  std::uint64_t version = 0;
   std::string bytes;
 };
 
@@ -70,15 +76,29 @@ std::string script_string(std::string_view text) {
   return quoted;
 }
 
+std::string call_of(std::uint64_t version, const std::string& error) {
+  return fmt::format("{}\"{:016x}\"{});\n", kCall, version,
+                     error.empty() ? "" : ", " + script_string(error));
+}
+
 constexpr auto kLook = std::chrono::milliseconds(25);  // a signal is heard as soon
 
 // What is wrong with a scenario, or with what was asked of it, may be mended by the next save: it
 // is said, and the watch goes on. A machine without graphics will not be.
+// The pages are told, too.
 void render_and_tell(const RenderOptions& options) {
+  std::string errors;
+  hear_errors(&errors);
   try {
     draw_scenarios(options);
   } catch (const UsageError& e) {
     complain(e.what());
+  } catch (const IoError& e) {
+    complain(e.what());
+  }
+  hear_errors(nullptr);
+  try {
+    tell_error(errors);
   } catch (const IoError& e) {
     complain(e.what());
   }
@@ -150,10 +170,20 @@ void require_version_place(const FilePlace& page) {
 
 void tell_version(const FilePlace& page, std::string_view bytes) {
   const FilePlace place(page.folder, version_file(page.name));
-  const std::string text = fmt::format("{}\"{:016x}\");\n", kCall, Hash().add(bytes).value());
+  const std::uint64_t version = Hash().add(bytes).value();
+  const std::string text = call_of(version, "");
   write_file(place, text);
   std::erase_if(written(), [&](const Version& old) { return old.place.path() == place.path(); });
-  written().push_back({place, text});
+  written().push_back({place, version, text});
+}
+
+void tell_error(const std::string& error) {
+  for (Version& one : written()) {
+    std::string text = call_of(one.version, error);
+    if (text == one.bytes || standing(one.place) != one.bytes) continue;
+    write_file(one.place, text);
+    one.bytes = std::move(text);
+  }
 }
 
 void forget_versions() noexcept {

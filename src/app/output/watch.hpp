@@ -56,6 +56,10 @@ void require_version_place(const FilePlace& page);
 // Writes PAGE.version.js, when the page stands with these bytes. Throws IoError.
 void tell_version(const FilePlace& page, std::string_view bytes);
 
+// Tells all such pages what is wrong with what they were made from, which they then show; empty
+// text takes it away. Throws IoError.
+void tell_error(const std::string& error);
+
 // Removes what tell_version wrote in this process, where it stands as it was written: nobody makes
 // the pages again. One that a killed process has left tells a page what it knows, until the next
 // one writes it anew.
