@@ -178,6 +178,32 @@ def check_in_a_deck(page):
     page.wait_for("told.includes('{\"method\":\"next\"}')")
 
 
+def check_next_and_slides():
+    """Lessons of a folder lead on; a page takes its colours from its address, and waits with printing."""
+    lantern("render", SCENARIO, ROOT / "scenarios/pong_bsp.toml", "-o", FOLDER / "course/{scenario}.html", "--size", "960x540")
+    with Browser(SIZE) as page:
+        page.open((FOLDER / "course/pong_bsp.html").as_uri() + "?theme=dark&ground=none")
+        page.wait_for("window.lantern && window.lantern.facts")
+        expect("it opens dark", page.run("return document.documentElement.dataset.theme"), "dark")
+        expect("and without a ground", page.run("return getComputedStyle(document.documentElement).backgroundColor"), "rgba(0, 0, 0, 0)")
+        page.press("end")
+        expect("next leads on", page.run("const n = document.getElementById('next'); return [n.disabled, n.title.slice(0, 18)]"),
+               [False, "Next lesson: Tiles"])
+        page.press("right")
+        page.wait_for("window.lantern && window.lantern.facts && location.pathname.endsWith('lesson.html')")
+        expect("in the same colours", page.run("return document.documentElement.dataset.theme"), "dark")
+        page.press("end")
+        expect("the last one ends", page.run("return document.getElementById('next').disabled"))
+        page.open((FOLDER / "lesson.html").as_uri() + "?theme=grey")
+        page.wait_for("window.lantern && window.lantern.facts")
+        expect("it opens grey", page.run("return document.documentElement.dataset.theme"), "print")
+        page.run("delete document.documentElement.dataset.ready")
+        page.cdp("Emulation.setEmulatedMedia", media="print")
+        expect("on paper before it is ready the plain page", page.run("return getComputedStyle(document.getElementById('plain')).display"), "block")
+        page.run("document.documentElement.dataset.ready = 1")
+        expect("and no more when it is", page.run("return getComputedStyle(document.getElementById('plain')).display"), "none")
+
+
 def check_phone(address):
     middle = "const r = document.querySelector(arguments[0]).getBoundingClientRect(); const at = [r.x + r.width / 2, r.y + r.height / 2];"
 
@@ -245,6 +271,7 @@ def main():
         check_pictures(page, 1, "dark")
         check_in_a_deck(page)
         expect("no script fails", page.errors(), [])
+    check_next_and_slides()
     check_phone(address)
     check_plain(address)
     for failure in failures:
