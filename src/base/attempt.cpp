@@ -33,7 +33,7 @@ namespace lantern {
 namespace {
 
 constexpr int kListening = 20;  // milliseconds after which a wish to stop is heard
-constexpr rlim_t kMostWords = 16 << 20, kTailOfWords = 16 << 10, kStack = 8 << 20;
+constexpr rlim_t kStack = 8 << 20;
 constexpr std::uintptr_t kAboutStack = 1 << 20, kPage = 4096;
 
 // What both see.
@@ -87,14 +87,14 @@ void explain_faults() {
 }
 
 [[noreturn]] void be_the_copy(const AttemptLimits& limits, FunctionRef<void(Tell)> f, Note* both,
-                              int told, int words, pid_t parent) {
+                              int told, pid_t parent) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);
   for (const int wish : {SIGINT, SIGTERM}) std::signal(wish, SIG_IGN);  // the parent hears it
-  for (const int output : {STDOUT_FILENO, STDERR_FILENO}) ::dup2(words, output);
-  const rlimit no_core{}, most_words{kMostWords, kMostWords};
+  if (!limits.aloud) ::dup2(::open("/dev/null", O_WRONLY), STDERR_FILENO);
+  ::dup2(STDERR_FILENO, STDOUT_FILENO);
+  const rlimit no_core{};
   ::setrlimit(RLIMIT_CORE, &no_core);
-  ::setrlimit(RLIMIT_FSIZE, &most_words);
   set_memory_budget(std::min(limits.bytes, memory_budget()));
   enforce_memory_budget();
   explain_faults();
@@ -116,7 +116,7 @@ void explain_faults() {
 
 struct Copy {
   pid_t process = -1;
-  int told = -1, words = -1;
+  int told = -1;
   int status = 0;
 
   ~Copy() {
@@ -124,8 +124,7 @@ struct Copy {
       ::kill(process, SIGKILL);
       while (::waitpid(process, nullptr, 0) < 0 && errno == EINTR) continue;
     }
-    for (const int number : {told, words})
-      if (number >= 0) ::close(number);
+    if (told >= 0) ::close(told);
   }
   bool has_ended(int options) {
     if (process < 0) return true;
@@ -155,16 +154,6 @@ bool listen(Copy& copy, const Note& both, double seconds, std::string& text) {
   }
 }
 
-std::string tail_of(int words) {
-  const off_t size = ::lseek(words, 0, SEEK_END);
-  std::string text(
-      std::min<std::size_t>(kTailOfWords, size > 0 ? static_cast<std::size_t>(size) : 0), ' ');
-  const ssize_t n =
-      ::pread(words, text.data(), text.size(), size - static_cast<off_t>(text.size()));
-  text.resize(n > 0 ? static_cast<std::size_t>(n) : 0);
-  return text;
-}
-
 std::string end_of(int status, const Note& both) {
   if (WIFEXITED(status))
     return fmt::format("ended the program, with exit code {}", WEXITSTATUS(status));
@@ -185,14 +174,13 @@ Attempt attempt(const AttemptLimits& limits, FunctionRef<void(Tell)> f) {
   const std::unique_ptr<Note, Unmap> both(new (shared) Note);
   int told[2] = {-1, -1};
   Copy copy;
-  copy.words = ::memfd_create("words", MFD_CLOEXEC);
-  const bool ready = copy.words >= 0 && ::pipe2(told, O_CLOEXEC) == 0;
+  const bool ready = ::pipe2(told, O_CLOEXEC) == 0;
   copy.told = told[0];
   std::cout.flush();
   std::fflush(nullptr);
   const pid_t parent = ::getpid();
   if (ready) copy.process = ::fork();
-  if (copy.process == 0) be_the_copy(limits, f, both.get(), told[1], copy.words, parent);
+  if (copy.process == 0) be_the_copy(limits, f, both.get(), told[1], parent);
   const int code = errno;
   if (told[1] >= 0) ::close(told[1]);
   if (copy.process < 0)
@@ -211,7 +199,6 @@ Attempt attempt(const AttemptLimits& limits, FunctionRef<void(Tell)> f) {
     made.told.push_back(text.substr(at, end - at));
   made.call = fmt::format("{}{}", both->calls % 2 == 1 ? "" : "after ", both->call);
   made.body = both->body;
-  made.words = tail_of(copy.words);
   return made;
 }
 

@@ -14,6 +14,7 @@ namespace lantern {
 struct AttemptLimits {
   double seconds = 2;             // processor time of one call; ten times as long by the clock
   std::uint64_t bytes = 1 << 28;  // beside what there is; none under the address sanitizer
+  bool aloud = true;              // else what it writes is lost
 };
 
 // What came of it.
@@ -23,11 +24,11 @@ struct Attempt {
   bool hung = false;              // that is why
   std::string call;               // "insert of {0}", "after visit": which it was, and
   std::uint32_t body = 0;         // of which body
-  std::string words;  // what it wrote to standard output and standard error: the last of it
 };
 
 // Runs `f` in a copy of this process, which calls `tell` with what it finds; no zero byte stands in
-// that. Throws Stopped when that is asked for, and IoError if no copy can be made.
+// that. What it writes to standard output goes to standard error. Throws Stopped when that is asked
+// for, and IoError if no copy can be made.
 using Tell = FunctionRef<void(std::string_view)>;
 Attempt attempt(const AttemptLimits& limits, FunctionRef<void(Tell)> f);
 

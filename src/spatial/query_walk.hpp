@@ -293,6 +293,7 @@ void gather(const Tree& tree, Query& query, const Probe& probe, double most, Sur
 
 template <int D, class Tree>
 void walk_along(const Tree& tree, RayQuery<D>& query) {
+  if constexpr (requires { tree.narrow(query); }) tree.narrow(query);
   const RayProbe<D> probe(query.ray);
   if constexpr (IsAskedByRows<Tree, D>)
     if (!query.told && tree.has_rows()) {

@@ -76,10 +76,7 @@ class StructureOf : public Structure<D> {
     tree().take(Tour<D>{room, toward}, f);
   }
 
-  void ask(RayQuery<D>& query) const final {
-    if constexpr (requires { tree().narrow(query); }) tree().narrow(query);
-    walk_along<D>(tree(), query);
-  }
+  void ask(RayQuery<D>& query) const final { walk_along<D>(tree(), query); }
   void ask(VolumeQuery<D>& query) const final { walk_within<D>(tree(), query); }
   void ask(NearestQuery<D>& query) const final { walk_around<D>(tree(), query); }
 

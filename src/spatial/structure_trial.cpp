@@ -139,7 +139,7 @@ TrialFault fault_of(StructureKind kind, const Attempt& tried, BodyId first_body)
 // Of worlds, as many as there are, or up to the first that does not come to its end.
 std::vector<TrialFault> faults_in(StructureKind kind, std::uint64_t worlds,
                                   FunctionRef<TrialWorld(std::uint64_t)> world,
-                                  const AttemptLimits& limits, std::string* words = nullptr) {
+                                  const AttemptLimits& limits) {
   const auto try_all = [&](Tell tell) {
     for (std::uint64_t i = 0; i < worlds; ++i) tell(fault_here(kind, world(i)).value_or(""));
   };
@@ -152,14 +152,13 @@ std::vector<TrialFault> faults_in(StructureKind kind, std::uint64_t worlds,
   const Attempt tried = attempt(limits, try_all);
   for (const std::string& text : tried.told) take(text);
   if (!tried.end.empty()) faults.push_back(fault_of(kind, tried, 1));
-  if (words != nullptr) *words = tried.words;
   return faults;
 }
 
-TrialFault fault_of_world(StructureKind kind, const TrialWorld& world, const AttemptLimits& limits,
-                          std::string* words = nullptr) {
+TrialFault fault_of_world(StructureKind kind, const TrialWorld& world,
+                          const AttemptLimits& limits) {
   return faults_in(
-             kind, 1, [&](std::uint64_t) { return world; }, limits, words)
+             kind, 1, [&](std::uint64_t) { return world; }, limits)
       .front();
 }
 
@@ -380,7 +379,6 @@ void try_first(StructureKind kind, const StructureConfig<2>& config,
     tell(fmt::format("{}", row.missed));
     tell(fmt::format("{}", row.invented));
   });
-  row.words = tried.words;
   if (!tried.end.empty()) {
     row.fault = fault_of(kind, tried, 0).text;
     return;
@@ -450,7 +448,7 @@ std::optional<std::string> fault_in(StructureKind kind, const TrialWorld& world)
 
 // What hangs is waited for many times, so not as long each time.
 TrialWorld shrunk(StructureKind kind, TrialWorld world, const AttemptLimits& limits) {
-  Shrinking shrinking{kind, std::move(world), {limits.seconds / 10, limits.bytes}};
+  Shrinking shrinking{kind, std::move(world), {limits.seconds / 10, limits.bytes, false}};
   shrinking.stand_still();
   while (shrinking.drop_bodies() || shrinking.simplify_settings()) {
   }
@@ -463,7 +461,7 @@ Trial try_structure(StructureKind kind, std::uint64_t worlds, std::uint64_t seed
                     const AttemptLimits& limits) {
   Trial trial{.kind = kind};
   const auto world_of = [&](std::uint64_t i) { return trial_world(seed, i); };
-  const auto faults = faults_in(kind, worlds, world_of, limits, &trial.words);
+  const auto faults = faults_in(kind, worlds, world_of, limits);
   trial.worlds = faults.size();
   std::optional<TrialWorld> least;
   int weight = 0;
@@ -478,10 +476,11 @@ Trial try_structure(StructureKind kind, std::uint64_t worlds, std::uint64_t seed
     weight = here;
   }
   if (!least) return trial;
+  const AttemptLimits silent{limits.seconds, limits.bytes, false};  // it has been heard already
   trial.smallest = shrunk(kind, *least, limits);
-  TrialFault fault = fault_of_world(kind, trial.smallest, limits, &trial.words);
+  TrialFault fault = fault_of_world(kind, trial.smallest, silent);
   if (fault.weight() < weight) {  // slow, not without end; or it differs from run to run
-    fault = fault_of_world(kind, *least, limits, &trial.words);
+    fault = fault_of_world(kind, *least, silent);
     trial.smallest = std::move(*least);
   }
   if (fault.text.empty())

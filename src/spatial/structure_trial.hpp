@@ -36,7 +36,6 @@ struct Trial {
   std::string fault = {};    // what goes wrong there; empty if none failed
   TrialEnd end = TrialEnd::fails;
   std::optional<BodyId> last = {};  // the number of whose insertion it did not come back from
-  std::string words = {};           // what a user's own wrote meanwhile: sanitizers' reports, too
 };
 Trial try_structure(StructureKind kind, std::uint64_t worlds, std::uint64_t seed,
                     const AttemptLimits& limits = {});
@@ -57,7 +56,6 @@ struct StructureTime {
   std::uint64_t missed = 0;      // pairs that brute force finds
   std::uint64_t invented = 0;    // pairs that it does not
   std::string fault = {};        // why it was not timed; empty if it was
-  std::string words = {};        // what a user's own wrote while it was tried
 };
 
 struct StructureBench {

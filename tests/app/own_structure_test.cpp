@@ -120,6 +120,16 @@ TEST(OwnStructureProgram, ItsEventsAreFrames) {
   EXPECT_FALSE(fs::is_empty(out / "mine"));
 }
 
+TEST(OwnStructureProgram, AStepWhoseFramesAreEventsIsTakenWhole) {
+  const fs::path out = fresh_folder("own_step");
+  write_text(out / "paced.toml",
+             replaced(read_text(kMine), "name = \"three\"", "name = \"three\"\npace = \"event\""));
+  const std::string at = "render " + (out / "paced.toml").string() + " --at three ";
+  EXPECT_EQ(my_tree(at + "--format svg -o " + out.string()).code, 0);
+  EXPECT_GT(std::distance(fs::directory_iterator(out / "paced"), {}), 5) << "frames of events";
+  EXPECT_EQ(my_tree(at + "-o " + (out / "one.svg").string()).code, 0) << "the step's last";
+}
+
 TEST(OwnStructureProgram, BenchTimesItBesideOurs) {
   const Outcome bench = my_tree("structure bench mine quadtree --bodies 40 --rounds 2 --json");
   ASSERT_EQ(bench.code, 0) << bench.err;

@@ -29,7 +29,7 @@ void split_for_ever(Node& node) {
 void split_in_a_loop(Node& node) {
   for (Node* last = &node; for_ever; last = last->child.get()) {
     last->child = std::make_unique<Node>();
-    last->child->boxes.resize(1000);
+    last->child->boxes.reserve(1'000'000);
   }
 }
 

@@ -33,7 +33,8 @@ Options watch_options(RenderOptions& o) {
        OptionTraits{.value = "CxR"}},
       {"--frames", &o.frames, "only these frames: 7, 3-9, 3- or -9", {.value = "A-B"}},
       {"--at", &o.at,
-       "only the frames of this step or event (its name, split, store, ...), or the first "
+       "only the frames of this step or event (its name, split, store, ...; as one picture or a "
+       "document the step's last), or the first "
        "frame at or after this time in seconds",
        OptionTraits{.value = "EVENT|TIME"}},
       {"--size", &o.size, "pixels; the default is 1600x900, of a sheet its --paper",
@@ -213,7 +214,9 @@ int render_one(const RenderJob& its, const Destination& to, const Scenario& scen
   const RenderOptions& options = its.options;
   const bool is_sheet = to.kind() == OutputKind::sheet;
   const Pace pace = is_sheet && options.pace.empty() ? Pace::step : pace_of(options.pace, scenario);
-  Selection selection(options.frames, options.at, extent_of(scenario, pace).frames);
+  const bool many = to.kind() == OutputKind::folder || to.is_by("frame") ||
+                    to.kind() == OutputKind::film || to.kind() == OutputKind::page;
+  Selection selection(options.frames, options.at, extent_of(scenario, pace).frames, many);
   std::optional<RenderJob> figure;  // each scenario's are of their own size
   if (options.is_figure()) {
     figure.emplace(options);

@@ -1,7 +1,6 @@
 // `structure`: the structures that this program knows, whether they find what brute force finds,
 // and how soon, beside each other.
 #include <algorithm>
-#include <cstdio>
 
 #include <fmt/format.h>
 
@@ -187,11 +186,6 @@ int list_structures(const JsonOnly& options) {
   return kGood;
 }
 
-// What her code has written, as it is.
-void pass_on(std::string_view words) {
-  if (!words.empty()) std::fwrite(words.data(), 1, words.size(), stderr);
-}
-
 int check_structures(const StructureCheckOptions& options) {
   JsonWriter json = answer_of("structure.check");
   json.line().member("seed", options.seed);
@@ -200,7 +194,6 @@ int check_structures(const StructureCheckOptions& options) {
   for (const StructureKind kind : structures_called(options.names)) {
     const Trial trial = try_structure(kind, static_cast<std::uint64_t>(options.worlds),
                                       options.seed, AttemptLimits{.seconds = options.limit});
-    pass_on(trial.words);
     const std::string file = write_scenario(trial, options.output);
     write(json, trial, file);
     if (trial.failed > 0) {
@@ -256,7 +249,6 @@ int bench(const StructureBenchOptions& options) {
     std::uint64_t done = 0;
     rows = bench_structures(trial, [&] { progress.done(++done); });
   }
-  for (const StructureTime& row : rows) pass_on(row.words);
   const std::string json = to_json(rows, options.seed);
   folder.write("bench_structure.csv", to_csv(rows));
   folder.write("bench_structure.json", json);

@@ -364,8 +364,8 @@ std::pair<int, int> parse_size(const std::string& text, int most) {
 }
 
 Selection::Selection(const std::string& frames, const std::string& at,
-                     std::optional<std::uint64_t> most_frames)
-    : frames_(frames), at_(at), time_(number_in<double>(at)) {
+                     std::optional<std::uint64_t> most_frames, bool whole_steps)
+    : frames_(frames), at_(at), whole_steps_(whole_steps), time_(number_in<double>(at)) {
   if (time_ && !std::isfinite(*time_)) time_.reset();
   if (frames.empty()) return;
   const std::size_t dash = frames.find('-');
@@ -398,7 +398,8 @@ bool Selection::takes(const Frame& frame) {
   if (frame.index < first_ || (last_ && frame.index > *last_)) return false;
   // World time is a sum of steps, so a time as written may miss it by a rounding error.
   if (time_ && (taken_ > 0 || frame.time < *time_ - 1e-9)) return false;
-  if (!at_.empty() && !time_ && frame.event != at_ && frame.step_name != at_) return false;
+  const bool named = frame.event == at_ || (whole_steps_ && frame.step_name == at_);
+  if (!at_.empty() && !time_ && !named) return false;
   ++taken_;
   return true;
 }

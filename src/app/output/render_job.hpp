@@ -260,10 +260,11 @@ std::pair<int, int> parse_size(const std::string& text, int most);
 class Selection {
  public:
   // `frames` is "7", "3-9", "3-", "-9" or empty; `at` is an event's name, a time in seconds, or
-  // empty. `most_frames` is how many the scenario can have, if that is known. Throws UsageError for
-  // a malformed word, or a range that cannot be.
+  // empty. `most_frames` is how many the scenario can have, if that is known; of `whole_steps` a
+  // name takes all frames, else their own event alone. Throws UsageError for a malformed word, or a
+  // range that cannot be.
   Selection(const std::string& frames, const std::string& at,
-            std::optional<std::uint64_t> most_frames);
+            std::optional<std::uint64_t> most_frames, bool whole_steps = false);
 
   bool takes_all() const { return frames_.empty() && at_.empty(); }
 
@@ -283,6 +284,7 @@ class Selection {
   [[noreturn]] void refuse_range(std::uint64_t count) const;
 
   std::string frames_, at_;
+  bool whole_steps_;
   std::uint64_t first_ = 0;
   std::optional<std::uint64_t> last_;  // none: to the end
   std::optional<double> time_;         // `at` is one

@@ -20,6 +20,8 @@ constexpr int kArguments[] = {2, 2, 1, 1, 6, 4, 0};
 constexpr int kPieces = 12;  // lines that a curve becomes
 constexpr std::size_t kMostPoints = 2000;
 
+constexpr char upper(char letter) { return static_cast<char>(letter & ~0x20); }
+
 // A path as SVG writes it, its curves as short lines. Each part of it is filled by itself.
 class PathReader {
  public:
@@ -28,13 +30,13 @@ class PathReader {
   std::string read(std::vector<Polygon>& parts) {
     char command = 0;
     for (skip(); !rest_.empty(); skip()) {
-      if (const char c = rest_.front(); std::isalpha(static_cast<unsigned char>(c))) {
+      if (const char c = rest_.front(); upper(c) >= 'A' && upper(c) <= 'Z') {
         command = c;
         rest_.remove_prefix(1);
       } else if (command == 0 || command == 'z' || command == 'Z') {
         return fmt::format("'{}' stands where a command should", first_word());
       }
-      const auto kind = kCommands.find(static_cast<char>(std::toupper(command)));
+      const auto kind = kCommands.find(upper(command));
       if (kind == kCommands.npos)
         return fmt::format("'{}' is none of its commands, {}", command, kCommands);
       if (parts.empty() && kind != 0) return "a path begins with M";
