@@ -20,8 +20,8 @@
 #include "base/suggest.hpp"
 #include "draw/font.hpp"
 #include "draw/page.hpp"
-#include "language/words.hpp"
 #include "language/text/problems.hpp"
+#include "language/words.hpp"
 #include "run/warnings.hpp"
 #include "run/watcher.hpp"
 

@@ -13,6 +13,7 @@
 #include "base/json_writer.hpp"
 #include "base/work.hpp"
 #include "language/scenario.hpp"
+#include "language/words.hpp"
 #include "run/director.hpp"
 
 namespace lantern::app {

@@ -26,7 +26,8 @@ std::atomic<std::uint64_t> faces{0};
 // Where the tables of a weight's file are: enough to ask which letters it has.
 stbtt_fontinfo tables_in(std::string_view file) {
   stbtt_fontinfo info{};
-  LANTERN_CHECK(stbtt_InitFont(&info, reinterpret_cast<const unsigned char*>(file.data()), 0), !=, 0);
+  LANTERN_CHECK(stbtt_InitFont(&info, reinterpret_cast<const unsigned char*>(file.data()), 0), !=,
+                0);
   return info;
 }
 stbtt_fontinfo tables_of(Weight weight) { return tables_in(font_file(weight)); }
@@ -119,9 +120,9 @@ double walk(std::string_view text, Weight weight, const auto& place) {
   for (std::size_t at = 0; at < text.size();) {
     const int code = next_codepoint(text, at);
     const int glyph = glyph_of(f, code);
-    if (last >= 0) x += is_of(f, last_glyph) && is_of(f, glyph)
-                            ? f.advance(last, last_glyph, code, glyph)
-                            : advance_of(f, last_glyph);
+    if (last >= 0)
+      x += is_of(f, last_glyph) && is_of(f, glyph) ? f.advance(last, last_glyph, code, glyph)
+                                                   : advance_of(f, last_glyph);
     place(glyph, x, code);
     last = code;
     last_glyph = glyph;

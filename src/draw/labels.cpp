@@ -204,7 +204,8 @@ namespace {
 // what opens (JIS X 4051): the last such place up to `end`, behind the last space; 0 if there is
 // none.
 std::size_t break_between(std::string_view text, std::size_t end) {
-  constexpr std::u32string_view kNotFirst = U"、。，．・：；？！）］｝」』】〉》ー々ぁぃぅぇぉっゃゅょァィゥェォッャュョ";
+  constexpr std::u32string_view kNotFirst =
+      U"、。，．・：；？！）］｝」』】〉》ー々ぁぃぅぇぉっゃゅょァィゥェォッャュョ";
   constexpr std::u32string_view kNotLast = U"（［｛「『【〈《";
   std::size_t found = 0;
   char32_t before = 0;

@@ -69,7 +69,8 @@ std::string chart_words(std::string name) {
   const auto said = [](const auto& self, std::string_view whole) -> std::string {
     for (const std::string_view between : {", ", " and "})
       if (const std::size_t at = whole.find(between); spoken() && at != whole.npos)
-        return self(self, whole.substr(0, at)) + (between == ", " ? ", " : " " + word("and") + " ") +
+        return self(self, whole.substr(0, at)) +
+               (between == ", " ? ", " : " " + word("and") + " ") +
                self(self, whole.substr(at + between.size()));
     if (const auto* count = spoken() ? language::find_count(whole) : nullptr)
       return noun(count->forms(), kMany);
@@ -81,7 +82,8 @@ std::string chart_words(std::string name) {
   const std::size_t dot = name.find('.');
   const std::string rest = name.substr(end);
   if (dot >= end) return said(said, name.substr(0, end)) + rest;
-  return said(said, name.substr(0, dot)) + ": " + said(said, name.substr(dot + 1, end - dot - 1)) + rest;
+  return said(said, name.substr(0, dot)) + ": " + said(said, name.substr(dot + 1, end - dot - 1)) +
+         rest;
 }
 
 std::string count_words(std::string_view name, std::int64_t number) {

@@ -10,6 +10,7 @@
 #include "base/words.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
+#include "frame/parts/ground.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -289,10 +290,10 @@ Vec<2> page_across(const Frame& frame, const Staging& staging, double width) {
   double height = width < kNarrow ? width : kSeveral * width;
   if (frame.panels.size() == 1 && frame.sides.empty()) {
     const PanelView& only = view_of(frame.panels[0]);
-    height = only.strip ? only.strip(frame, {width, width}) + 60
+    height = only.strip                     ? only.strip(frame, {width, width}) + 60
              : is(frame.panels[0], "world") ? std::min(2.0, 1.15 / world_aspect(frame)) * width
-             : only.size ? width
-                         : kPlain * width;
+             : only.size                    ? width
+                                            : kPlain * width;
   }
   const Display& shown = frame.display;
   if (shown.title) height += kTop;

@@ -7,6 +7,7 @@
 #include "frame/part_fields.hpp"
 #include "frame/parts/asked.hpp"
 #include "frame/parts/atlas.hpp"
+#include "frame/parts/ground.hpp"
 #include "frame/parts/level.hpp"
 #include "frame/parts/motion.hpp"
 #include "frame/parts/panels.hpp"

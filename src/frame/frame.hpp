@@ -300,23 +300,6 @@ struct FrameStructure {
   }
 };
 
-// Of a flat world: drawn under all else, and met by nobody.
-struct FrameLand {
-  static constexpr std::string_view kName = "land";
-  std::vector<Polygon> land;
-  bool sea = true;
-
-  static decltype(auto) fields(const auto& r, auto&& v) { return v.drawn(r.land, r.sea); }
-};
-
-// Of bodies with colours of an author's own.
-struct FramePaints {
-  static constexpr std::string_view kName = "paints";
-  std::vector<BodyPaint> paints;
-
-  static decltype(auto) fields(const auto& r, auto&& v) { return v.drawn(r.paints); }
-};
-
 // Of a frame that is one side's: which it is.
 struct FrameSide {
   static constexpr std::string_view kName = "side";

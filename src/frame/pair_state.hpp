@@ -53,8 +53,8 @@ class PairStates {
   bool has_contacts_ = false;
 };
 
-// Pairs that the structure does not name, although their boxes overlap: one has left the box that is
-// stored for it, or a user's own structure is wrong. In order of ids.
+// Pairs that the structure does not name, although their boxes overlap: one has left the box that
+// is stored for it, or a user's own structure is wrong. In order of ids.
 std::vector<Pair> missed_pairs(const Frame& frame);
 
 }  // namespace lantern::frame

@@ -239,7 +239,9 @@ std::string CountDoc::forms() const {
   if (!noun.empty()) return std::string(noun);
   std::string words(name);
   std::ranges::replace(words, '_', ' ');
-  return words.ends_with('s') && !words.ends_with("ss") ? words.substr(0, words.size() - 1) + "/" + words : words;
+  return words.ends_with('s') && !words.ends_with("ss")
+             ? words.substr(0, words.size() - 1) + "/" + words
+             : words;
 }
 
 std::span<const CountDoc> known_body_measures() { return kBodyMeasures; }

@@ -48,6 +48,8 @@ Scenario worded(Scenario scenario, const Wording& wording) {
 
 }  // namespace
 
+Scenario load_scenario(const std::string& path) { return load_scenario(path, Wording()); }
+
 Scenario load_scenario(const std::string& path, const Wording& wording) {
   if (path == "-")
     return worded(parse_scenario(read_stdin(kMostFileBytes), std::string(kStandardInput)), wording);

@@ -422,12 +422,7 @@ inline constexpr std::string_view kStandardInput = "<stdin>";
 
 // Throws ScenarioError with every mistake found, IoError if the file cannot be read. "-" is
 // standard input; without a name of its own, the scenario from there is called `stdin`.
-// With the table of words that it names, or the caller does in its place, and with the texts that
-// stand for its own in a file beside it: those of ghosts.toml in German in de/ghosts.toml.
-struct Wording {
-  std::string language, words;  // "de", "words/sv.toml"; empty: the file's own
-};
-Scenario load_scenario(const std::string& path, const Wording& wording = {});
+Scenario load_scenario(const std::string& path);
 
 // Of a file of a folder, what must be known before it is read as a scenario.
 struct Glance {

@@ -144,7 +144,8 @@ class WordsReader {
   WordTable words_;
 };
 
-// f(text) for each text of the scenario that is drawn or read out, empty ones too; not of its sides.
+// f(text) for each text of the scenario that is drawn or read out, empty ones too; not of its
+// sides.
 void for_each_text(ScenarioSpec& scenario, auto&& f) {
   for (std::string* text :
        {&scenario.title, &scenario.source, &scenario.idea, &scenario.side_title})

@@ -10,11 +10,11 @@
 #include "base/check.hpp"
 #include "base/error.hpp"
 #include "base/json_writer.hpp"
+#include "language/words.hpp"
 #include "live/controls.hpp"
 #include "live/edit.hpp"
 #include "live/grip.hpp"
 #include "live/play.hpp"
-#include "language/words.hpp"
 #include "live/retold.hpp"
 #include "publish/lesson_frames.hpp"
 #include "render/image.hpp"
@@ -276,10 +276,10 @@ class Session::Engine {
   }
 
   std::shared_ptr<const WordTable> words_;  // of the page; null: English
-  std::shared_ptr<Play> lesson_;  // that texts are made from; null: none was told
-  std::shared_ptr<Play> play_;    // of what was opened last
-  std::vector<int> like_;         // of its steps
-  std::unique_ptr<Play> begun_;   // what stays the same of a hand's texts, until it has gone on
+  std::shared_ptr<Play> lesson_;            // that texts are made from; null: none was told
+  std::shared_ptr<Play> play_;              // of what was opened last
+  std::vector<int> like_;                   // of its steps
+  std::unique_ptr<Play> begun_;  // what stays the same of a hand's texts, until it has gone on
   std::string text_, name_;
   std::string left_;  // by the last drag; empty if there was none since then
   std::unique_ptr<Grip> grip_;

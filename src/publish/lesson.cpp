@@ -83,14 +83,15 @@ std::optional<std::string_view> between_marks(std::string_view text, std::string
   return text.substr(begin, end - begin);
 }
 
-// A page's template with its fixed words said: what stands between two tags, and in titles and labels.
+// A page's template with its fixed words said: what stands between two tags, and in titles and
+// labels.
 std::string said(std::string_view html) {
   if (!spoken()) return std::string(html);
   constexpr std::string_view kSpace = " \n";
   std::string text;
   for (std::size_t at = 0; at < html.size();) {
-    const bool is_title = html.substr(0, at).ends_with(" title=\"") ||
-                          html.substr(0, at).ends_with(" aria-label=\"");
+    const bool is_title =
+        html.substr(0, at).ends_with(" title=\"") || html.substr(0, at).ends_with(" aria-label=\"");
     const bool is_between = at > 0 && html[at - 1] == '>';
     const std::size_t end = std::min(html.find(is_title ? '"' : '<', at), html.size());
     if (!is_title && !is_between) {
@@ -289,9 +290,10 @@ std::string Lesson::picture_of(const DrawList& list) const {
 
 std::string Lesson::html() const {
   LANTERN_CHECK(frames_.count() + (live_ ? live_->scenarios.size() : 0), >, 0u);
-  return html_page(card_.title,
-                   filled(said(page::lesson_html), [&](std::string_view name) { return part(name); }),
-                   theme_ == "light" ? "" : fmt::format(" data-theme=\"{}\"", theme_));
+  return html_page(
+      card_.title,
+      filled(said(page::lesson_html), [&](std::string_view name) { return part(name); }),
+      theme_ == "light" ? "" : fmt::format(" data-theme=\"{}\"", theme_));
 }
 
 std::string Lesson::part(std::string_view name) const {
@@ -336,7 +338,8 @@ std::string Lesson::script() const {
   return script;
 }
 
-// What its scripts say in another language than English; all that frames say, too, if it makes them.
+// What its scripts say in another language than English; all that frames say, too, if it makes
+// them.
 std::string Lesson::words_part() const {
   if (!spoken()) return "";
   WordTable words = *spoken();

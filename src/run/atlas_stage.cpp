@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include "base/words.hpp"
-
 #include "language/counts.hpp"
 #include "run/stage.hpp"
 

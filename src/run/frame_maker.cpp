@@ -10,6 +10,7 @@
 #include "base/words.hpp"
 #include "frame/frame.hpp"
 #include "frame/panel.hpp"
+#include "frame/parts/ground.hpp"
 #include "geometry/flat.hpp"
 #include "language/code_text.hpp"
 #include "language/counts.hpp"

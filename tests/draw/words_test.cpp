@@ -1,4 +1,6 @@
 // In a made-up language no word on any page comes from elsewhere than its table.
+#include "language/words.hpp"
+
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -7,7 +9,6 @@
 #include <gtest/gtest.h>
 
 #include "draw/page.hpp"
-#include "language/words.hpp"
 #include "run/director.hpp"
 #include "run/event_text.hpp"
 
@@ -77,12 +78,14 @@ std::vector<std::string> sequences() {
 class EveryWord : public testing::TestWithParam<std::string> {};
 
 TEST_P(EveryWord, ComesFromTheTable) {
-  language::ScenarioSpec spec =
-      language::load_scenario((fs::path(LANTERN_ROOT) / "scenarios" / (GetParam() + ".toml")).string());
+  language::ScenarioSpec spec = language::load_scenario(
+      (fs::path(LANTERN_ROOT) / "scenarios" / (GetParam() + ".toml")).string());
   WordTable words = made_up_words();
-  for (const std::string& text : language::texts_of(spec)) words.texts[text] = made_up_caption(text);
+  for (const std::string& text : language::texts_of(spec))
+    words.texts[text] = made_up_caption(text);
   // Names of the scenario, and units.
-  std::set<std::string> known = {"mm", "cm", "µm", "nm", "ms", "rad", "allCollisions", "framesLeft"};
+  std::set<std::string> known = {"mm",        "cm", "µm", "nm", "ms", "rad", "allCollisions",
+                                 "framesLeft"};
   const auto know = [&](const language::ScenarioSpec& of) {
     for (const auto& body : of.bodies) words.texts[body.name] = made_up(body.name);
     for (const auto& texture : of.textures)

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "base/words.hpp"
 #include "scenario/directing.hpp"
 #include "scenario/parsing.hpp"
 
@@ -65,7 +66,9 @@ TEST(Counts, HaveNamesOfTheirOwn) {
 }
 
 TEST(Counts, HaveWordsForOneAndForMany) {
-  const auto words = [](const char* name, bool one) { return find_count(name)->words(one); };
+  const auto words = [](const char* name, bool one) {
+    return noun(find_count(name)->forms(), one ? 1 : kMany);
+  };
   EXPECT_EQ(words("leaves", true), "leaf");
   EXPECT_EQ(words("leaves", false), "leaves");
   EXPECT_EQ(words("asleep", true), "asleep") << "one word for both";

@@ -211,14 +211,15 @@ struct ReferenceOptions {
 };
 
 Options reference_options(ReferenceOptions& o) {
-  return {{"--pictures", &o.pictures, "draw the page's pictures into this folder instead",
-           OptionTraits{.value = "DIR"}},
-          {"--words", &o.words, "print the table of fixed words of this language instead, such as de",
-           OptionTraits{.value = "LANGUAGE"}},
-          {"--texts", &o.texts, "print a table for the texts of this scenario in another language",
-           OptionTraits{.value = "FILE"}},
-          backend_option(o.backend),
-          json_option(o.json)};
+  return {
+      {"--pictures", &o.pictures, "draw the page's pictures into this folder instead",
+       OptionTraits{.value = "DIR"}},
+      {"--words", &o.words, "print the table of fixed words of this language instead, such as de",
+       OptionTraits{.value = "LANGUAGE"}},
+      {"--texts", &o.texts, "print a table for the texts of this scenario in another language",
+       OptionTraits{.value = "FILE"}},
+      backend_option(o.backend),
+      json_option(o.json)};
 }
 
 struct SchemaOptions {

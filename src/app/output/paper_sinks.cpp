@@ -9,6 +9,7 @@
 #include "app/progress.hpp"
 #include "app/terminal.hpp"
 #include "base/memory.hpp"
+#include "base/words.hpp"
 #include "draw/page.hpp"
 #include "embedded/version.hpp"
 #include "publish/paper.hpp"
@@ -233,8 +234,8 @@ class SheetSink : public PaperSink {
     renderer_ = &of_.job.renderer(width, height, of_.work);
   }
   void add_page() {
-    const std::string number = of_.paper ? fmt::format("page {}", pdf()->pages() + 1)
-                                         : fmt::format("page {} of {}", ++page_, pages_);
+    const std::string number = of_.paper ? lantern::say("page {}", pdf()->pages() + 1)
+                                         : lantern::say("page {} of {}", ++page_, pages_);
     const DrawList list = layout_->page(waiting_, {title_, number});
     const std::uint64_t frames = waiting_.size();
     of_.work.frames_drawn += frames;

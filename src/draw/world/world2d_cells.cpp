@@ -6,6 +6,7 @@
 #include "draw/world/borders.hpp"
 #include "draw/world/world2d_parts.hpp"
 #include "frame/parts/asked.hpp"
+#include "frame/parts/ground.hpp"
 #include "geometry/not_finite.hpp"
 
 namespace lantern::draw {

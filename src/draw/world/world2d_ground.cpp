@@ -7,6 +7,7 @@
 #include "draw/number_text.hpp"
 #include "draw/world/borders.hpp"
 #include "draw/world/world2d_parts.hpp"
+#include "frame/parts/ground.hpp"
 #include "geometry/elementary.hpp"
 
 namespace lantern::draw {
