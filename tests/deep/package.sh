@@ -66,6 +66,7 @@ if have dpkg-shlibdeps "packages"; then
     "Recommends:.*ffmpeg"; do
     dpkg-deb -I "$deb" | grep -qE "^ $field" || fail "no $field: $(dpkg-deb -I "$deb")"
   done
+  dpkg-deb -I "$work"/once/lantern-doc_*.deb | grep -q "Architecture: all" || fail "lantern-doc"
   dpkg-deb -I "$work"/once/lantern-dev_*.deb | grep -q "Depends: .*libglm-dev" || fail "lantern-dev"
   dpkg-deb -x "$deb" "$work/root"
   (mkdir "$work/home" && cd "$work/home" && "$work/root/usr/bin/lantern" render ghost_quadtree \

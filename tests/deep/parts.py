@@ -20,7 +20,7 @@ ROOT = HERE.parent.parent
 PAGE = HERE / "LAST.md"
 # Begun in this order: what takes longest first, so that nothing else waits for it.
 TOGETHER = ["mutants", "stress_mutants", "fuzz", "sanitized", "package", "faults", "kills", "address_space", "memory", "hostile",
-            "coverage", "compilers", "wild", "live", "readme", "paper", "rooms", "linear", "slurm", "shards", "threads"]
+            "coverage", "compilers", "wild", "live", "readme", "paper", "users", "rooms", "linear", "slurm", "shards", "threads"]
 ALONE = ["pairs", "interrupts", "lessons", "progress", "film"]  # their verdict is of seconds
 AT_ONCE = 2
 TELL = 60  # seconds
