@@ -79,7 +79,7 @@ class WordsReader {
     } else if (entry.key == "decimal" && text && text->size() == 1) {
       words_.decimal = text->front();
     } else if (entry.key == "plural" && text) {
-      const auto* rule = std::ranges::find(kPlurals, *text);
+      const auto rule = std::ranges::find(kPlurals, *text);
       if (rule == kPlurals.end())
         problems_.add(entry.value.where, fmt::format("there is no rule {}", in_quotes(*text)),
                       suggestion(*text, kPlurals));
@@ -224,7 +224,7 @@ WordTable word_table(const std::string& json) {
   const auto value = nlohmann::json::parse(json);
   WordTable words;
   value.at("language").get_to(words.language);
-  const auto* plural = std::ranges::find(kPlurals, value.at("plural").get<std::string>());
+  const auto plural = std::ranges::find(kPlurals, value.at("plural").get<std::string>());
   if (plural != kPlurals.end()) words.plural = static_cast<Plural>(plural - kPlurals.begin());
   words.decimal = value.at("decimal").get<std::string>().at(0);
   for (const auto& [english, said] : value.at("said").items()) words.said[english] = said;

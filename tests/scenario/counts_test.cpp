@@ -67,7 +67,7 @@ TEST(Counts, HaveNamesOfTheirOwn) {
 
 TEST(Counts, HaveWordsForOneAndForMany) {
   const auto words = [](const char* name, bool one) {
-    return noun(find_count(name)->forms(), one ? 1 : kMany);
+    return noun(find_count(name)->forms(), one ? 1 : 2);
   };
   EXPECT_EQ(words("leaves", true), "leaf");
   EXPECT_EQ(words("leaves", false), "leaves");
