@@ -105,7 +105,8 @@ class WordsReader {
     for_each_text(*table, [&](const TomlEntry& entry, const std::string& text) {
       if (text.empty()) return;  // still to be translated
       const auto forms = static_cast<std::size_t>(std::ranges::count(text, '/')) + 1;
-      const bool is_noun = entry.key.find('/') != std::string::npos;
+      const bool is_noun =
+          entry.key.find('/') != std::string::npos && entry.key.find('{') == std::string::npos;
       std::string fault = fault_of(entry.key, text);
       if (known && !known->said.contains(entry.key))
         problems_.add(entry.where, fmt::format("no picture says {}", in_quotes(entry.key)),

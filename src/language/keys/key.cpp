@@ -59,14 +59,6 @@ TableDoc file_table() {
       "A scenario of Lantern. These keys stand at the top, before the first [table]."};
   table.keys = {
       key(&S::title, "title", "The thin line above every frame.", must(), range(1, 80)),
-      key(&S::language, "language",
-          "Of the fixed words on frames and pages, as `\"de\"`: German, Spanish, French, Polish "
-          "and Portuguese are there. Texts that stand for the file's own are read from a file of "
-          "the same name in the folder `de` beside it.",
-          range(2, 35), or_else("English")),
-      key(&S::words_file, "words",
-          "A file with a table of such words for another language, beside this one.", range(1, 200),
-          or_else("none")),
       key(&S::source, "source", "The section of the lecture that the scenario shows.",
           range(0, 80)),
       key(&S::idea, "idea", "The one idea of the sequence, in a line.", range(0, kMostCaption)),
@@ -110,6 +102,15 @@ TableDoc file_table() {
           at_most(kMostElements), holds("element")),
       key(KeyType::tables, "side", "The same under other settings, side by side.",
           at_most(kMostSides), holds("side")),
+      key(&S::language, "language",
+          "Of the fixed words on frames and pages, as `\"de\"`: German, Spanish, French, "
+          "Japanese, Polish and Portuguese are there. Texts that stand for the file's own are read "
+          "from a file of "
+          "the same name in the folder `de` beside it.",
+          range(2, 35), or_else("English")),
+      key(&S::words_file, "words",
+          "A file with a table of such words for another language, beside this one.", range(1, 200),
+          or_else("none")),
       key(KeyType::tables, "step", "The script.", must(), at_most(kMostSteps), holds("step")),
   };
   return table;

@@ -306,8 +306,6 @@ std::vector<KeyDoc> body_keys(std::vector<KeyDoc> first) {
   first.insert(
       first.begin(),
       {key(&B::name, "name", "Unique over bodies and patterns.", must(), like(kNamePattern)),
-       key(&B::label, "label", "What pictures call it, in any letters.", range(1, 40),
-           or_else("the name")),
        key(KeyType::text, "like", "A prototype, whose keys it has but for its own.", range(1, 64),
            or_else("none"))});
   first.insert(first.end(), shared.begin(), shared.end());
@@ -320,6 +318,8 @@ TableDoc body_table() {
       "body", "[[body]]",
       "A body. It enters the world when a step inserts it. A body of no size must stand still."};
   table.keys = body_keys({
+      key(&B::label, "label", "What pictures call it, in any letters.", range(1, 40),
+          or_else("the name")),
       key(&B::position, "position", "Of its centre, or a point of the ground's face.", must(),
           range(-kFar, kFar)),
       key(&B::velocity, "velocity", "How it moves while time passes.", range(-kFar, kFar),
