@@ -196,7 +196,7 @@ def check_prediction(page):
     page.run("[...document.querySelectorAll('#question-dialog button')].find((one) => one.textContent === 'more').click()")
     drag(page, "red", -60, 60)
     expect("a prediction is judged by the engine's count", text_of(page, "hint"),
-           "Yes, more: 0 pairs before, 2 now.")
+           "Yes, more: 0 candidate pairs before, 2 now.")
     expect("it stays there", page.run(answers), [True, False])
     page.run("document.getElementById('again').click(); window.lantern.go(arguments[0])", STEP)
     at_rest(page)

@@ -838,6 +838,7 @@ std::vector<KeyCase> key_cases() {
       {"body", "color", {"1", "8"}, color},
       {"body", "radius", {"0", "0.5", "1e9"}, bad_number("-1", "1.1e9")},
       {"body", "half_size", {"[0, 0]", "[1, 0]", "[2, 3]"}, nonnegative, {"radius"}},
+      {"prototype", "label", {"\"Käfer\""}, bad_text("1 to 40", 40)},
       {"body", "label", {"\"Käfer\"", "\"カブトムシ\""}, bad_text("1 to 40", 40)},
       {"body", "position", points, bad_point()},
       {"body", "velocity", points, bad_point()},
