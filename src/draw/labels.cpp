@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "base/printable.hpp"
 #include "base/stop.hpp"
 #include "base/words.hpp"
 #include "draw/font.hpp"

@@ -285,15 +285,15 @@ Vec<2> page_for(int width, int height) {
   return {width / pixels, height / pixels};
 }
 
-Vec<2> page_across(const Frame& frame, const Staging& staging, double width) {
-  constexpr double kSeveral = 9.0 / 16, kNarrow = 1200, kPlain = 0.62, kWords = 250;
+Vec<2> page_across(const Frame& frame, double width) {
+  constexpr double kSeveral = 9.0 / 16, kNarrow = 1200, kOther = 0.62, kWords = 250;
   double height = width < kNarrow ? width : kSeveral * width;
   if (frame.panels.size() == 1 && frame.sides.empty()) {
     const PanelView& only = view_of(frame.panels[0]);
     height = only.strip                     ? only.strip(frame, {width, width}) + 60
              : is(frame.panels[0], "world") ? std::min(2.0, 1.15 / world_aspect(frame)) * width
              : only.size                    ? width
-                                            : kPlain * width;
+                                            : kOther * width;
   }
   const Display& shown = frame.display;
   if (shown.title) height += kTop;

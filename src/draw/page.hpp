@@ -27,7 +27,7 @@ DrawList draw_frame(const Frame& frame, const Vec<2>& page, Work& work);
 
 // A page on which a layout is so many units wide, and as high as its panels want, for draw_frame():
 // its own letters may be larger by page.x / width.
-Vec<2> page_across(const Frame& frame, const Staging& staging, double width);
+Vec<2> page_across(const Frame& frame, double width);
 
 // The numbers beside the caption, as "3 candidate pairs", the main one first; at most three.
 std::vector<std::string> counter_texts(const Frame& frame);

@@ -1,6 +1,7 @@
 #include "spatial/structure_trial.hpp"
 
 #include "base/json_writer.hpp"
+#include "base/memory.hpp"
 #include "base/random.hpp"
 #include "geometry/random_vec.hpp"
 #include "spatial/broad_phase.hpp"
@@ -232,7 +233,7 @@ struct Finds {
   std::span<const Proxy<2>> boxes;
   std::span<const Ray<2>> rays;
   std::uint64_t hits = 0;
-  std::vector<Pair> pairs;  // as often as they are met
+  std::vector<Pair> pairs = {};  // as often as they are met
   std::uint64_t tests = 0;
 
   void add(BodyId a, BodyId b) {

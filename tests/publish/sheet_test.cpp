@@ -80,9 +80,10 @@ TEST(Sheet, NoTypeIsBelowItsLeast) {
         picture.list.shapes = {text("a", 50, 50, draw::kLeastLabel)};
         const DrawList page = layout.page({picture}, {"The title", "page 1 of 1"});
         for (const DrawShape& shape : page.shapes)
-          if (const auto* s = std::get_if<TextShape>(&shape))
+          if (const auto* s = std::get_if<TextShape>(&shape)) {
             EXPECT_GE(s->size * paper.x / page.page.x * 72 / 25.4, points - 1e-6)
                 << s->text << " on " << columns << " columns";
+          }
       }
   EXPECT_TRUE(SheetLayout({210, 297}, {2, 3}).is_roomy());
   EXPECT_FALSE(SheetLayout({297, 210}, {4, 4}).is_roomy());

@@ -1,6 +1,7 @@
 // Commands that draw nothing: `check` and `explain`, runs of scenarios; `list`, the scenarios and
 // the course that they make; and `doctor`, what they can be drawn and measured with.
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <map>
 #include <sstream>
@@ -354,7 +355,8 @@ int list_scenarios(const ListOptions& options) {
   if (options.course) return print_course(files);
   if (options.names) {
     std::string names;
-    for (const std::string& file : files) names += fs::path(file).stem().string() + "\n";
+    for (const std::string& file : files)
+      names += std::filesystem::path(file).stem().string() + "\n";
     print(names);
     return kGood;
   }

@@ -18,12 +18,12 @@ struct Try {
   int left_out = 0;
 };
 
-std::vector<Try> tries_for(const Frame& frame, const Staging& staging, double width) {
+std::vector<Try> tries_for(const Frame& frame, double width) {
   constexpr int kTries = 12;
   constexpr double kWider = 1.08;
   std::vector<Try> tries;
   for (; tries.size() < kTries; width *= kWider) {
-    const Vec<2> page = page_across(frame, staging, width);
+    const Vec<2> page = page_across(frame, width);
     tries.push_back({{page, {page, Vec<2>(0.0)}}, page.x / width});
   }
   return tries;
@@ -42,7 +42,7 @@ void lay_out_figure(const Sequence& of, RenderJob& job) {
   if (units >= kLeastUnits)
     look_at_chosen(of, [&](const Frame& frame, const Staging& staging) {
       const Frame shown = job.shown(frame);
-      if (tries.empty()) tries = tries_for(shown, staging, units);
+      if (tries.empty()) tries = tries_for(shown, units);
       for (Try& one : tries) {
         const DrawList list = draw_frame(shown, staging, one.figure.page, of.work);
         one.left_out += list.left_out;

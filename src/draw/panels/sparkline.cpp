@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/words.hpp"
 #include "draw/number_text.hpp"
 #include "draw/panel.hpp"
 #include "draw/pen.hpp"

@@ -98,13 +98,13 @@ class BoxesReader {
       }
     });
     if (!bad.empty()) throw ScenarioError(bad.list("bad lines"));
-    for (std::vector<FileBody>& frame : frames) std::ranges::sort(frame, {}, &FileBody::id);
-    for (const std::vector<FileBody>& frame : frames)
-      if (!std::ranges::equal(frame, frames[0], {}, &FileBody::id, &FileBody::id))
+    for (std::vector<FileBody>& bodies : frames) std::ranges::sort(bodies, {}, &FileBody::id);
+    for (const std::vector<FileBody>& bodies : frames)
+      if (!std::ranges::equal(bodies, frames[0], {}, &FileBody::id, &FileBody::id))
         csv_.fail(1, "not every frame has the same boxes, each once",
                   "give each its id in every frame");
-    for (std::vector<FileBody>& frame : frames)
-      for (std::size_t i = 0; i < frame.size(); ++i) frame[i].id = static_cast<BodyId>(i);
+    for (std::vector<FileBody>& bodies : frames)
+      for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].id = static_cast<BodyId>(i);
     return dimension_;
   }
 
