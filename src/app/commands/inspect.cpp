@@ -72,7 +72,7 @@ Verdict check_one(const std::string& file, const CheckOptions& options, Work& wo
   Verdict verdict;
   verdict.file = file == "-" ? kStandardInput : file;
   try {
-    const Scenario scenario = load_scenario(scenario_file(file));
+    const Scenario scenario = load_scenario(scenario_file(file), wording());
     verdict.name = scenario.name;
     Hashes hashes(options.hashes);
     verdict.result = run_scenario(scenario, pace_of(options.pace, scenario), hashes, work);
@@ -196,7 +196,7 @@ std::string list_of(const std::vector<StageTally>& stages) {
 }
 
 int explain_scenario(const ExplainOptions& options) {
-  const Scenario scenario = load_scenario(scenario_file(options.file));
+  const Scenario scenario = load_scenario(scenario_file(options.file), wording());
   Work work;
   Tally tally(scenario, work);
   const Stopwatch watch;
