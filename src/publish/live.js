@@ -139,7 +139,7 @@ class Live {
   opening(text) {
     const lesson = this.own.text;
     const held = text === lesson ? "" : nameOf(this.page.watched ?? "");
-    return { do: "open", text, name: this.name, words: wordTable, held, lesson, ...this.sheet };
+    return { do: "open", text, name: this.name, held, lesson, ...this.sheet };
   }
 
   // Refused text leaves the picture of the last good one.
