@@ -2,6 +2,7 @@
 
 #include <filesystem>
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include "measure/boxes/bench.hpp"
@@ -173,13 +174,16 @@ class PointSimulation : public Simulation {
 
 namespace fs = std::filesystem;
 
-// Where the module is; empty if it was not built. Beside the program, or above the tests' folder: a
-// folder above a program may be that of another build.
+// Where the module is; empty if it was not built: beside the lab, which is a module itself, or
+// above the folder of the tests, which contain it.
 fs::path place_of(const PeerModule& module) {
+  static const int here = 0;
+  Dl_info lab{};
+  ::dladdr(&here, &lab);
   std::error_code error;
-  const fs::path here = fs::read_symlink("/proc/self/exe", error).parent_path();
-  const fs::path home = here.filename() == "tests" ? here.parent_path() : here;
-  const fs::path file = home / "peers" / module.file;
+  fs::path of = lab.dli_fname;
+  if (of.extension() != ".so") of = fs::read_symlink("/proc/self/exe", error).parent_path();
+  const fs::path file = of.parent_path() / "peers" / module.file;
   return fs::is_regular_file(file, error) ? file : fs::path();
 }
 
@@ -367,10 +371,8 @@ std::unique_ptr<Simulation> DormandPrinceSolver::start(const Scenario& scenario,
 std::optional<Library> load_module(const PeerModule& module, std::vector<std::string>& missing) {
   const fs::path path = place_of(module);
   if (!path.empty()) return Library({path.c_str()});
-  missing.push_back(
-      fmt::format("{}: not built in; apt-get install {} and build again: an installed Lantern has "
-                  "no engines beside it",
-                  module.name, module.package));
+  missing.push_back(fmt::format("{}: not built in; apt-get install {} and build Lantern again",
+                                module.name, module.package));
   return std::nullopt;
 }
 

@@ -45,9 +45,8 @@ struct PeerModule {
   const char* package;  // that it is built from
 };
 
-// From the folder "peers" beside the program, or beside the program's folder. Nothing, and a line
-// in `missing`, if it is not there: "Box2D: not built in; apt-get install libbox2d-dev and build
-// again: ...".
+// From the folder "peers" beside the lab. Nothing, and a line in `missing`, if it is not there:
+// "Box2D: not built in; apt-get install libbox2d-dev and build Lantern again".
 std::optional<Library> load_module(const PeerModule& module, std::vector<std::string>& missing);
 
 // What the function `entry` of each module adds. A module once loaded stays.
