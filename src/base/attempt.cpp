@@ -88,6 +88,7 @@ void explain_faults() {
 
 [[noreturn]] void be_the_copy(const AttemptLimits& limits, FunctionRef<void(Tell)> f, Note* both,
                               int told, pid_t parent) {
+  ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);
   for (const int wish : {SIGINT, SIGTERM}) std::signal(wish, SIG_IGN);  // the parent hears it
@@ -99,7 +100,7 @@ void explain_faults() {
   enforce_memory_budget();
   explain_faults();
   note = both;
-  limit_of_call = limits.seconds;
+  limit_of_call = limits.by_clock ? 0 : limits.seconds;
   detail::attempt_watch = watch_call;
   try {
     const auto tell = [&](std::string_view text) {
@@ -116,10 +117,12 @@ void explain_faults() {
 
 struct Copy {
   pid_t process = -1;
+  pid_t group = -1;  // what it has started, too
   int told = -1;
   int status = 0;
 
   ~Copy() {
+    if (group > 0) ::kill(-group, SIGKILL);
     if (process > 0) {
       ::kill(process, SIGKILL);
       while (::waitpid(process, nullptr, 0) < 0 && errno == EINTR) continue;
@@ -182,6 +185,7 @@ Attempt attempt(const AttemptLimits& limits, FunctionRef<void(Tell)> f) {
   if (ready) copy.process = ::fork();
   if (copy.process == 0) be_the_copy(limits, f, both.get(), told[1], parent);
   const int code = errno;
+  copy.group = copy.process;
   if (told[1] >= 0) ::close(told[1]);
   if (copy.process < 0)
     throw IoError("cannot try it in a process of its own: {}", std::strerror(code));

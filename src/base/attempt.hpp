@@ -15,6 +15,7 @@ struct AttemptLimits {
   double seconds = 2;             // processor time of one call; ten times as long by the clock
   std::uint64_t bytes = 1 << 28;  // beside what there is; none under the address sanitizer
   bool aloud = true;              // else what it writes is lost
+  bool by_clock = false;          // alone: a timer of processor time makes that clock a coarse one
 };
 
 // What came of it.

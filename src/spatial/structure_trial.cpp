@@ -1,5 +1,10 @@
 #include "spatial/structure_trial.hpp"
 
+#include <iterator>
+#include <sstream>
+
+#include <fmt/ranges.h>
+
 #include "base/json_writer.hpp"
 #include "base/memory.hpp"
 #include "base/random.hpp"
@@ -267,6 +272,9 @@ struct Contestant {
     const CpuStopwatch looking;
     if (look_along(finds)) rays_seconds.push_back(looking.seconds());
   }
+  void forget_turns() {
+    for (auto* seconds : {&build_seconds, &pairs_seconds, &rays_seconds}) seconds->clear();
+  }
 };
 
 Contestant one_of_ours(StructureKind kind, const StructureConfig<2>& config,
@@ -389,6 +397,69 @@ void try_first(StructureKind kind, const StructureConfig<2>& config,
   row.invented = std::stoull(tried.told[2]);
 }
 
+// All that can be timed, turn about; the first turn is for warmth. `begins` is told whose it is.
+std::vector<Contestant> take_turns(const StructureBench& bench, const StructureConfig<2>& config,
+                                   Finds finds, std::span<StructureTime> rows,
+                                   FunctionRef<void(std::size_t)> begins) {
+  std::vector<Contestant> contestants;
+  for (const StructureTime& row : rows) {
+    const OwnKind* yours = own_structure(row.kind);
+    contestants.push_back(yours ? one_of_yours(*yours, config, finds.boxes)
+                                : one_of_ours(row.kind, config, finds.boxes));
+  }
+  for (int round = 0; round <= bench.rounds; ++round)
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (!rows[i].fault.empty()) continue;
+      begins(i);
+      const AttemptedCall tried("a timed turn", 0);
+      Contestant& one = contestants[i];
+      one.take_turn(finds);
+      if (round > 0) continue;
+      rows[i].pair_tests = finds.tests;
+      one.count(rows[i]);
+      if (const double both = one.build_seconds[0] + one.pairs_seconds[0]; both > bench.longest)
+        rows[i].fault = fmt::format("one build and search takes {:.1f} s, more than {:g} s", both,
+                                    bench.longest);
+      one.forget_turns();
+    }
+  return contestants;
+}
+
+// The same in a process of its own: what ends that is at fault, and the others begin anew.
+std::vector<Contestant> try_turns(const StructureBench& bench, const StructureConfig<2>& config,
+                                  const Finds& finds, std::span<StructureTime> rows) {
+  const AttemptLimits limits{.seconds = bench.longest, .bytes = memory_budget(), .by_clock = true};
+  const Attempt tried = attempt(limits, [&](Tell tell) {
+    const auto begins = [&](std::size_t i) { tell(fmt::format("{}", i)); };
+    const auto contestants = take_turns(bench, config, finds, rows, begins);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const StructureTime& row = rows[i];
+      tell(row.fault);
+      tell(fmt::format("{} {} {}", row.nodes, row.entries, row.pair_tests));
+      for (const auto& seconds : {contestants[i].build_seconds, contestants[i].pairs_seconds,
+                                  contestants[i].rays_seconds})
+        tell(fmt::format("{}", fmt::join(seconds, " ")));
+    }
+  });
+  if (!tried.end.empty()) {
+    StructureTime& row = rows[std::stoull(tried.told.back())];
+    row.fault = fault_of(row.kind, tried, 0).text;
+    return try_turns(bench, config, finds, rows);
+  }
+  std::vector<Contestant> contestants(rows.size());
+  auto told = tried.told.end() - static_cast<std::ptrdiff_t>(5 * rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].fault = *told++;
+    std::istringstream(*told++) >> rows[i].nodes >> rows[i].entries >> rows[i].pair_tests;
+    Contestant& one = contestants[i];
+    for (auto* seconds : {&one.build_seconds, &one.pairs_seconds, &one.rays_seconds}) {
+      std::istringstream text(*told++);
+      seconds->assign(std::istream_iterator<double>(text), {});
+    }
+  }
+  return contestants;
+}
+
 std::vector<StructureTime> bench_scene(const StructureBench& bench, std::uint64_t bodies,
                                        BoxSort sort, const char* name,
                                        const std::function<void()>& told) {
@@ -403,30 +474,17 @@ std::vector<StructureTime> bench_scene(const StructureBench& bench, std::uint64_
     const Vec<2> from = random_point<2>(random, scene.bounds.lo.x, scene.bounds.hi.x);
     rays.push_back({from, random_point<2>(random, scene.bounds.lo.x, scene.bounds.hi.x) - from, 1});
   }
-  Finds finds{.boxes = boxes, .rays = rays};
+  const Finds finds{.boxes = boxes, .rays = rays};
   std::vector<StructureTime> rows;
-  std::vector<Contestant> contestants;
+  bool yours = false;
   for (const StructureKind kind : bench.kinds) {
     StructureTime& row =
         rows.emplace_back(StructureTime{.kind = kind, .scene = name, .bodies = boxes.size()});
-    Contestant& one = contestants.emplace_back();
     try_first(kind, config, boxes, truth, bench.limit, row);
-    if (!row.fault.empty()) continue;
-    const OwnKind* yours = own_structure(kind);
-    one = yours ? one_of_yours(*yours, config, boxes) : one_of_ours(kind, config, boxes);
-    one.take_turn(finds);  // for warmth
-    row.pair_tests = finds.tests;
-    one.count(row);
-    if (const double both = one.build_seconds[0] + one.pairs_seconds[0]; both > bench.longest)
-      row.fault =
-          fmt::format("one build and search takes {:.1f} s, more than {:g} s", both, bench.longest);
-    one.build_seconds.clear();
-    one.pairs_seconds.clear();
-    one.rays_seconds.clear();
+    yours |= own_structure(kind) != nullptr && row.fault.empty();
   }
-  for (int round = 0; round < bench.rounds; ++round)
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (rows[i].fault.empty()) contestants[i].take_turn(finds);
+  const auto contestants = yours ? try_turns(bench, config, finds, rows)
+                                 : take_turns(bench, config, finds, rows, [](std::size_t) {});
   for (std::size_t i = 0; i < rows.size(); ++i) {
     rows[i].build = timing_of(contestants[i].build_seconds);
     rows[i].pairs = timing_of(contestants[i].pairs_seconds);

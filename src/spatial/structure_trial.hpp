@@ -68,7 +68,8 @@ struct StructureBench {
 };
 
 // Evenly spread and clustered boxes, and some that coincide; all structures with capacity 8 and
-// depth limit 7, in turns. A user's own is first tried on them in a process of its own.
+// depth limit 7, in turns. A user's own is first tried on them in a process of its own,
+// and takes its turns in another.
 // `told` is called after each row.
 std::vector<StructureTime> bench_structures(const StructureBench& bench,
                                             const std::function<void()>& told);

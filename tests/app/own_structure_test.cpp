@@ -197,6 +197,17 @@ TEST(BrokenStructures, BenchTellsThemBesideTheOthers) {
   EXPECT_EQ(rows[5].at("fault"), "structure 'hangs': insert of body 13 did not return in 0.2 s");
 }
 
+TEST(BrokenStructures, BenchGoesOnWithoutWhatCrashesInATurn) {
+  const Outcome bench =
+      shell(LANTERN_BROKEN " structure bench tires searches --bodies 40 --rounds 3 --json");
+  EXPECT_EQ(bench.code, 1) << bench.err;
+  const json rows = json::parse(bench.out).at("rows");
+  ASSERT_EQ(rows.size(), 9u);
+  const std::string fault = rows[1].at("fault");
+  EXPECT_EQ(fault.rfind("structure 'tires': a timed turn crashed", 0), 0u) << fault;
+  for (const int other : {0, 2}) EXPECT_GT(rows[other].at("build_s"), 0.0) << other;
+}
+
 // Flushed, so that it is there however the copy ends.
 TEST(BrokenStructures, WhatHerCodeWritesReachesHer) {
   std::string said;

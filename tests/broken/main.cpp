@@ -1,6 +1,6 @@
 // Trees as a first attempt leaves them: each is right until two bodies coincide, and then hangs,
 // follows a null pointer, or splits for ever; and one whose own searches are right, or lose what
-// comes last. For the tests of `structure check` and `bench`.
+// comes last; one that crashes after a while. For the tests of `structure check` and `bench`.
 #include <iostream>
 #include <memory>
 #include <vector>
@@ -55,6 +55,17 @@ class Broken {
   std::vector<unsigned> ids_;
 };
 
+// Right for as long as a trial lasts, and not for as long as turns do.
+class Tiring : public Broken<hang> {
+ public:
+  using Broken::Broken;
+  void insert(unsigned id, const spatial::Box<2>& box) {
+    static int inserted = 0;
+    if (++inserted > 100) follow_null(*std::make_unique<Node>());
+    Broken::insert(id, box);
+  }
+};
+
 template <unsigned lost_pairs, unsigned lost_hits>
 class Searching {
  public:
@@ -86,6 +97,7 @@ int main(int argc, char** argv) {
        spatial::own<Broken<follow_null>>("crashes", "a tree with a null child"),
        spatial::own<Broken<split_for_ever>>("splits", "a tree that splits for ever"),
        spatial::own<Broken<split_in_a_loop>>("fills", "a tree that fills the memory"),
+       spatial::own<Tiring>("tires", "a tree that crashes after a while"),
        spatial::own<Searching<0, 0>>("searches", "a tree with searches of its own"),
        spatial::own<Searching<1, 0>>("loses_pairs", "a tree that loses pairs"),
        spatial::own<Searching<0, 1>>("loses_hits", "a tree that loses hits")});
