@@ -81,6 +81,7 @@ struct OwnKind {
   std::function<std::unique_ptr<OwnTree>(const Box<2>& bounds, std::uint32_t capacity,
                                          std::uint32_t max_depth)>
       make;
+  bool is_optimized = true;  // as it was compiled
 };
 
 // In a world of three dimensions it looks at x and z only, as the lecture's quadtree does, and is
@@ -114,10 +115,18 @@ OwnKind own(std::string name, std::string words) {
    private:
     A adaptor_;
   };
-  return {std::move(name), std::move(words),
-          [](const Box<2>& bounds, std::uint32_t capacity, std::uint32_t max_depth) {
-            return std::make_unique<Tree>(bounds, capacity, max_depth);
-          }};
+  return {
+    std::move(name), std::move(words),
+        [](const Box<2>& bounds, std::uint32_t capacity, std::uint32_t max_depth) {
+          return std::make_unique<Tree>(bounds, capacity, max_depth);
+        },
+#if defined(__OPTIMIZE__)
+        true
+  };
+#else
+        false
+  };
+#endif
 }
 
 // From now on this program knows these kinds, too. To be called once, before anything else: what

@@ -208,6 +208,33 @@ TEST(BrokenStructures, BenchGoesOnWithoutWhatCrashesInATurn) {
   for (const int other : {0, 2}) EXPECT_GT(rows[other].at("build_s"), 0.0) << other;
 }
 
+TEST(BrokenStructures, WhatGoesWrongOutsideOfInsertIsToldByItsCall) {
+  const fs::path out = fresh_folder("own_calls");
+  std::string said;
+  EXPECT_EQ(checked_broken("lingers", out).at("fault"),
+            "structure 'lingers': its destructor did not return in 0.2 s");
+  checked_broken("unmade", out, &said);
+  EXPECT_NE(said.find("its constructor threw: not yet written"), std::string::npos) << said;
+  checked_broken("pairs_itself", out, &said);
+  EXPECT_NE(said.find("is no pair with itself"), std::string::npos) << said;
+  const fs::path file = out / "file";
+  write_text(file, "");
+  const Outcome check =
+      shell(LANTERN_BROKEN " structure check unmade --worlds 1 -o " + file.string());
+  EXPECT_EQ(check.code, 1);
+  EXPECT_NE(check.err.find("its constructor threw"), std::string::npos) << check.err;
+}
+
+TEST(OwnStructureProgram, OneOfRepeatedStepsIsTheLast) {
+  const fs::path out = fresh_folder("own_repeat");
+  write_text(out / "twice.toml", read_text(kMine) +
+                                     "\n[[step]]\ndo = \"run\"\nname = \"on\"\nseconds = "
+                                     "0.1\nrepeat = 3\n");
+  const Outcome render = my_tree("render " + (out / "twice.toml").string() + " --at on -o " +
+                                 (out / "one.svg").string());
+  EXPECT_EQ(render.code, 0) << render.err;
+}
+
 // Flushed, so that it is there however the copy ends.
 TEST(BrokenStructures, WhatHerCodeWritesReachesHer) {
   std::string said;
@@ -226,7 +253,10 @@ TEST(BrokenStructures, SearchesOfTheirOwnAreHeldAgainstBruteForceAndTimed) {
   const Outcome render =
       shell(LANTERN_BROKEN " render " + (out / "loses_pairs_fails.toml").string() +
             " --format svg -o " + out.string());
-  EXPECT_EQ(render.code, 0) << render.err;
+  EXPECT_EQ(render.code, 1) << render.err;
+  for (const char* name : {"loses_hits", "loses_pairs"})
+    EXPECT_EQ(shell(LANTERN_BROKEN " check " + (out / name).string() + "_fails.toml").code, 1)
+        << "it tells what brute force finds";
   EXPECT_NE(read_text(out / "loses_pairs_fails" / "loses_pairs_fails_0000.svg").find("#b3261e"),
             std::string::npos)
       << "her own search draws its pairs";

@@ -3,6 +3,7 @@
 // comes last; one that crashes after a while. For the tests of `structure check` and `bench`.
 #include <iostream>
 #include <memory>
+#include <stdexcept>
 #include <vector>
 
 #include <lantern/app/program.hpp>
@@ -66,6 +67,15 @@ class Tiring : public Broken<hang> {
   }
 };
 
+// It never comes to the end of its destructor.
+class Lingering : public Broken<hang> {
+ public:
+  using Broken::Broken;
+  ~Lingering() {
+    while (for_ever) continue;
+  }
+};
+
 template <unsigned lost_pairs, unsigned lost_hits>
 class Searching {
  public:
@@ -77,6 +87,7 @@ class Searching {
     tell({world_, 0, true, ids});
   }
   void pairs(const spatial::PairSink& tell) const {
+    if (lost_pairs == 2 && !boxes_.empty()) tell(0, 0);
     for (unsigned a = 0; a + lost_pairs < boxes_.size(); ++a)
       for (unsigned b = 0; b < a; ++b)
         if (overlap(boxes_[a], boxes_[b])) tell(a, b);
@@ -90,6 +101,14 @@ class Searching {
   std::vector<spatial::Box<2>> boxes_;
 };
 
+class Unmade : public Searching<0, 0> {
+ public:
+  Unmade(const spatial::Box<2>& world, unsigned capacity, unsigned most)
+      : Searching(world, capacity, most) {
+    throw std::runtime_error("not yet written");
+  }
+};
+
 int main(int argc, char** argv) {
   return lantern::app::run_program(
       argc, argv,
@@ -98,7 +117,10 @@ int main(int argc, char** argv) {
        spatial::own<Broken<split_for_ever>>("splits", "a tree that splits for ever"),
        spatial::own<Broken<split_in_a_loop>>("fills", "a tree that fills the memory"),
        spatial::own<Tiring>("tires", "a tree that crashes after a while"),
+       spatial::own<Lingering>("lingers", "a tree that does not go"),
+       spatial::own<Unmade>("unmade", "a tree that cannot be made"),
        spatial::own<Searching<0, 0>>("searches", "a tree with searches of its own"),
        spatial::own<Searching<1, 0>>("loses_pairs", "a tree that loses pairs"),
+       spatial::own<Searching<2, 0>>("pairs_itself", "a tree that pairs a body with itself"),
        spatial::own<Searching<0, 1>>("loses_hits", "a tree that loses hits")});
 }

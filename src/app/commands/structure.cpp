@@ -13,6 +13,7 @@
 #include "base/number.hpp"
 #include "base/suggest.hpp"
 #include "spatial/own_structure.hpp"
+#include "spatial/query.hpp"
 #include "spatial/structure_trial.hpp"
 
 namespace lantern::app {
@@ -73,6 +74,34 @@ std::vector<StructureKind> structures_called(const std::vector<std::string>& nam
 
 std::string point(const Vec<2>& p) { return fmt::format("[{}, {}]", p.x, p.y); }
 
+Box<2> box_of(const TrialBody& body) { return Box<2>::around(body.center, body.half); }
+
+// What brute force finds, as an expectation.
+std::string pairs_expected(const std::vector<TrialBody>& bodies) {
+  std::vector<std::string> pairs;
+  for (std::size_t i = 0; i < bodies.size(); ++i)
+    for (std::size_t j = i + 1; j < bodies.size(); ++j)
+      if (overlap(box_of(bodies[i]), box_of(bodies[j])))
+        pairs.push_back(fmt::format("[\"b{}\", \"b{}\"]", i + 1, j + 1));
+  return fmt::format("expect = {{ pairs_are = [{}] }}\n", fmt::join(pairs, ", "));
+}
+
+// From each body to the next, as the check looks.
+std::string rays_expected(const std::vector<TrialBody>& bodies) {
+  std::string text;
+  for (std::size_t i = 1; i < bodies.size(); ++i) {
+    const Vec<2> from = bodies[i - 1].center, way = bodies[i].center - from;
+    if (way == Vec<2>(0.0)) continue;
+    const auto hits = std::ranges::count_if(bodies, [&](const TrialBody& body) {
+      return overlap(geometry::Ray<2>{from, way, 1}, box_of(body));
+    });
+    text += fmt::format(
+        "\n[[step]]\ndo = \"ray\"\nfrom = {}\nto = {}\nhits = \"all\"\nexpect = {{ hits = {} }}\n",
+        point(from), point(bodies[i].center), hits);
+  }
+  return text;
+}
+
 // A scenario that shows what goes wrong; its first lines say it in words.
 std::string scenario_of(const Trial& trial) {
   const TrialWorld& w = trial.smallest;
@@ -100,6 +129,7 @@ std::string scenario_of(const Trial& trial) {
                           fmt::join(at(from), at(to), ", "));
   };
   insert("", 0, last);
+  if (comes_back && w.moved.empty()) text += pairs_expected(w.bodies);
   if (!comes_back) {
     text += "\n# This step it does not come back from:";
     insert("# ", last, last + 1);
@@ -107,19 +137,24 @@ std::string scenario_of(const Trial& trial) {
   for (std::size_t i = 0; i < w.moved.size(); ++i)
     text += fmt::format("\n[[step]]\ndo = \"move\"\nbody = \"b{}\"\nto = {}\n", i + 1,
                         point(w.moved[i].center));
+  if (!w.moved.empty()) text += pairs_expected(w.moved);
+  if (trial.fault.find(": its ray") != trial.fault.npos) text += rays_expected(w.bodies);
   return text;
 }
 
 constexpr std::string_view kEnds[] = {"fails", "crashes", "hangs"};
 
 // Empty if there is nothing to write, or nothing that a scenario can show.
-std::string write_scenario(const Trial& trial, const std::string& folder) {
+std::string write_scenario(const Trial& trial, const std::string& folder) try {
   if (trial.failed == 0 || folder.empty() || trial.smallest.bodies.empty()) return {};
   fs::create_directories(folder);
   const fs::path file = fs::path(folder) / fmt::format("{}_{}.toml", to_string(trial.kind),
                                                        kEnds[static_cast<int>(trial.end)]);
   write_file(file, scenario_of(trial));
   return file.string();
+} catch (const std::exception& problem) {  // what it is about is told all the same
+  complain(problem.what());
+  return {};
 }
 
 void tell_fault(const Trial& trial, const std::string& file) {
@@ -131,7 +166,7 @@ void tell_fault(const Trial& trial, const std::string& file) {
                   point(w.bounds.hi), w.capacity, w.max_depth));
   for (std::size_t i = 0; i < w.bodies.size(); ++i) {
     const TrialBody& b = w.bodies[i];
-    const Box<2> box = Box<2>::around(b.center, b.half), cut = clamped(box, w.bounds);
+    const Box<2> box = box_of(b), cut = clamped(box, w.bounds);
     std::string then;
     if (cut != box)
       then = fmt::format(", clamped to the world: {} to {}", point(cut.lo), point(cut.hi));
@@ -234,6 +269,12 @@ Options structure_bench_options(StructureBenchOptions& o) {
 int bench(const StructureBenchOptions& options) {
   StructureBench trial;
   trial.kinds = structures_called(options.names);
+  for (const StructureKind kind : trial.kinds)
+    if (const auto* yours = spatial::own_structure(kind); yours && !yours->is_optimized)
+      say(
+          fmt::format("'{}' is compiled without optimization, unlike the others; with CMake, build "
+                      "with -DCMAKE_BUILD_TYPE=Release",
+                      yours->name));
   // What all the others are held against.
   if (std::ranges::find(trial.kinds, StructureKind::brute_force) == trial.kinds.end())
     trial.kinds.insert(trial.kinds.begin(), StructureKind::brute_force);

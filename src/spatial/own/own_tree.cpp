@@ -78,6 +78,10 @@ class OwnFlat final : public StructureOf<OwnFlat, 2> {
       : kind_(kind), rules_{config, kind.name}, view_(config.bounds) {
     clear();
   }
+  ~OwnFlat() override {
+    run_own(
+        "its destructor", 0, [&] { tree_.reset(); }, [](const std::string&) {});
+  }
 
   template <class Observer>
   void add(const Item<2>& item, Observer&& observer) {
@@ -132,17 +136,21 @@ class OwnFlat final : public StructureOf<OwnFlat, 2> {
   bool tells_pairs(FunctionRef<bool(BodyId)> awake, FunctionRef<void(BodyId, BodyId)> f) const {
     std::vector<Pair> told;
     bool has = false;
+    if (broken_) std::rethrow_exception(broken_);
     const PairSink sink = [&](BodyId a, BodyId b) {
       require_known(std::max(a, b), told.size());
+      if (a == b)
+        throw std::invalid_argument(fmt::format("body number {} is no pair with itself", a));
       told.push_back({ids_[a], ids_[b]});
     };
     call("pairs", [&] { has = tree_->pairs(sink); });
     for (const Pair& pair : told)
-      if (pair.a != pair.b && (awake(pair.a) || awake(pair.b))) f(pair.a, pair.b);
+      if (awake(pair.a) || awake(pair.b)) f(pair.a, pair.b);
     return has;
   }
   // Who lies outside the world is somewhere else to it.
   void narrow(RayQuery<2>& query) const {
+    if (broken_) std::rethrow_exception(broken_);
     const Ray<2>& ray = query.ray;
     const Box<2> all = united(rules_.bounds, {ray.origin, ray.origin});
     const double across = glm::length(all.size()) / glm::length(ray.direction);
@@ -182,7 +190,7 @@ class OwnFlat final : public StructureOf<OwnFlat, 2> {
     bool cleared = false;
     if (tree_) call("clear", [&] { cleared = tree_->clear(); });
     if (cleared) return;
-    tree_.reset();
+    call("its destructor", [&] { tree_.reset(); });
     call("its constructor",
          [&] { tree_ = kind_.make(rules_.bounds, rules_.capacity, rules_.max_depth); });
   }
