@@ -251,7 +251,8 @@ std::string scenario_file(const std::string& words) {
   std::ranges::sort(names);
   names.erase(std::ranges::unique(names).begin(), names.end());
   throw IoError("there is no file '{}' and no scenario of that name; {}", words,
-                nearest_of(words, names));
+                fs::exists(words + ".toml", error) ? fmt::format("there is '{}.toml'", words)
+                                                   : nearest_of(words, names));
 }
 
 std::vector<std::string> input_files(const std::vector<std::string>& words) {

@@ -48,9 +48,13 @@ std::optional<std::string> nearest_name(std::string_view name,
 
 std::string suggestion(std::string_view name, std::span<const std::string_view> candidates,
                        std::size_t most) {
-  if (const auto near = nearest_name(name, candidates)) return "did you mean '" + *near + "'?";
-  if (candidates.empty() || candidates.size() > most) return {};
-  return fmt::format("known here: {}", fmt::join(candidates, ", "));
+  std::string text;
+  if (const auto near = nearest_name(name, candidates)) {
+    text = "did you mean '" + *near + "'?";
+    if (candidates.size() > 1 && candidates.size() <= most) text += ' ';
+  }
+  if (candidates.size() > most || candidates.size() == (text.empty() ? 0 : 1)) return text;
+  return fmt::format("{}known here: {}", text, fmt::join(candidates, ", "));
 }
 
 std::string with_suggestion(std::string message, std::string_view name,

@@ -15,7 +15,7 @@ namespace lantern {
 std::optional<std::string> nearest_name(std::string_view name,
                                         std::span<const std::string_view> candidates);
 
-// "did you mean 'x'?", or a list of the candidates when none is near and there are at most `most`.
+// "did you mean 'x'?", and a list of the candidates where there are others and at most `most`.
 std::string suggestion(std::string_view name, std::span<const std::string_view> candidates,
                        std::size_t most = 12);
 

@@ -65,10 +65,12 @@ enum class KeyType {
 // Which letters a name may have. Groups of letters are written as between the brackets of a regular
 // expression: "a-z0-9_".
 struct NamePattern {
-  std::string_view first;  // what it may begin with
-  std::string_view rest;   // and what may follow
-  std::size_t most = 1;    // letters
-  std::string_view words;  // the same for people
+  std::string_view first;         // what it may begin with
+  std::string_view rest;          // and what may follow
+  std::size_t most = 1;           // letters
+  std::string_view words;         // the same for people
+  std::string_view example = {};  // in place of one made of what was written
+  std::string_view more = {};     // to be said behind that
 
   // The same as a regular expression, for the JSON Schema.
   std::string expression() const;

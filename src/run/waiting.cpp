@@ -96,6 +96,12 @@ std::string Waiting::in_vain() const {
     for (const auto& [label, members] : before_) labels.push_back(label);
     return with_suggestion(missed + ": there was no such node", wait_.node, labels);
   }
+  const auto pushed = [&](std::size_t i) {
+    return scenario_.bodies[i].kind == BodyKind::dynamic_body;
+  };
+  if (!wait_.for_node() && std::ranges::none_of(wait_.bodies, pushed) &&
+      std::ranges::none_of(wait_.others, pushed))
+    return missed + ": static and kinematic bodies never touch each other";
   const bool any_near = std::ranges::any_of(instead_, &Happened::near);
   std::vector<std::string> told;
   for (const Happened& one : instead_)

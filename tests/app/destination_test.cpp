@@ -36,7 +36,8 @@ TEST(Destination, AFolderMayHaveADotIfItStandsThereOrEndsWithASlash) {
 
 TEST(Destination, ABadWordGetsTheListOfWhatThereIs) {
   EXPECT_NE(refused("talk.mp5").find("did you mean 'mp4'?"), std::string::npos);
-  EXPECT_TRUE(refused("talk.htm").ends_with("; did you mean 'html'?")) << refused("talk.htm");
+  EXPECT_NE(refused("talk.htm").find("; did you mean 'html'?"), std::string::npos)
+      << refused("talk.htm");
   EXPECT_NE(refused("talk.quicktime").find("webm"), std::string::npos);
   EXPECT_NE(refused("{frames}.png").find("did you mean 'frame'?"), std::string::npos);
   EXPECT_NE(refused("{frame.png").find("without its }"), std::string::npos);

@@ -49,8 +49,13 @@ TEST(Suggest, TakesTheFirstOfEquals) {
   EXPECT_EQ(nearest_name("loft", kTwins), "left");
 }
 
-TEST(Suggest, ListsWhatThereIsWhenNothingIsNear) {
-  EXPECT_EQ(suggestion("capcity", kKeys), "did you mean 'capacity'?");
+TEST(Suggest, ListsWhatThereIsBesideTheNearest) {
+  EXPECT_EQ(suggestion("capcity", kKeys),
+            "did you mean 'capacity'? known here: capacity, max_depth, kind, at");
+  EXPECT_EQ(suggestion("capcity", kKeys, 3), "did you mean 'capacity'?");
+  constexpr std::array<std::string_view, 1> kOnly = {"one"};
+  EXPECT_EQ(suggestion("on", kOnly), "did you mean 'one'?") << "there is no other";
+  EXPECT_EQ(suggestion("zzzz", kOnly), "known here: one");
   EXPECT_EQ(suggestion("gravity_of_all", kKeys), "known here: capacity, max_depth, kind, at");
   EXPECT_EQ(suggestion("gravity_of_all", kKeys, 3), "") << "a long list is no help";
   EXPECT_EQ(suggestion("x", {}), "");

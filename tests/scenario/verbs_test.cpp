@@ -278,10 +278,11 @@ TEST(Verbs, WaitEndsWithWhoEntersAndWhoLeavesANode) {
 }
 
 std::string told_in_vain(const std::string& step) {
-  const Scenario s =
-      good(world_text("size = [16, 16]\ntime_step = 0.125\ncontacts = \"impulse\"\n"
-                      "may_sleep = true",
-                      kRace + steps({kInsertRace, step})));
+  const Scenario s = good(world_text(
+      "size = [16, 16]\ntime_step = 0.125\ncontacts = \"impulse\"\n"
+      "may_sleep = true",
+      kRace + "[[body]]\nname = \"stone\"\nradius = 0.5\nposition = [1, 1]\nstatic = true\n" +
+          steps({kInsertRace, "do = \"insert\"\nbodies = [\"stone\"]", step})));
   Work work;
   const DirectorReport report = direct(s, Pace::step, work, [](const Frame&) { return true; });
   return report.unmet.count() == 1 ? report.unmet.told()[0].message : "";
@@ -302,7 +303,10 @@ TEST(Verbs, AWaitInVainTellsWhatHappenedInstead) {
             "no entry of 'slow' into node 'back' within 1 s, but 'slow' into 'front' at 0.75 s");
   EXPECT_EQ(told_in_vain(waiting("leave", "\"slow\"", "node = \"frnt\"\nat_most = 1")),
             "no exit of 'slow' from node 'frnt' within 1 s: there was no such node; did you mean "
-            "'front'?");
+            "'front'? known here: back, front, root");
+  EXPECT_EQ(told_in_vain(waiting("touch", "\"wall\", \"stone\"", "at_most = 0.5")),
+            "no touch of 'wall' and 'stone' within 0.5 s: static and kinematic bodies never touch "
+            "each other");
 }
 
 TEST(Verbs, PhasesShowsOneWorldStepInFiveFrames) {

@@ -75,7 +75,10 @@ class Check {
     add(where,
         fmt::format("'{}' cannot be {}: it takes {}", doc_.key, in_quotes(text),
                     doc_.pattern->words),
-        fmt::format("for example {} = \"{}\"", doc_.key, legal_name(text, *doc_.pattern)));
+        fmt::format(
+            "for example {} = \"{}\"{}", doc_.key,
+            doc_.pattern->example.empty() ? legal_name(text, *doc_.pattern) : doc_.pattern->example,
+            doc_.pattern->more));
   }
 
   void check_range(Place where, double x, const std::string& written) {
@@ -139,9 +142,7 @@ class Check {
     good_ = false;
     problems_.add(value.where, fmt::format("'{}' cannot be {}", doc_.key, in_quotes(*text)),
                   [&doc = doc_, &written = *text] {
-                    std::string hint = nearest(written, doc.choices);
-                    if (nearest_name(written, doc.choices))
-                      hint += fmt::format(" known here: {}", fmt::join(doc.choices, ", "));
+                    const std::string hint = suggestion(written, doc.choices, doc.choices.size());
                     return doc.advice.empty() ? hint : fmt::format("{} ({})", hint, doc.advice);
                   });
   }

@@ -195,7 +195,15 @@ const char* size_key(const TableReader& table) {
   return "radius";
 }
 
-constexpr NamePattern kPaintPattern = {"#", "0-9a-fA-F", 7, "# and three or six of 0–9 and a–f"};
+constexpr NamePattern kPaintPattern = {"#", "0-9a-fA-F", 7, "# and three or six of 0–9 and a–f",
+                                       "#0077aa"};
+constexpr NamePattern kBodyPattern = {
+    kNamePattern.first,
+    kNamePattern.rest,
+    kNamePattern.most,
+    kNamePattern.words,
+    {},
+    "; what the picture shows may be of any letters: label = \"Käfer\""};
 
 KeyDoc color_key() {
   return key(
@@ -228,8 +236,7 @@ std::vector<KeyDoc> body_keys(std::vector<KeyDoc> first) {
           or_else("`disc` with a radius or a capsule, `box` otherwise")),
       key(KeyType::text, "outline",
           "Instead of a look: an SVG path of M, L, H, V, C, Q and Z, which fills its box: `\"M0 0 "
-          "L4 "
-          "0 L2 3 Z\"`. Each closed part is filled by itself.",
+          "L4 0 L2 3 Z\"`. As in SVG, y points down. Each closed part is filled by itself.",
           range(1, 8000)),
       key(&B::paint, "paint",
           "A colour of its own instead, as `\"#0077aa\"`; print themes take its grey. Eight "
@@ -305,7 +312,7 @@ std::vector<KeyDoc> body_keys(std::vector<KeyDoc> first) {
   };
   first.insert(
       first.begin(),
-      {key(&B::name, "name", "Unique over bodies and patterns.", must(), like(kNamePattern)),
+      {key(&B::name, "name", "Unique over bodies and patterns.", must(), like(kBodyPattern)),
        key(KeyType::text, "like", "A prototype, whose keys it has but for its own.", range(1, 64),
            or_else("none"))});
   first.insert(first.end(), shared.begin(), shared.end());
@@ -343,6 +350,14 @@ BodySpec read_body_keys(const TableReader& table, Draft& draft) {
   table.fill(body.material);
   body.where = draft.position(table.where());
   body.outline = read_outline(table);
+  if (const std::size_t n = body.paint.size(); n != 0 && n != 4 && n != 7)
+    table.bad_value("paint",
+                    fmt::format("'paint' is {}, not # and three or six digits", body.paint),
+                    fmt::format("as \"{}\"", kPaintPattern.example));
+  for (const auto& [key, instead] : {std::pair("look", "outline"), std::pair("color", "paint")})
+    if (table.has(key) && table.has(instead))
+      table.bad_key(key, fmt::format("'{}' stands in place of '{}'", instead, key),
+                    fmt::format("leave out either {} or {}", key, instead));
   check_oriented(table, body);
   body.shape = read_shape(table, draft.dimension);
   body.kind = read_kind(table, body.kind);

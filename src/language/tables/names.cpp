@@ -95,12 +95,14 @@ void unroll_range(const Named& range, const Names& names, std::string_view kind,
 }
 
 // Of each of these, a body has one: its own stands against a prototype's.
-constexpr std::array<std::array<std::string_view, 4>, 5> kRivals = {{
+constexpr std::array<std::array<std::string_view, 4>, 7> kRivals = {{
     {"radius", "half_size", "capsule", "ground"},
     {"density", "mass"},
     {"kind", "static"},
     {"follow", "wander"},
     {"turned", "heading"},
+    {"look", "outline"},
+    {"color", "paint"},
 }};
 
 bool stands_against(const TomlTable& own, std::string_view key) {

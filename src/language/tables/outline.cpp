@@ -43,14 +43,17 @@ class PathReader {
       std::array<double, 6> a{};
       for (int i = 0; i < kArguments[kind]; ++i)
         if (!number(a[static_cast<std::size_t>(i)]))
-          return fmt::format("'{}' takes {} behind it, and there is {}", command,
+          return fmt::format("'{}' takes {} up to a million, and there is {}", command,
                              counted(kArguments[kind], "number"),
                              rest_.empty() ? "no more" : first_word());
       draw(kCommands[kind], command >= 'a', a, parts);
       if (parts.size() + parts.back().size() > kMostPoints) return "it has too many points";
       if (command == 'm' || command == 'M') command = command == 'm' ? 'l' : 'L';
     }
-    std::erase_if(parts, [](const Polygon& part) { return part.size() < 3; });
+    std::erase_if(parts, [](const Polygon& part) {
+      const Vec<2> size = geometry::box_of(part).size();
+      return part.size() < 3 || std::min(size.x, size.y) < 1e-3 * std::max(size.x, size.y);
+    });
     return parts.empty() ? "nothing of it has an area" : "";
   }
 
@@ -118,9 +121,9 @@ void notice_contrast(const BodySpec& body, std::uint32_t rgb, Draft& draft) {
     if (const double ratio = std::max(a, b) / std::min(a, b); ratio < 3)
       draft.notice(
           Warning::paint, body.where,
-          fmt::format("the paint {} stands out only {:.1f} : 1 from the ground of the {} theme",
+          fmt::format("the paint {} stands out only {:.2f} : 1 from the ground of the {} theme",
                       body.paint, ratio, theme),
-          "3 : 1 can be told apart");
+          "from 3 : 1 on it can be told apart");
   }
 }
 
@@ -151,11 +154,7 @@ void mix_paints(Draft& draft) {
     std::string digits = body.paint.substr(1);
     if (digits.size() == 3)
       digits = {digits[0], digits[0], digits[1], digits[1], digits[2], digits[2]};
-    if (digits.size() != 6) {
-      draft.problems.add({body.where.line, body.where.column},
-                         fmt::format("'paint' is {}, not # and three or six digits", body.paint));
-      return;
-    }
+    if (digits.size() != 6) continue;  // which has been told
     std::uint32_t rgb = 0;
     std::from_chars(digits.data(), digits.data() + digits.size(), rgb, 16);
     auto& paints = draft.scenario.paints;
