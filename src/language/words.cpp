@@ -22,10 +22,12 @@ constexpr std::array<std::string_view, 6> kPlurals = {"one",     "up_to_one", "p
                                                       "russian", "czech",     "none"};
 
 // A field of a format: "{}", "{2}", "{:.3g}".
+constexpr std::size_t kNone = 99;  // not a place
 struct Field {
   std::size_t index;
   std::string_view spec;
-  bool operator==(const Field&) const = default;
+  std::string_view written;
+  bool operator==(const Field& other) const { return index == other.index && spec == other.spec; }
 };
 
 std::vector<Field> fields_of(std::string_view text) {
@@ -35,8 +37,11 @@ std::vector<Field> fields_of(std::string_view text) {
     const std::string_view inside = text.substr(at + 1, text.find('}', at) - at - 1);
     const std::size_t colon = std::min(inside.find(':'), inside.size());
     const std::string_view number = inside.substr(0, colon);
-    fields.push_back({number.empty() ? next++ : static_cast<std::size_t>(number[0] - '0'),
-                      inside.substr(colon)});
+    const bool is_digit = number.size() == 1 && number[0] >= '0' && number[0] <= '9';
+    fields.push_back({number.empty() ? next++
+                      : is_digit     ? static_cast<std::size_t>(number[0] - '0')
+                                     : kNone,
+                      inside.substr(colon), inside});
   }
   return fields;
 }
@@ -49,7 +54,9 @@ std::string fault_of(std::string_view english, std::string_view said) {
   for (const Field& field : own) most = std::max(most, field.index + 1);
   for (const Field& field : given)
     if (field.index >= most || (!field.spec.empty() && std::ranges::find(own, field) == own.end()))
-      return fmt::format("the English has no '{{{}{}}}'", field.index, field.spec);
+      return fmt::format("the English has no '{{{}}}'",
+                         field.index == kNone ? std::string(field.written)
+                                              : fmt::format("{}{}", field.index, field.spec));
   const bool numbered = english.find("{0}") != english.npos || english.find("{2}") != english.npos;
   for (const Field& field : own)
     if (!numbered && std::ranges::find(given, field.index, &Field::index) == given.end())

@@ -178,8 +178,11 @@ class Session::Engine {
             .value(q->predict)
             .end_array();
     }
-    return fmt::format("{{{}, \"title\": {}, \"questions\": {}}}", all.json(),
-                       json_string(play_->scenario().title), questions.end_array().text());
+    const auto& paints = play_->scenario().paints;
+    const bool painted = !paints.empty() || (lesson_ && !lesson_->scenario().paints.empty());
+    return fmt::format("{{{}, \"title\": {}, \"questions\": {}, \"colours\": {}}}", all.json(),
+                       json_string(play_->scenario().title), questions.end_array().text(),
+                       json_string(painted ? publish::lesson_colours(paints) : ""));
   }
 
   std::string picture(std::size_t index) {

@@ -21,7 +21,8 @@ namespace lantern::live {
 // `lesson`, if that is given, what it says as the lesson does is left out, in drags, too. Pictures
 // are so many page units wide and high, or as a recorded lesson's.
 //
-// lesson. The picture of all frames, "title", and "questions": [[asked, answer, frame, predict]].
+// lesson. The picture of all frames, "title", "questions": [[asked, answer, frame, predict]], and
+// "colours": a style, if the text or the lesson has colours of its own; else it is empty.
 //
 // frame: index. The picture of one.
 //

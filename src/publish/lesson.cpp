@@ -32,16 +32,6 @@ constexpr std::size_t kMostCover = 300'000;  // bytes of a picture for the index
 constexpr std::string_view kQuestionButton =
     "<button id=\"question\" title=\"Questions for the students (Q)\">question</button>\n";
 
-// The roles' colours as CSS variables.
-std::string colours(const Theme& theme) {
-  std::string text;
-  for (std::size_t i = 0; i < theme.colors.size(); ++i) {
-    const Color& c = theme.colors[i];
-    text += fmt::format("--role-{}:#{:02x}{:02x}{:02x};", i, c.r, c.g, c.b);
-  }
-  return text;
-}
-
 constexpr std::string_view kEngineMark = "window.lanternEngine = \"";
 
 std::string data_script(const char* type, const char* id, std::string_view text) {
@@ -201,24 +191,6 @@ std::string entry_of(const Listed& lesson, const std::map<std::string, const Lis
 }
 
 }  // namespace
-
-std::string lesson_colours(std::span<const BodyPaint> paints) {
-  const auto of = [&](const char* theme) { return colours(theme_named(theme)->with(paints)); };
-  const std::string light = of("light"), dark = of("dark"), print = of("print");
-  std::string css = fmt::format(":root{{{}}}\n", light);
-  css +=
-      fmt::format("@media (prefers-color-scheme: dark){{:root:not([data-theme]){{{}}}}}\n", dark);
-  css += fmt::format(":root[data-theme=dark]{{{}}}\n:root[data-theme=print]{{{}}}\n", dark, print);
-  css += fmt::format("@media print{{:root,:root[data-theme]{{{}}}}}\n", print);
-  // Names for what the page itself is made of.
-  for (const auto& [name, role] :
-       {std::pair{"paper", Role::paper}, std::pair{"panel", Role::panel},
-        std::pair{"ink", Role::ink}, std::pair{"quiet", Role::quiet_ink},
-        std::pair{"rule", Role::rule}, std::pair{"lit", Role::lit},
-        std::pair{"lit-ink", Role::lit_ink}, std::pair{"lit-fill", Role::lit_fill}})
-    css += fmt::format(":root{{--{}:var(--role-{})}}\n", name, static_cast<int>(role));
-  return css;
-}
 
 std::string to_json(const LessonCard& card) {
   JsonWriter json;

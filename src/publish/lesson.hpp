@@ -34,10 +34,6 @@ std::optional<LessonCard> lesson_card(std::string_view json);
 // or nothing for the page itself, that shows it.
 std::string question_list(const LessonCard& card, std::string_view page);
 
-// The roles' colours, and those of the page itself, as CSS variables: light, unless the reader's
-// system prefers dark or the root's data-theme says otherwise; grey on paper.
-std::string lesson_colours(std::span<const BodyPaint> paints = {});
-
 // A scenario that a page can run.
 struct LiveScenario {
   std::string name;  // of its file

@@ -204,7 +204,7 @@ class Page {
     const dialog = $("overview-dialog");
     fillOverview(dialog, this.lesson, this.lesson.stepStops, this.lesson.stepStops.find((stop) => stop >= this.index),
       (index) => { dialog.close(); this.go(index); });
-    dialog.append(element(document, "form", { method: "dialog", children: [element(document, "button", { text: "Close" })] }));
+    dialog.append(element(document, "form", { method: "dialog", children: [element(document, "button", { text: say("Close") })] }));
   }
 
   openQuestions() {

@@ -1,7 +1,8 @@
 // What a lesson page holds, unpacked: see src/publish/lesson_frames.hpp and lesson_shapes.hpp.
 
 // The page's fixed words in its language, by the English ones; a page in English has none.
-const WORDS = JSON.parse(document.getElementById("word-table")?.textContent ?? '{"said": {}}').said;
+const { said: WORDS, decimal: DECIMAL } =
+  JSON.parse(document.getElementById("word-table")?.textContent ?? '{"said": {}, "decimal": "."}');
 const PLURALS = new Intl.PluralRules(document.documentElement.lang || "en");
 
 // A sentence about these: "{}" in turn, or by number as a translation may have it, "{1}".
@@ -17,6 +18,8 @@ function form(forms, n) {
 }
 // A node's name as it is read: "root" and "front.back" are words.
 const labelOf = (label) => label.split(".").map((part) => say(part)).join(".");
+const numberSaid = (n) => String(n).replace(".", DECIMAL);
+const pointSaid = (at) => at.map(numberSaid).join(DECIMAL === "," ? "; " : ", ");
 const counted = (n, forms) => `${n} ${form(forms, n)}`;
 
 const HUNDREDTH = 0.01;

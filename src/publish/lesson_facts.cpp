@@ -65,9 +65,10 @@ class FactsWriter {
     const std::string z = frame_.dimension == 3 ? "," + number(b.position.z) : "";
     const bool is_outside = !contains(frame_.bounds, b.position);
     const char* state = b.is_static ? "static" : is_outside ? "outside" : b.asleep ? "asleep" : "";
-    return fmt::format("[{},{},[{},{}{}],{},\"{}\"]", b.id, json_string(b.name),
+    const std::string label = b.label.empty() ? "" : "," + json_string(b.label);
+    return fmt::format("[{},{},[{},{}{}],{},\"{}\"{}]", b.id, json_string(b.name),
                        number(b.position.x), number(b.position.y), z,
-                       number(glm::length(b.velocity)), state);
+                       number(glm::length(b.velocity)), state, label);
   }
 
   std::string nodes() const {

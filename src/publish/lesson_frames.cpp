@@ -12,6 +12,7 @@
 #include "base/stop.hpp"
 #include "draw/font.hpp"
 #include "draw/page.hpp"
+#include "draw/theme.hpp"
 #include "language/scenario.hpp"
 
 namespace lantern::publish {
@@ -176,6 +177,16 @@ std::string beats() {
     text += "]";
   }
   return "[" + text + "]";
+}
+
+// The roles' colours as CSS variables.
+std::string colours(const Theme& theme) {
+  std::string text;
+  for (std::size_t i = 0; i < theme.colors.size(); ++i) {
+    const Color& c = theme.colors[i];
+    text += fmt::format("--role-{}:#{:02x}{:02x}{:02x};", i, c.r, c.g, c.b);
+  }
+  return text;
 }
 
 }  // namespace
@@ -416,6 +427,27 @@ std::string LessonFrames::json() const {
       "{},\n\"places\": {},\n\"frames\": [{}]}}\n",
       hundredths(last_.page.x), hundredths(last_.page.y), beats(), shapes_.json(), kinds_.json(),
       places_.json(), frames_);
+}
+
+std::string lesson_colours(std::span<const BodyPaint> paints) {
+  const auto of = [&](const char* theme) { return colours(theme_named(theme)->with(paints)); };
+  const std::string light = of("light"), dark = of("dark"), print = of("print");
+  std::string css = fmt::format(":root{{{}}}\n", light);
+  css +=
+      fmt::format("@media (prefers-color-scheme: dark){{:root:not([data-theme]){{{}}}}}\n", dark);
+  css += fmt::format(":root[data-theme=dark]{{{}}}\n:root[data-theme=print]{{{}}}\n", dark, print);
+  css += fmt::format("@media print{{:root,:root[data-theme]{{{}}}}}\n", print);
+  // Names for what the page itself is made of.
+  for (const auto& [name, role] :
+       {std::pair{"paper", Role::paper}, std::pair{"panel", Role::panel},
+        std::pair{"ink", Role::ink}, std::pair{"quiet", Role::quiet_ink},
+        std::pair{"rule", Role::rule}, std::pair{"lit", Role::lit},
+        std::pair{"lit-ink", Role::lit_ink}, std::pair{"lit-fill", Role::lit_fill}})
+    css += fmt::format(":root{{--{}:var(--role-{})}}\n", name, static_cast<int>(role));
+  std::vector<int> painted;
+  for (const BodyPaint& paint : paints) painted.push_back(paint.color);
+  if (!painted.empty()) css += fmt::format(":root{{--painted:{}}}\n", fmt::join(painted, " "));
+  return css;
 }
 
 }  // namespace lantern::publish

@@ -149,4 +149,8 @@ class LessonFrames {
 // Measures, places and speeds have five digits: they are to be read, not to be reckoned with.
 std::string facts_for_page(const Frame& frame, const DrawList& list);
 
+// The roles' colours, and those of the page itself, as CSS variables: light, unless the reader's
+// system prefers dark or the root's data-theme says otherwise; grey on paper.
+std::string lesson_colours(std::span<const BodyPaint> paints = {});
+
 }  // namespace lantern::publish

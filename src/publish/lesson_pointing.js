@@ -15,6 +15,7 @@ class Relations {
     this.side = facts.name;
     const names = new Map([...facts.bodies, ...facts.textures].map(([id, name]) => [id, name || `#${id}`]));
     this.names = [...names.values()];
+    this.labels = new Map(facts.bodies.flatMap(([, name, , , , label]) => (label ? [[name, label]] : [])));
     this.pairs = facts.pairs.map(([a, b]) => [names.get(a), names.get(b)]);
     this.nodes = new Map(facts.nodes.map(([way, label, depth, leaf, bodies, outline, slot]) =>
       [way, { way, label, depth, leaf, bodies: new Set(bodies.map((id) => names.get(id))), outline, slot }]));
@@ -29,6 +30,11 @@ class Relations {
       const above = this.nodes.get(way);
       if (above) for (const name of node.bodies) above.bodies.add(name);
     }
+  }
+
+  // As the picture calls it.
+  called(name) {
+    return this.labels.get(name) ?? name;
   }
 
   leavesWith(...names) {
@@ -138,16 +144,17 @@ class Pointing {
   words(one) {
     const side = this.side(one);
     const name = nameOf(one);
-    if (kindOf(one) === "pair") return say("pair {}", name.split("|").join(", "));
+    const listOf = (names) => names.map((its) => side.called(its)).join(", ");
+    if (kindOf(one) === "pair") return say("pair {}", listOf(name.split("|")));
     if (kindOf(one) === "body") {
       const shown = showsNodes(this.lesson, this.picture.index) ? side.leavesWith(name) : [];
       const leaves = shown.map((leaf) => labelOf(leaf.label)).join(", ");
-      return leaves ? say("{}, in {}", name, leaves) : name;
+      return leaves ? say("{}, in {}", side.called(name), leaves) : side.called(name);
     }
     const node = side.nodes.get(name);
     if (!node) return "";
     const called = say(node.leaf ? "leaf {}" : "node {}", labelOf(node.label));
-    return node.bodies.size ? say("{} holds {}", called, [...node.bodies].join(", ")) : say("{} is empty", called);
+    return node.bodies.size ? say("{} holds {}", called, listOf([...node.bodies])) : say("{} is empty", called);
   }
 
   // Lights up an entity and what belongs to it; null: nothing.

@@ -108,8 +108,8 @@ function table(title, heads, rows) {
     element(document, "tr", { children: cells("td", texts), ...(of ? { "data-entity": of, tabindex: 0 } : {}) }));
   return element(document, "table", {
     children: [
-      element(document, "caption", { text: title }),
-      element(document, "thead", { children: [element(document, "tr", { children: cells("th", heads) })] }),
+      element(document, "caption", { text: say(title) }),
+      element(document, "thead", { children: [element(document, "tr", { children: cells("th", heads.map((head) => say(head))) })] }),
       element(document, "tbody", { children: body }),
     ],
   });
@@ -121,11 +121,11 @@ const MOST_ROWS = 400;
 function factTables(facts) {
   const { name: side } = facts;
   const relations = new Relations(facts);
-  const numbers = [...facts.counts, ...facts.measures].map(([name, n]) => ({ texts: [name.replaceAll("_", " "), n] }));
-  const bodies = facts.bodies.slice(0, MOST_ROWS).map(([id, name, at, speed, state]) =>
-    ({ texts: [name || `#${id}`, at.join(", "), speed, state], of: entity(side, "body", name || `#${id}`) }));
+  const numbers = [...facts.counts, ...facts.measures].map(([name, n]) => ({ texts: [name.replaceAll("_", " "), numberSaid(n)] }));
+  const bodies = facts.bodies.slice(0, MOST_ROWS).map(([id, name, at, speed, state, label]) =>
+    ({ texts: [label ?? (name || `#${id}`), pointSaid(at), numberSaid(speed), say(state)], of: entity(side, "body", name || `#${id}`) }));
   const nodes = facts.nodes.slice(0, MOST_ROWS).map(([way, label, depth, leaf]) =>
-    ({ texts: [label, depth, leaf ? form("leaf/leaves", 1) : "", [...relations.nodes.get(way).bodies].join(", ")],
+    ({ texts: [labelOf(label), depth, leaf ? form("leaf/leaves", 1) : "", [...relations.nodes.get(way).bodies].map((name) => relations.called(name)).join(", ")],
        of: entity(side, "node", way) }));
   const title = facts.title || side;
   const parts = title ? [element(document, "h2", { text: title })] : [];

@@ -156,6 +156,7 @@ class Live {
     if (isOwn) Object.assign(this.own, { drawn, isOfSheet: true });
     else this.retold(drawn);
     if (isOwn) this.hand.watch(null);
+    this.paint(drawn.colours);
     if (moment) index = leadsTo(drawn.lesson, moment);
     page.load(drawn.lesson, drawn.facts, index ?? this.near(drawn.lesson));
     if (isOwn) this.keepRoom();
@@ -163,6 +164,12 @@ class Live {
     $("title").textContent = document.title = title;
     fillQuestions(page, questions, isOwn ? [] : this.questions);
     await this.controls.refresh();
+  }
+
+  // A text's own colours, in place of those that the page has come with.
+  paint(colours = "") {
+    this.colours ??= document.head.appendChild(element(document, "style", {}));
+    this.colours.textContent = colours;
   }
 
   // The lesson's own.

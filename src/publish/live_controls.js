@@ -171,7 +171,7 @@ function askFirst(page, { asked, predict, frame }, answer) {
 }
 
 const CHANGES = ["fewer", "as many", "more"];
-const countNamed = (name) => (COUNTS[name] ? form(COUNTS[name], 100) : name.replaceAll("_", " "));
+const countNamed = (name, n = 100) => (COUNTS[name] ? form(COUNTS[name], n) : name.replaceAll("_", " "));
 const countOf = (page, name) => page.facts[page.index].reduce((sum, { counts }) => sum + (new Map(counts).get(name) ?? 0), 0);
 
 // What a move was said to make of a count, and what it has made of it.
@@ -181,5 +181,5 @@ function judge(live, { asked, predict, word, before }) {
   live.guess = null;
   ANSWERED.add(asked);
   live.say(say(found === word ? "Yes, {}: {} before, {} now." : "No, {}: {} before, {} now.", say(found),
-    `${before} ${countNamed(predict)}`, now));
+    `${before} ${countNamed(predict, before)}`, now));
 }

@@ -327,7 +327,7 @@ class Hand {
     const { facts, index } = this.page;
     const side = facts[index].find(({ name }) => name === sideOf(one)) ?? facts[index][0];
     const body = side.bodies.find(([, name]) => name === nameOf(one));
-    $("said").textContent = `${body ? say("{} at {}", nameOf(one), body[2].join(", ")) : nameOf(one)}. ${this.words.sentence(this.page.lesson, index, facts[index])}`;
+    $("said").textContent = `${body ? say("{} at {}", body[5] ?? body[1], pointSaid(body[2])) : nameOf(one)}. ${this.words.sentence(this.page.lesson, index, facts[index])}`;
   }
 
   // --- by keys, of the body that has the focus among the frame's things

@@ -35,14 +35,14 @@ class HandWords {
     const texts = lesson.lists[index].map((row) => lesson.shape(row)).filter(({ kind }) => kind === KIND.text);
     const named = new Set(texts.map(({ key }) => lesson.keys[key]).flatMap(([key, one]) => (/(^|\/)world\/name\//.test(key) ? [nameOf(one)] : [])));
     const written = new Set(texts.flatMap(({ key, text }) => (/(name|node)\//.test(lesson.keys[key][0]) ? [lesson.texts[text][0]] : [])));
-    const called = named.has(name) ? name : this.looksOf(one, lesson, index) ?? say(`the body you ${this.hand.deed}`);
-    if (body[4] === "outside") return gone(called);
     const side = new Relations(facts);
+    const called = named.has(name) ? side.called(name) : this.looksOf(one, lesson, index) ?? say(`the body you ${this.hand.deed}`);
+    if (body[4] === "outside") return gone(called);
     const stored = showsNodes(lesson, index) ? this.stored(side.leavesWith(name), this.hand.boxOf(one, lesson, index), written, facts.leaf) : "";
     const all = new Map(facts.counts).get("pairs");
     const others = side.pairs.flatMap((pair) => (pair.includes(name) ? pair.filter((other) => other !== name) : []));
     const shares = all === undefined || all !== side.pairs.length ? "" : shareOf(others.length, all);
-    const where = shares + (shares && others.length && !isShort && others.every((one) => named.has(one)) ? `, ${say("with {}", listed(others))}` : "");
+    const where = shares + (shares && others.length && !isShort && others.every((one) => named.has(one)) ? `, ${say("with {}", listed(others.map((one) => side.called(one))))}` : "");
     if (isShort && stored) return `${called} ${stored}${where && `, ${where}`}.`;
     return [stored && `${called} ${stored}.`, where && say("{} is {}.", stored ? say("It") : called, where)].filter(Boolean).join(" ");
   }
@@ -50,10 +50,12 @@ class HandWords {
   // "the yellow box", where no other body has its colour.
   looksOf(one, lesson, index) {
     const colors = new Map();
+    const painted = getComputedStyle(document.documentElement).getPropertyValue("--painted").split(" ").map(Number);
     for (const { key, kind, style, at } of lesson.lists[index].map((row) => lesson.shape(row))) {
       const [name, whose] = lesson.keys[key];
-      const color = COLORS[lesson.styles[style][0] - FIRST_COLOR];
-      if (!color || kind === KIND.text || !/(^|\/)world\/body\//.test(name)) continue;
+      const number = lesson.styles[style][0] - FIRST_COLOR;
+      const color = COLORS[number];
+      if (!color || painted.includes(number + 1) || kind === KIND.text || !/(^|\/)world\/body\//.test(name)) continue;
       const isBox = kind === KIND.rect ? at[4] < at[2] / 2 : kind === KIND.polygon && at.length === 8;
       listIn(colors, color).push([whose, isBox]);
     }
@@ -90,7 +92,7 @@ function countsTold(sides, before, hasNodes) {
       ...measures.filter(([name, n]) => MEASURES.includes(name) && n)];
     if (!all.length) return [];
     const told = all.map(([name, n]) => {
-      const [now, then] = [MEASURES.includes(name) ? `${say(name)} ${n}` : counted(n, COUNTS[name]), known.get(name)];
+      const [now, then] = [MEASURES.includes(name) ? `${say(name)} ${numberSaid(n)}` : counted(n, COUNTS[name]), known.get(name)];
       return then === undefined || then === n ? now : say("{} ({} in the lesson)", now, then);
     }).join(", ");
     const isSame = known.size && !told.includes("(");

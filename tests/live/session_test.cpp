@@ -512,6 +512,17 @@ TEST(Session, WhatIsOpenedTellsOfItsScene) {
   EXPECT_EQ(page.open(shipped("ui_atlas.toml"))["world"], false);
 }
 
+TEST(Session, ATextsOwnColoursAreTold) {
+  Page page;
+  std::string text = shipped("ghost_quadtree.toml");
+  page.open(text);
+  EXPECT_EQ(page.ask({{"do", "lesson"}})["colours"], "");
+  text.replace(text.find("color = "), 9, "paint = \"#123456\"");
+  page.open(text);
+  const std::string colours = page.ask({{"do", "lesson"}})["colours"];
+  EXPECT_NE(colours.find(":#123456;"), std::string::npos) << colours;
+}
+
 // Of the frame, its bodies by name.
 std::vector<std::string> cast_of(const json& frame, std::size_t side = 0) {
   std::vector<std::string> names;
