@@ -124,7 +124,7 @@ class PictureSink : public FileSink {
  protected:
   void take(const Frame& frame, const Staging& staging) override {
     const fs::path file = of_.file_of(frame);
-    if (waiting_.contains(file))
+    if (waiting_.contains(file) && frame.step_name != of_.job.options.at)
       of_.refuse(
           "several frames are chosen; write {frame} in the name, or choose one with --frames or "
           "--at");

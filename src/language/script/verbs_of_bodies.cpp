@@ -127,7 +127,7 @@ void read_wait(Wait& wait, const TableReader& table, ScriptReading& script) {
   if (written.size() > 2 || (written.size() == 1 && wait.bodies.size() == 1))
     return table.bad_value("bodies",
                            fmt::format("{} of them cannot {}: it takes two", written.size(), event),
-                           "as bodies = [\"ball\", \"wall\"]");
+                           "as bodies = [\"ball\", \"wall\"], or [\"ball\", \"wall1..wall4\"]");
   // Of one name any two; else one of the first and one of the second.
   wait.others = wait.bodies;
   if (written.size() == 1) return;
