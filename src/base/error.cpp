@@ -47,11 +47,9 @@ std::string with_caret(std::string_view line, std::size_t column) {
 }  // namespace
 
 JsonWriter& JsonWriter::value(const Diagnostic& d) {
-  return begin_object()
-      .members("severity", d.severity == Severity::error ? "error" : "warning", "line",
-               d.where.line, "column", d.where.column, "message", d.message, "suggestion",
-               d.suggestion)
-      .end_object();
+  return object("severity", d.severity == Severity::error ? "error" : "warning", "line",
+                d.where.line, "column", d.where.column, "message", d.message, "suggestion",
+                d.suggestion);
 }
 
 std::string_view to_string(Severity severity) {

@@ -72,6 +72,8 @@ class JsonWriter {
     if constexpr (sizeof...(more) > 0) members(more...);
     return *this;
   }
+  // An object of these.
+  JsonWriter& object(const auto&... named) { return begin_object().members(named...).end_object(); }
   template <class T, class... More>
   JsonWriter& lines(std::string_view name, const T& v, const More&... more) {
     line().member(name, v);

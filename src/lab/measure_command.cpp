@@ -160,9 +160,7 @@ class Measure : public Experiment {
       const std::string_view family = to_string(s.problem->solution),
                              variant = to_string(s.problem->variant);
       rows.push_back({s.name, std::string(family), std::string(variant), s.title});
-      json.line().begin_object().members("name", s.name, "family", family, "variant", variant,
-                                         "title", s.title);
-      json.end_object();
+      json.line().object("name", s.name, "family", family, "variant", variant, "title", s.title);
     }
     json.line().end_array().line().end_object();
     return {table(rows), "", json.text(), ""};

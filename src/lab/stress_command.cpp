@@ -31,8 +31,7 @@ class Stress : public Experiment {
     for (const StressCase& one : stress_cases()) {
       rows.push_back({std::string(one.group), std::string(one.name),
                       std::string(one.what) + (one.slow ? " (with --full)" : "")});
-      json.line().begin_object().member("name", one.name).member("group", one.group);
-      json.member("slow", one.slow).member("what", one.what).end_object();
+      json.line().object("name", one.name, "group", one.group, "slow", one.slow, "what", one.what);
     }
     json.line().end_array().line().end_object();
     return {table(rows), "", json.text(), ""};

@@ -29,9 +29,7 @@ constexpr double kFlight = 1.0 / 30;  // seconds of a world from frame to frame 
 constexpr int kMost = 1'000'000;      // of page units, degrees, lines and frames
 
 // Of names and values in turn.
-std::string object_of(const auto&... members) {
-  return JsonWriter().begin_object().members(members...).end_object().text();
-}
+std::string object_of(const auto&... members) { return JsonWriter().object(members...).text(); }
 
 std::string refusal(const std::string& message) {
   Diagnostic d;

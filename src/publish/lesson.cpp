@@ -42,11 +42,8 @@ std::string scenario_list(const std::vector<LiveScenario>& scenarios) {
   JsonWriter json;
   json.begin_array();
   for (const LiveScenario& s : scenarios)
-    json.line()
-        .begin_object()
-        .members("name", s.name, "title", s.title, "idea", s.idea, "lecture", s.lecture, "text",
-                 s.text)
-        .end_object();
+    json.line().object("name", s.name, "title", s.title, "idea", s.idea, "lecture", s.lecture,
+                       "text", s.text);
   return json.end_array().text();
 }
 
@@ -195,24 +192,15 @@ std::string entry_of(const Listed& lesson, const std::map<std::string, const Lis
 std::string to_json(const LessonCard& card) {
   JsonWriter json;
   json.begin_object().members("format", "lantern.lesson/1", "scenario", card.scenario, "title",
-                              card.title, "idea", card.idea);
-  json.key("lecture");
-  card.lecture ? json.value(*card.lecture) : json.null();
-  json.key("needs").begin_array();
-  for (const std::string& name : card.needs) json.value(name);
-  json.end_array().members("steps", card.steps, "frames", card.frames);
+                              card.title, "idea", card.idea, "lecture", card.lecture, "needs",
+                              card.needs, "steps", card.steps, "frames", card.frames);
   if (!card.language.empty()) json.member("language", card.language);
   json.key("questions").begin_array();
   for (const LessonQuestion& q : card.questions)
-    json.begin_object()
-        .members("asked", q.asked, "answer", q.answer, "frame", q.frame, "predict", q.predict)
-        .end_object();
+    json.object("asked", q.asked, "answer", q.answer, "frame", q.frame, "predict", q.predict);
   json.end_array();
-  if (!card.next_file.empty()) {
-    json.key("next").begin_object().members("file", url_of(card.next_file), "title",
-                                            card.next_title);
-    json.end_object();
-  }
+  if (!card.next_file.empty())
+    json.key("next").object("file", url_of(card.next_file), "title", card.next_title);
   return json.end_object().text();
 }
 
@@ -327,10 +315,9 @@ std::string Lesson::words_part() const {
 
 std::string Lesson::live_part() const {
   const LiveScenario& first = live_->scenarios.front();
-  JsonWriter shown;
-  shown.begin_object().members("name", first.name, "text", first.text).end_object();
+  const std::string shown = JsonWriter().object("name", first.name, "text", first.text).text();
   std::string text = said(page::live_html);
-  text += data_script("application/json", "scenario", script_text(shown.text()));
+  text += data_script("application/json", "scenario", script_text(shown));
   if (live_->scenarios.size() > 1)
     text +=
         data_script("application/json", "scenarios", script_text(scenario_list(live_->scenarios)));

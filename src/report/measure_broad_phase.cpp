@@ -42,10 +42,7 @@ Sheet<BroadPhaseCost> sheet_of(const BroadPhaseResult& result) {
   sheet.head = [&result](JsonWriter& json) {
     json.key("scenes").begin_array();
     for (const BoxScene& scene : result.config.scenes)
-      json.line()
-          .begin_object()
-          .members("name", scene.name, "words", scene.words, "dimension", scene.dimension())
-          .end_object();
+      json.line().object("name", scene.name, "words", scene.words, "dimension", scene.dimension());
     json.line().end_array();
   };
   sheet.who = [](const BroadPhaseCost& row) { return std::string(to_string(row.kind)); };

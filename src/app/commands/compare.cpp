@@ -166,8 +166,7 @@ int compare_paths(const CompareOptions& options) {
   JsonWriter json = answer_of("compare");
   json.line().member("equal", different == 0).line().key("files").begin_array();
   for (const Result& r : results) {
-    json.line().begin_object().member("name", r.name).member("equal", r.equal);
-    json.member("finding", r.finding).end_object();
+    json.line().object("name", r.name, "equal", r.equal, "finding", r.finding);
     if (!r.equal)
       complain(fmt::format("{}: different; {}", r.name, r.finding));
     else if (!options.json && !folders)

@@ -410,9 +410,8 @@ int examine(const JsonOnly& options) {
     any |= r.works;
     text += fmt::format("{:<8} {}\n         {}\n", r.name, r.works ? "works" : "does not work",
                         r.works ? r.library + ", " + r.renderer : r.problem);
-    json.line().begin_object().members("name", r.name, "works", r.works, "library", r.library,
-                                       "renderer", r.renderer, "problem", r.problem);
-    json.end_object();
+    json.line().object("name", r.name, "works", r.works, "library", r.library, "renderer",
+                       r.renderer, "problem", r.problem);
   }
   text += fmt::format("{:<8} {}\n", "ffmpeg",
                       found ? printable(ffmpeg) : "not found; only needed to make films (ffmpeg)");

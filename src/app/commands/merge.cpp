@@ -382,9 +382,8 @@ int merge_frames(const ShardSet& set, const std::string& into, JsonWriter& json)
     const std::string path = output.path(name).string();
     const std::size_t kept = write_whole(set, output, whole);
     unmet += whole.manifest.unmet;
-    json.line().begin_object().members("scenario", name, "folder", path, "frames", frames,
-                                       "written", whole.files.size() - kept, "kept", kept);
-    json.end_object();
+    json.line().object("scenario", name, "folder", path, "frames", frames, "written",
+                       whole.files.size() - kept, "kept", kept);
     say(fmt::format("{}: {} frames of {} shards in {}{}", name, frames, set.run().shard.of, path,
                     kept > 0 ? fmt::format(", {} files of them there already", kept) : ""));
   }

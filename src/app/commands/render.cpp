@@ -131,11 +131,9 @@ std::vector<Scenario> load_all(const std::vector<std::string>& files, int& code)
 void tell_of(const FolderMade& made, const Scenario& scenario, const DirectorReport& report,
              JsonWriter& json) {
   const std::string folder = made.path.string();
-  json.line().begin_object().members("scenario", scenario.name, "folder", folder, "drawn",
-                                     made.drawn, "kept", made.kept, "in_betweens", made.in_betweens,
-                                     "expectations", report.expectations, "unmet",
-                                     report.unmet.count());
-  json.end_object();
+  json.line().object("scenario", scenario.name, "folder", folder, "drawn", made.drawn, "kept",
+                     made.kept, "in_betweens", made.in_betweens, "expectations",
+                     report.expectations, "unmet", report.unmet.count());
   say(fmt::format("{}: {}{} in {}{}", scenario.name, counted(made.drawn + made.kept, "frame"),
                   made.in_betweens > 0 ? " and " + counted(made.in_betweens, "in-between") : "",
                   folder, made.kept ? fmt::format(", {} of them there already", made.kept) : ""));

@@ -183,9 +183,7 @@ void tell_fault(const Trial& trial, const std::string& file) {
 void write(JsonWriter& json, const char* name, const std::vector<TrialBody>& bodies) {
   json.key(name).begin_array();
   for (const TrialBody& b : bodies)
-    json.begin_object()
-        .members("x", b.center.x, "y", b.center.y, "half_width", b.half.x, "half_height", b.half.y)
-        .end_object();
+    json.object("x", b.center.x, "y", b.center.y, "half_width", b.half.x, "half_height", b.half.y);
   json.end_array();
 }
 
@@ -212,9 +210,7 @@ int list_structures(const JsonOnly& options) {
     const StructureTraits traits = traits_of(kind);
     rows.push_back(
         {std::string(to_string(kind)), std::string(traits.words), traits.is_own ? "your own" : ""});
-    json.line().begin_object().members("name", to_string(kind), "words", traits.words, "own",
-                                       traits.is_own);
-    json.end_object();
+    json.line().object("name", to_string(kind), "words", traits.words, "own", traits.is_own);
   }
   json.line().end_array().end_object();
   options.json ? answer(json.text()) : print(table(rows));

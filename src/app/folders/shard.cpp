@@ -162,11 +162,8 @@ std::string to_json(const ShardRecord& r) {
   for (const auto& [name, value] : r.settings) json.member(name, value);
   json.end_object().line().member("words", r.words).line().key("inputs").begin_array();
   for (const ShardInput& input : r.inputs)
-    json.line()
-        .begin_object()
-        .members("name", input.name.text(), "text", input.text, "here", input.here, "chosen",
-                 input.chosen, "atlas", input.atlas)
-        .end_object();
+    json.line().object("name", input.name.text(), "text", input.text, "here", input.here, "chosen",
+                       input.chosen, "atlas", input.atlas);
   json.line().end_array().line().end_object();
   return json.text() + "\n";
 }
