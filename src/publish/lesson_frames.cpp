@@ -326,11 +326,7 @@ void LessonFrames::add(const Frame& frame, const DrawList& list, const FrameWord
   if (!frame.part.empty()) json.member("part", frame.part);
   if (frame.ending) json.member("ending", true);
   if (!words.notes.empty()) json.member("notes", words.notes);
-  if (!words.counters.empty()) {
-    json.key("counters").begin_array();
-    for (const std::string& counter : words.counters) json.value(counter);
-    json.end_array();
-  }
+  if (!words.counters.empty()) json.member("counters", words.counters);
   std::string text = json.end_object().text();
   text.pop_back();
   text += ", \"rows\": " + rows_text(rows);
@@ -354,18 +350,15 @@ std::string LessonFrames::rows_text(const std::vector<std::uint32_t>& rows) {
     if (rows[i] == seen) {  // rows are numbered as they come
       while (i + count < rows.size() && rows[i + count] == seen + count) ++count;
       seen += count;
-      numbers.add(-1);
-      numbers.add(static_cast<std::int64_t>(count));
+      numbers.add(-1, count);
     } else if (const auto place = places.find(rows[i]); place != places.end()) {
       const std::size_t at = place->second;
       while (i + count < rows.size() && at + count < last_rows_.size() &&
              rows[i + count] == last_rows_[at + count])
         ++count;
-      numbers.add(static_cast<std::int64_t>(at));
-      numbers.add(static_cast<std::int64_t>(count));
+      numbers.add(at, count);
     } else {
-      numbers.add(-2);
-      numbers.add(rows[i]);
+      numbers.add(-2, rows[i]);
     }
     i += count;
   }
@@ -378,8 +371,7 @@ std::string LessonFrames::way_text(const DrawList& list, const std::vector<std::
   StandingRun still;
   const auto end_run = [&] {
     if (still.count == 0) return;
-    numbers.add(-static_cast<std::int64_t>(still.count));
-    numbers.add(static_cast<std::int64_t>(still.first));
+    numbers.add(-static_cast<std::int64_t>(still.count), still.first);
     still.count = 0;
   };
   const auto add_step = [&](std::size_t to, std::int64_t& last) {
