@@ -32,21 +32,12 @@ std::size_t forms_of(Plural plural) {
 std::size_t form_of(Plural plural, std::int64_t number) {
   const std::int64_t n = number < 0 ? -number : number;
   const bool few = n % 10 >= 2 && n % 10 <= 4 && (n % 100 < 12 || n % 100 > 14);
-  switch (plural) {
-    case Plural::one:
-      return n != 1;
-    case Plural::up_to_one:
-      return n > 1;
-    case Plural::polish:
-      return n == 1 ? 0 : few ? 1 : 2;
-    case Plural::russian:
-      return n % 10 == 1 && n % 100 != 11 ? 0 : few ? 1 : 2;
-    case Plural::czech:
-      return n == 1 ? 0 : n >= 2 && n <= 4 ? 1 : 2;
-    case Plural::none:
-      break;
-  }
-  return 0;
+  if (plural == Plural::one) return n != 1;
+  if (plural == Plural::up_to_one) return n > 1;
+  if (plural == Plural::polish) return n == 1 ? 0 : few ? 1 : 2;
+  if (plural == Plural::russian) return n % 10 == 1 && n % 100 != 11 ? 0 : few ? 1 : 2;
+  if (plural == Plural::czech) return n == 1 ? 0 : n >= 2 && n <= 4 ? 1 : 2;
+  return 0;  // there is one form
 }
 
 const WordTable* spoken() { return table; }

@@ -40,21 +40,11 @@ std::optional<double> deepest(const ScenarioSpec& s) {
 // What no frame of the scenario can count more of. To expect just that is to say so.
 double most_of(const CountDoc& count, const ScenarioSpec& s, const std::optional<double>& depth) {
   const auto bodies = static_cast<double>(s.bodies.size());
-  switch (count.most) {
-    case Most::bodies:
-      return bodies;
-    case Most::pairs:
-      return bodies * (bodies - 1) / 2;
-    case Most::parts:
-      return 1e8;  // structures refuse far fewer
-    case Most::depth:
-      return depth.value_or(kMostWhole);
-    case Most::part_of_step:
-      return std::nextafter(1.0, 0.0);
-    case Most::size:
-    case Most::unbounded:
-      break;
-  }
+  if (count.most == Most::bodies) return bodies;
+  if (count.most == Most::pairs) return bodies * (bodies - 1) / 2;
+  if (count.most == Most::parts) return 1e8;  // structures refuse far fewer
+  if (count.most == Most::depth) return depth.value_or(kMostWhole);
+  if (count.most == Most::part_of_step) return std::nextafter(1.0, 0.0);
   return find_in(known_counts(), count.name) ? kMostWhole : kBeyondAll;
 }
 

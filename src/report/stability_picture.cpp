@@ -45,18 +45,11 @@ std::size_t band_of(double growth) {
 }
 
 std::string_view limit_of(Integrator method) {
-  switch (method) {
-    case Integrator::explicit_euler:
-      return "ωh = 2ζ, then 2(ζ − √(ζ² − 1))";
-    case Integrator::semi_implicit_euler:
-      return "ωh = 2(√(1 + ζ²) − ζ)";
-    case Integrator::velocity_verlet:
-      return "ωh = 2";
-    case Integrator::runge_kutta_4:
-      return "ωh = 2.83 at ζ = 0, 2.79 at 1";
-    default:
-      return "no limit";
-  }
+  if (method == Integrator::explicit_euler) return "ωh = 2ζ, then 2(ζ − √(ζ² − 1))";
+  if (method == Integrator::semi_implicit_euler) return "ωh = 2(√(1 + ζ²) − ζ)";
+  if (method == Integrator::velocity_verlet) return "ωh = 2";
+  if (method == Integrator::runge_kutta_4) return "ωh = 2.83 at ζ = 0, 2.79 at 1";
+  return "no limit";
 }
 
 class Picture {

@@ -380,22 +380,13 @@ class FolderSink : public StagedSink {
 }  // namespace
 
 std::unique_ptr<FileSink> make_file_sink(const Sequence& sequence) {
-  switch (sequence.to.kind()) {
-    case OutputKind::standard_output:
-      return std::make_unique<StdoutSink>(sequence);
-    case OutputKind::picture:
-      return std::make_unique<PictureSink>(sequence);
-    case OutputKind::film:
-      return make_film_sink(sequence);
-    case OutputKind::document:
-      return make_document_sink(sequence);
-    case OutputKind::sheet:
-      return make_sheet_sink(sequence);
-    case OutputKind::page:
-      return make_page_sink(sequence);
-    case OutputKind::folder:
-      break;
-  }
+  const OutputKind kind = sequence.to.kind();
+  if (kind == OutputKind::standard_output) return std::make_unique<StdoutSink>(sequence);
+  if (kind == OutputKind::picture) return std::make_unique<PictureSink>(sequence);
+  if (kind == OutputKind::film) return make_film_sink(sequence);
+  if (kind == OutputKind::document) return make_document_sink(sequence);
+  if (kind == OutputKind::sheet) return make_sheet_sink(sequence);
+  if (kind == OutputKind::page) return make_page_sink(sequence);
   sequence.refuse("no file");
 }
 

@@ -68,26 +68,15 @@ class Guard {
   std::string pass(char c) {
     const bool line_start = line_start_;
     line_start_ = c == '\n' || (line_start && (c == ' ' || c == '\t'));
-    switch (c) {
-      case '.':
-        return in_key_ ? pass_dot() : "";
-      case '=':
-        return enter_key(false);
-      case ',':
-        return enter_key(open_.ends_with('{'));
-      case '\n':
-        return open_.empty() ? enter_key(true) : "";
-      case '{':
-        open_ += c;
-        return enter_key(true);
-      case '[':
-        return pass_bracket(line_start && open_.empty());
-      case ']':
-      case '}':
-        return pass_closing(c);
-      default:
-        return "";
-    }
+    if (c == '.') return in_key_ ? pass_dot() : "";
+    if (c == '=') return enter_key(false);
+    if (c == ',') return enter_key(open_.ends_with('{'));
+    if (c == '\n') return open_.empty() ? enter_key(true) : "";
+    if (c == '[') return pass_bracket(line_start && open_.empty());
+    if (c == ']' || c == '}') return pass_closing(c);
+    if (c != '{') return "";
+    open_ += c;
+    return enter_key(true);
   }
 
   std::string enter_key(bool is_key) {
