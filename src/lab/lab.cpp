@@ -78,13 +78,12 @@ app::Run begin(std::string_view name, Options& rows) {
   if (name == "bench step") return begin_bench("step", step_bench(), rows);
   if (name == "measure") return begin_measure(rows);
   if (name == "stress")
-    return begin_experiment(
-        stress_experiment(),
-        {.command = "stress",
-         .file = "stress",
-         .folder_help = "folder for stress.csv, stress.json and the map",
-         .draws = true},
-        rows);
+    return begin_experiment(stress_experiment(),
+                            {.command = "stress",
+                             .file = "stress",
+                             .folder_help = "folder for stress.csv, stress.json and the map",
+                             .draws = true},
+                            rows);
   LANTERN_CHECK(name, ==, std::string_view("a command of the lab"));
   return nullptr;
 }

@@ -21,8 +21,7 @@ class Most {
     where_ = trial.reason.empty() ? what : fmt::format("{}: {}", what, trial.reason);
   }
   StressResult result() const {
-    return at_most(1e-9, excess_, kUnit,
-                   fmt::format("{} runs; most: {}", tried_, where_));
+    return at_most(1e-9, excess_, kUnit, fmt::format("{} runs; most: {}", tried_, where_));
   }
 
  private:

@@ -29,8 +29,8 @@ void each_field(const StressOutcome& outcome, auto&& visit) {
 namespace lantern::report {
 namespace {
 
-constexpr std::string_view kGroups[] = {"extreme input", "stiff", "stability", "energy", "laws",
-                                        "bars"};
+constexpr std::string_view kGroups[] = {"extreme input", "stiff", "stability",
+                                        "energy",        "laws",  "bars"};
 
 // Whole numbers as such, others with three figures.
 std::string figure_text(double figure) {
