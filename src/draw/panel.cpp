@@ -65,8 +65,7 @@ std::vector<Box<2>> stacked(const std::vector<Panel>& panels, const Box<2>& area
   auto weights = mapped(panels, [&](const Panel panel) { return view_of(panel).weight; });
   const double all = std::accumulate(weights.begin(), weights.end(), 0.0);
   const double room = area.size().y - kPanelGap * (static_cast<double>(panels.size()) - 1);
-  double least = 0;
-  for (const Panel panel : panels) least += view_of(panel).least;
+  const auto least = sum_of<double>(panels, [](Panel panel) { return view_of(panel).least; });
   for (std::size_t i = 0; i < panels.size() && panels.size() > 1; ++i) {
     const double enough = view_of(panels[i]).enough;
     if (enough == 0 || room <= enough + least - view_of(panels[i]).least) continue;
@@ -127,9 +126,7 @@ std::vector<Box<2>> in_columns(const Frame& frame, const std::vector<Panel>& pan
     if (!joins || shared.size() == 1) firsts.push_back(i);
   }
   const auto panels_of = [&](const std::vector<std::size_t>& some) {
-    std::vector<Panel> found;
-    for (const std::size_t i : some) found.push_back(panels[i]);
-    return found;
+    return mapped(some, [&](std::size_t i) { return panels[i]; });
   };
   const std::vector<Box<2>> places = side_by_side(frame, panels_of(firsts), area);
   for (std::size_t c = 0; c < firsts.size(); ++c) boxes[firsts[c]] = places[c];

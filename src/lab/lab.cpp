@@ -89,10 +89,8 @@ app::Run begin(std::string_view name, Options& rows) {
 }
 
 std::vector<std::string> engines(std::vector<std::string>& missing) {
-  std::vector<std::string> found;
-  for (const auto& peer : load_peers(missing))
-    found.push_back(peer->name() + " " + peer->version());
-  return found;
+  return mapped(load_peers(missing),
+                [](const auto& peer) { return peer->name() + " " + peer->version(); });
 }
 
 constexpr Lab kLab{kSourceHash, begin, engines, box_peer_names, require_problem};
@@ -136,9 +134,8 @@ int run_experiment(Experiment& experiment, const ExperimentRun& as) {
       return kInterrupted;
     }
     if (folder.wanted() && as.draws) {
-      std::vector<ReportPage> pages;
-      for (auto& [name, list] : experiment.pages()) pages.push_back({name, std::move(list)});
-      folder.draw(pages, as.theme, as.backend);
+      const auto page = [](auto& one) { return ReportPage{one.name, std::move(one.list)}; };
+      folder.draw(mapped(experiment.pages(), page), as.theme, as.backend);
     }
     folder.finish();
     if (!experiment.complaint().empty()) complain(experiment.complaint());

@@ -387,8 +387,7 @@ void notice_empty_expectations(const TomlTable& file, Draft& draft) {
 }
 
 std::vector<Noticed> noticed_on(const std::vector<std::shared_ptr<const Scenario>>& sides) {
-  std::vector<SideNotices> of_sides;
-  for (const auto& side : sides) of_sides.emplace_back(*side);
+  const auto of_sides = mapped(sides, [](const auto& side) { return SideNotices(*side); });
   std::vector<Noticed> all;
   for (std::size_t i = 0; i < sides.size(); ++i)
     for (const Noticed& one : sides[i]->noticed) {

@@ -1,16 +1,14 @@
 // The tables of words that are in this program.
-#include <algorithm>
 #include <map>
 
+#include "base/ranges.hpp"
 #include "embedded/words.hpp"
 #include "language/words.hpp"
 
 namespace lantern::language {
 
 std::vector<std::string_view> languages() {
-  std::vector<std::string_view> all;
-  for (const auto& [language, text] : words::files()) all.push_back(language);
-  return all;
+  return mapped(words::files(), [](const auto& file) { return file.first; });
 }
 
 std::string_view words_file(std::string_view language) {

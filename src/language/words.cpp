@@ -143,9 +143,8 @@ class WordsReader {
   }
 
   static std::string near(std::string_view english, const WordTable& known) {
-    std::vector<std::string_view> all;
-    for (const auto& [key, said] : known.said) all.push_back(key);
-    return suggestion(english, all);
+    const auto key = [](const auto& entry) -> std::string_view { return entry.first; };
+    return suggestion(english, mapped(known.said, key));
   }
 
   Problems& problems_;

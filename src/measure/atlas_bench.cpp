@@ -146,9 +146,8 @@ struct Entry {
 };
 
 int first_side(const TextureSet& set) {
-  double area = 0;
-  for (const TextureSize& size : set.sizes) area += static_cast<double>(size.width) * size.height;
-  return static_cast<int>(std::ceil(std::sqrt(area)));
+  return static_cast<int>(std::ceil(std::sqrt(sum_of<double>(
+      set.sizes, [](const TextureSize& s) { return static_cast<double>(s.width) * s.height; }))));
 }
 int next_side(int side) { return std::max(side + 1, static_cast<int>(std::ceil(1.002 * side))); }
 

@@ -58,9 +58,7 @@ bool turns_in_space(const BodySpec& body) {
 }
 
 std::vector<Method> named(const std::vector<std::string>& names) {
-  std::vector<Method> methods;
-  for (const std::string& name : names) methods.push_back(*method_named(name));
-  return methods;
+  return mapped(names, [](const std::string& name) { return *method_named(name); });
 }
 
 double tolerance_of(const Scenario& scenario, double h) {

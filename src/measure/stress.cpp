@@ -24,10 +24,9 @@ std::vector<StressCase> scenario_cases() {
   static std::vector<Scenario> scenarios;
   for (const auto& [name, text] : stress_scenario::files())
     scenarios.push_back(parse_scenario(text, fmt::format("scenarios/stress/{}.toml", name)));
-  std::vector<StressCase> cases;
-  for (const Scenario& one : scenarios)
-    cases.push_back({one.name, one.source, one.idea, [&one] { return as_expected(one); }});
-  return cases;
+  return mapped(scenarios, [](const Scenario& one) {
+    return StressCase{one.name, one.source, one.idea, [&one] { return as_expected(one); }};
+  });
 }
 
 using namespace stress;

@@ -110,8 +110,7 @@ class BroadPhases : public ExperimentOf<BroadPhaseResult> {
   }
   bool is_good() const override { return complaint().empty(); }
   std::string complaint() const override {
-    std::uint64_t wrong = 0;
-    for (const BroadPhaseCost& row : result_.rows) wrong += wrong_of(row);
+    const auto wrong = sum_of<std::uint64_t>(result_.rows, wrong_of);
     if (wrong == 0) return "";
     return fmt::format("{} missed or invented; see the column 'wrong'",
                        wrong == 1 ? "1 pair is" : fmt::format("{} pairs are", wrong));

@@ -96,9 +96,9 @@ void draw_strip(const Bar& bar, const Box<2>& place, DrawList& list) {
 // --- two plots of a problem ---
 
 std::vector<LegendEntry> legend_of(const Plot& plot) {
-  std::vector<LegendEntry> entries;
-  for (const PlotSeries& s : plot.series) entries.push_back({s.name, s.look, s.is_peer});
-  return entries;
+  return mapped(plot.series, [](const PlotSeries& s) -> LegendEntry {
+    return {s.name, s.look, s.is_peer};
+  });
 }
 
 // What a reader must know beside the plots, in a few lines, and in what circumstances they
@@ -397,8 +397,8 @@ DrawList draw_slide(const ProblemRows& problem, const Measurement& measurement) 
     return series.points.empty() ? -1 : series.points.back().at.y;
   });
   const std::vector<LegendEntry> legend = legend_of(plot);
-  double wide = 0;
-  for (const LegendEntry& one : legend) wide = std::max(wide, text_width(one.name, words));
+  const auto wide = greatest_of<double>(
+      0, legend, [&](const LegendEntry& one) { return text_width(one.name, words); });
   const double middle = list.page.x - kMargin - std::min(wide + 76, 0.4 * width);
   draw_plot(plot, {panel.lo, {middle - 24, bottom}}, list, labels);
   draw_plot_legend(legend, {{middle, 150}, panel.hi}, plot.size, list, labels);

@@ -91,9 +91,8 @@ std::string distance_text(const Bar& b) {
 }  // namespace
 
 std::string to_table(const StressReport& report) {
-  std::size_t width = 0;
-  for (const StressOutcome& outcome : report.outcomes)
-    width = std::max(width, outcome.of.name.size());
+  const auto width = greatest_of<std::size_t>(
+      0, report.outcomes, [](const StressOutcome& outcome) { return outcome.of.name.size(); });
   std::string text;
   for (const std::string_view group : kGroups) {
     std::string rows;

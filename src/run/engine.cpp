@@ -287,9 +287,7 @@ class EngineOf : public Engine {
 
   // Of bodies that are there.
   std::vector<BodyId> ids_of(std::span<const std::size_t> bodies) const {
-    std::vector<BodyId> ids;
-    for (const std::size_t body : bodies) ids.push_back(*players_.id_of(body));
-    return ids;
+    return mapped(bodies, [&](std::size_t body) { return *players_.id_of(body); });
   }
 
   // The leaves of bodies that had left their boxes when the structure last followed them.

@@ -92,9 +92,8 @@ std::string Waiting::in_vain() const {
                   named(wait_.for_node() ? wait_.node : wait_.named.back())) +
       within;
   if (wait_.for_node() && !was_there_) {
-    std::vector<std::string_view> labels;
-    for (const auto& [label, members] : before_) labels.push_back(label);
-    return with_suggestion(missed + ": there was no such node", wait_.node, labels);
+    const auto label = [](const auto& entry) -> std::string_view { return entry.first; };
+    return with_suggestion(missed + ": there was no such node", wait_.node, mapped(before_, label));
   }
   const auto pushed = [&](std::size_t i) {
     return scenario_.bodies[i].kind == BodyKind::dynamic_body;

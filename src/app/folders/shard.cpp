@@ -35,8 +35,7 @@ std::uint64_t Part::count(std::uint64_t frames) const {
 std::vector<Part> parts_of(const Shard& shard,
                            const std::vector<std::optional<std::uint64_t>>& frames) {
   constexpr std::uint64_t kPieces = 4;  // a whole scenario is at most this part of a share
-  std::uint64_t total = 0;
-  for (const auto& count : frames) total += count.value_or(0);
+  const auto total = sum_of<std::uint64_t>(frames, [](const auto& n) { return n.value_or(0); });
   std::vector<Part> parts(frames.size(), Part{0, 0});
   std::vector<std::size_t> whole;
   std::uint64_t dealt = 0;

@@ -48,9 +48,8 @@ class GridView : PanelPicture {
   void draw() {
     if (panel_.size().x < 120 || panel_.size().y < 120) return;
     if (large_) draw_large();
-    double rows = 0;
-    for (const GridExtent& extent : structure_.grid_levels)
-      rows += static_cast<double>(extent.rows);
+    const auto rows = sum_of<double>(
+        structure_.grid_levels, [](const GridExtent& e) { return static_cast<double>(e.rows); });
     const auto levels = static_cast<double>(levels_.size());
     const double room = panel_.size().y - levels * (kGridHeading + kGridBetween);
     double y = panel_.lo.y;

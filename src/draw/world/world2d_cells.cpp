@@ -303,8 +303,7 @@ void outline_lit(const World2D& w) {
 Grounds fill_views(const World2D& w) {
   Grounds grounds;
   for (const FrameView& view : first_of(w.frame.get<FrameFinding>().views, kMostViews)) {
-    std::vector<Vec<2>> corners;
-    for (const Vec<3>& corner : view.corners) corners.push_back(w.map.to_page(corner));
+    const auto corners = mapped(view.corners, [&](const Vec<3>& c) { return w.map.to_page(c); });
     if (corners.size() < 3 || !std::ranges::all_of(corners, is_finite<2>)) continue;
     std::vector<Vec<2>> seen = cut_to(corners, w.map.picture());
     grounds.push_back({seen, Role::view_fill});

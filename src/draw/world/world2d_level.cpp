@@ -210,8 +210,7 @@ bool is_asked_line(const Frame& frame, const FrameNode& node) {
 Grounds fill_sectors(const World2D& w) {
   Grounds grounds;
   const std::vector<const FrameNode*> sectors = sectors_of(w.frame);
-  std::vector<Polygon> regions;
-  for (const FrameNode* sector : sectors) regions.push_back(page_region(*sector, w.map));
+  const auto regions = mapped(sectors, [&](const FrameNode* s) { return page_region(*s, w.map); });
   const std::vector<unsigned> tones = tones_of(regions);
   Pen pen(w.list, w.map.picture());
   for (std::size_t i = 0; i < sectors.size(); ++i) {

@@ -230,11 +230,9 @@ void read_code(const TableReader& step, Step& to, Draft& draft) {
                                          in_quotes(spec.function)),
                              [name = spec.function] { return nearest_function(name); });
     if (!spec.line.empty() && light_line(*code, spec.line) == 0) {
-      std::vector<std::string_view> lines;
-      for (const CodeText::Line& line : code->lines) lines.push_back(line.text);
-      table.bad_value("line",
-                      fmt::format("no line of '{}' has {}", code->function, in_quotes(spec.line)),
-                      nearest(spec.line, lines));
+      table.bad_value(
+          "line", fmt::format("no line of '{}' has {}", code->function, in_quotes(spec.line)),
+          nearest(spec.line, mapped<std::string_view>(code->lines, &CodeText::Line::text)));
     }
   };
   for_each<CodeSpec>(step, "code", draft, check, "'code'");

@@ -62,8 +62,7 @@ void check_land(const TableReader& world, const WorldSpec& w, int dimension) {
   if (dimension == 3)
     return world.bad_key("land", "a 3D world has no land to draw on",
                          "for a 2D one, size = [16, 9]");
-  std::size_t corners = 0;
-  for (const auto& polygon : w.land) corners += polygon.size();
+  const auto corners = sum_of<std::size_t>(w.land, [](const auto& land) { return land.size(); });
   if (corners > kMostWalls)
     world.bad_value("land", fmt::format("{} corners in all, the limit is {}", corners, kMostWalls));
 }

@@ -398,10 +398,9 @@ class Bench {
 
 std::size_t box_stages(const BoxBenchConfig& config) {
   if (config.own) return 1;
-  std::size_t stages = 0;
-  for (const BoxWorkload* workload : config.workloads)
-    stages += bodies_of(*workload, config).size();
-  return stages;
+  return sum_of<std::size_t>(config.workloads, [&](const BoxWorkload* workload) {
+    return bodies_of(*workload, config).size();
+  });
 }
 
 void bench_boxes(BoxBenchResult& result, const BoxBenchWatch& watch) { Bench(result, watch).run(); }

@@ -309,17 +309,13 @@ std::vector<BoxContestant> own_box_contestants() {
 }
 
 std::vector<BoxContestant> peer_box_contestants(std::vector<std::string>& missing) {
-  std::vector<BoxContestant> all;
-  for (BoxPeer& peer : peers_of<BoxPeer>(kBoxModules, "lantern_box_peers", missing))
-    all.push_back(peer_contestant(std::move(peer)));
-  return all;
+  return mapped(peers_of<BoxPeer>(kBoxModules, "lantern_box_peers", missing),
+                [](BoxPeer& peer) { return peer_contestant(std::move(peer)); });
 }
 
 std::vector<std::string> box_peer_names(std::vector<std::string>& missing) {
-  std::vector<std::string> names;
-  for (const BoxPeer& peer : peers_of<BoxPeer>(kBoxModules, "lantern_box_peers", missing))
-    names.push_back(peer.name + " " + peer.version);
-  return names;
+  return mapped(peers_of<BoxPeer>(kBoxModules, "lantern_box_peers", missing),
+                [](const BoxPeer& peer) { return peer.name + " " + peer.version; });
 }
 
 void into_order(std::vector<Pair>& pairs, std::uint32_t bodies) {

@@ -88,8 +88,7 @@ Linkage linkage_of(const Scenario& scenario, const std::vector<std::size_t>& bod
     return static_cast<std::size_t>(found - bodies.begin());
   };
   const std::vector<BodyState> states = first_states(scenario);
-  std::vector<Linkage::Body> linked;
-  for (const std::size_t i : bodies) linked.push_back(linked_body(scenario, i));
+  auto linked = mapped(bodies, [&](std::size_t i) { return linked_body(scenario, i); });
   std::vector<Linkage::Joint> joints;
   for (LinkSpec link : scenario.links) {
     if (link.kind == LinkSpec::Kind::spring) refuse_problem(scenario, "it has a spring");
@@ -122,10 +121,9 @@ double reach_of(const Scenario& scenario) {
       if (!fixed) fixed = body ? point_of(states[*body], first ? link.at_a : link.at_b) : link.at_b;
     }
   if (!fixed) refuse_problem(scenario, "it hangs on nothing");
-  double reach = 0;
-  for (const std::size_t i : dynamic_bodies(scenario))
-    reach = std::max(reach, glm::length(states[i].position - *fixed));
-  return reach;
+  return greatest_of<double>(0, dynamic_bodies(scenario), [&](std::size_t i) {
+    return glm::length(states[i].position - *fixed);
+  });
 }
 
 using Swinging = std::vector<std::vector<TrajectoryMetric::Exact>>;  // at each sample

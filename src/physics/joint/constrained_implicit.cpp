@@ -154,10 +154,9 @@ class ImplicitStage {
 
   // Of the joints, by their size: a stiffness.
   double largest_tension() const {
-    double most = 0;
-    for (const auto& hold : joints_.holds())
-      most = std::max(most, glm::length(joints_.impulse(hold)) / (time_ * hold.size));
-    return most;
+    return greatest_of<double>(0, joints_.holds(), [&](const auto& hold) {
+      return glm::length(joints_.impulse(hold)) / (time_ * hold.size);
+    });
   }
 
   // A factor of the matrix; the stiffness along the joints, as it counts in it.
