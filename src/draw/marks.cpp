@@ -228,8 +228,7 @@ void draw_joints(const Frame& frame, const Marks3D& marks) {
       if (const auto at = marks.projection().seen((from + to) * 0.5))
         draw_cross(*at, Role::rejected_pair, pen);
     if (!overlap(a->second->box, b->second->box)) continue;
-    const Box<3> common{glm::max(a->second->box.lo, b->second->box.lo),
-                        glm::min(a->second->box.hi, b->second->box.hi)};
+    const Box<3> common = common_part(a->second->box, b->second->box);
     const bool grounded = is_half_space(*a->second) || is_half_space(*b->second);
     const Vec<3> middle = !grounded ? common.center() : is_half_space(*a->second) ? from : to;
     marks.overlap_mark(middle);

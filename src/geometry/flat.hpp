@@ -48,4 +48,9 @@ Shape<To> in_dimension(const Shape<From>& shape) {
       shape);
 }
 
+// Half of its smallest width in a world of so many dimensions.
+inline double thickness(const Shape<3>& shape, int dimension) {
+  return dimension == 2 ? thickness<2>(in_dimension<2>(shape)) : thickness<3>(shape);
+}
+
 }  // namespace lantern::geometry

@@ -34,7 +34,7 @@ class EnergyWatch : public Watcher {
     for (const BodySpec& body : scenario.bodies)
       if (body.kind == BodyKind::dynamic_body)
         motion_.floor += kStir * mass_of(body, world.dimension) * glm::length(world.gravity) *
-                         smallest(body.shape, world.dimension);
+                         thickness(body.shape, world.dimension);
   }
 
   void begin(const Step& step) override {
@@ -107,14 +107,6 @@ class EnergyWatch : public Watcher {
     double scale() const { return most_kinetic + widest + floor; }
   };
 
-  // The least half size: of a flat body's shape, z is 0.
-  static double smallest(const Shape<3>& shape, int dimension) {
-    const Box<3> box = bounding_box(shape, Vec<3>(0.0));
-    double least = box.hi.x;
-    for (int i = 1; i < dimension; ++i) least = std::min(least, box.hi[i]);
-    return least;
-  }
-
   static bool drives(const BodySpec& body) {
     return body.brain != Brain::none || (body.kind == BodyKind::kinematic_body &&
                                          (body.velocity != Vec<3>(0.0) || body.spin != 0));
@@ -180,19 +172,10 @@ constexpr double kMostGap = 0.01;  // of the smaller body's length
 
 // From end to end, in the direction in which it is longest.
 double length_of(const Shape<3>& shape) {
-  return std::visit(
-      [](const auto& s) {
-        using S = std::decay_t<decltype(s)>;
-        if constexpr (std::is_same_v<S, Sphere>)
-          return 2 * s.radius;
-        else if constexpr (std::is_same_v<S, Capsule>)
-          return 2 * (s.radius + s.half_length);
-        else if constexpr (std::is_same_v<S, HalfSpace<3>>)
-          return 0.0;
-        else
-          return 2 * std::max({s.half_size.x, s.half_size.y, s.half_size.z});
-      },
-      shape);
+  const auto of_core = [](const Core<3>& core) {
+    return 2 * (core.radius + std::max({core.half.x, core.half.y, core.half.z}));
+  };
+  return visit_shape<3>(shape, of_core, [](const HalfSpace<3>&) { return 0.0; });
 }
 
 class JointWatch : public Watcher {

@@ -36,19 +36,6 @@ constexpr std::size_t kMostNumbered = 12;
 constexpr std::size_t kMostIslandNodes = 400;
 const TextStyle kIslandName{24, Weight::semibold, Role::ink, Role::panel};
 
-// Half of a body's least width.
-double half_width(const FrameBody& body, int dimension) {
-  const auto least = [&](const Vec<3>& half) {
-    return dimension == 2 ? std::min(half.x, half.y) : std::min({half.x, half.y, half.z});
-  };
-  return std::visit(EachShape{[](const Sphere& s) { return s.radius; },
-                              [&](const AxisBox<3>& s) { return least(s.half_size); },
-                              [&](const OrientedBox<3>& s) { return least(s.half_size); },
-                              [](const Capsule& s) { return s.radius; },
-                              [](const HalfSpace<3>&) { return 1e300; }},
-                    body.shape);
-}
-
 std::unique_ptr<Projection> projection_of(const Frame& frame, const Box<2>& panel) {
   if (frame.dimension == 3) return std::make_unique<View3D>(frame.bounds, frame.camera, panel);
   return std::make_unique<View2D>(flat(frame.bounds), panel, frame.view);
@@ -89,7 +76,7 @@ class IslandGraph : PanelPicture {
     std::map<BodyId, double> halves;
     for (const Frame* frame : staging.frames())
       for (const FrameBody& body : frame->bodies)
-        if (!body.is_static) halves.try_emplace(body.id, half_width(body, frame->dimension));
+        if (!body.is_static) halves.try_emplace(body.id, thickness(body.shape, frame->dimension));
     std::vector<double> sorted = mapped(halves, [](const auto& entry) { return entry.second; });
     if (sorted.empty()) return kLeastNodeRadius;
     std::ranges::sort(sorted);

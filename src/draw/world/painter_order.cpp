@@ -99,21 +99,13 @@ Convex Convex::line(const Vec<3>& a, const Vec<3>& b) {
 }
 
 Convex Convex::of(const FrameBody& body) {
-  if (std::holds_alternative<HalfSpace<3>>(body.shape))
+  const auto of_core = [&](const Core<3>& core) -> Convex {
+    const bool turned = core.turns && !std::holds_alternative<Sphere>(body.shape);
+    return {body.position, turned ? matrix(body.orientation) : Mat<3>(1), core.half, core.radius};
+  };
+  return visit_shape<3>(body.shape, of_core, [&](const HalfSpace<3>&) -> Convex {
     return {body.box.center(), Mat<3>(1), body.box.size() * 0.5};
-  Convex convex;
-  convex.center = body.position;
-  if (std::holds_alternative<OrientedBox<3>>(body.shape) ||
-      std::holds_alternative<Capsule>(body.shape))
-    convex.axes = matrix(body.orientation);
-  std::visit(
-      [&](const auto& shape) {
-        if constexpr (requires { shape.half_size; }) convex.half = shape.half_size;
-        if constexpr (requires { shape.half_length; }) convex.half.y = shape.half_length;
-        if constexpr (requires { shape.radius; }) convex.radius = shape.radius;
-      },
-      body.shape);
-  return convex;
+  });
 }
 
 // A piece with a radius is a ball or a capsule along its own y: the balls at its ends and the
