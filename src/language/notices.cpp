@@ -293,8 +293,7 @@ void notice_prototypes(const TableReader& file, Draft& draft) {
   for (const char* owner : {"prototype", "body", "pattern"})
     for (const TomlValue* table : file.tables(owner)) used.insert(text_in(*table, "like"));
   for (const TomlValue* map : file.tables("map"))
-    for (const TomlEntry& e :
-         std::get<TomlTable>(entry_of(std::get<TomlTable>(map->data), "legend")->value.data))
+    for (const TomlEntry& e : *value_of<TomlTable>(std::get<TomlTable>(map->data), "legend"))
       used.insert(std::get<std::string>(e.value.data));
   for (const TomlValue* table : file.tables("prototype"))
     if (const std::string name = text_in(*table, "name"); !used.contains(name))
@@ -376,8 +375,7 @@ void notice_idle(const TableReader& file, Draft& draft) {
 }
 
 void notice_empty_expectations(const TomlTable& file, Draft& draft) {
-  const TomlEntry* steps = entry_of(file, "step");
-  for (const TomlValue& step : std::get<TomlArray>(steps->value.data))
+  for (const TomlValue& step : *value_of<TomlArray>(file, "step"))
     for (const char* key : {"expect", "always"})
       if (const TomlEntry* e = entry_of(std::get<TomlTable>(step.data), key);
           e && expects_nothing(std::get<TomlTable>(e->value.data)))

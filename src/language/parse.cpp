@@ -66,14 +66,12 @@ bool has_strange_table(const TomlTable& table) {
 
 // A step that repeats stands there as often as it says.
 void repeat_steps(TomlTable& file) {
-  const auto found = std::ranges::find(file, "step", &TomlEntry::key);
-  auto* steps = found == file.end() ? nullptr : std::get_if<TomlArray>(&found->value.data);
+  auto* steps = value_of<TomlArray>(file, "step");
   if (!steps) return;
   TomlArray all;
   for (TomlValue& step : *steps) {
     auto* table = std::get_if<TomlTable>(&step.data);
-    const TomlEntry* repeat = table ? entry_of(*table, "repeat") : nullptr;
-    const auto* times = repeat ? std::get_if<std::int64_t>(&repeat->value.data) : nullptr;
+    const auto* times = table ? value_of<std::int64_t>(*table, "repeat") : nullptr;
     if (times && *times > 1 && *times <= 100) {
       TomlValue again = step;
       std::erase_if(std::get<TomlTable>(again.data), [](const TomlEntry& entry) {

@@ -19,9 +19,6 @@ constexpr std::size_t kLeastSides = 2;
 constexpr std::array<std::string_view, 7> kShared = {
     "size", "min", "max", "time_step", "frame_every", "camera_eye", "camera_target"};
 
-const TomlEntry* entry(const TomlTable& table, std::string_view key) {
-  return entry_of(table, key);
-}
 TomlEntry* entry(TomlTable& table, std::string_view key) {
   return const_cast<TomlEntry*>(entry_of(table, key));
 }
@@ -41,8 +38,7 @@ void put(TomlTable& table, const TomlEntry& written) {
 // The tables of a key; those that are none are a mistake, told elsewhere.
 template <class Table, class F>
 void for_each_table(Table& file, std::string_view key, F&& f) {
-  auto* found = entry(file, key);
-  auto* list = found ? std::get_if<TomlArray>(&found->value.data) : nullptr;
+  auto* list = value_of<TomlArray>(file, key);
   if (!list) return;
   for (auto& element : *list)
     if (auto* table = std::get_if<TomlTable>(&element.data)) f(*table, element.where);
@@ -58,13 +54,12 @@ class SideWriter {
 
   TomlTable written(const TomlTable& side) {
     for (const KeyDoc& key : language_table("side").keys)
-      if (const TomlEntry* e = entry(side, key.key); e && key.type == KeyType::part)
+      if (const TomlEntry* e = entry_of(side, key.key); e && key.type == KeyType::part)
         override_by(*e);
     for_each_table(file_, "step", [&](TomlTable& step, Place) {
-      for (const char* key : {"expect", "always", "code"})
-        if (TomlEntry* e = entry(step, key))
-          if (auto* table = std::get_if<TomlTable>(&e->value.data))
-            if (take_own(*table) && e->key == "code") take_out(step, "code");
+      for (const std::string_view key : {"expect", "always", "code"})
+        if (auto* table = value_of<TomlTable>(step, key))
+          if (take_own(*table) && key == "code") take_out(step, key);
       keep_own(step, "lit", [&](TomlValue& name) { return take_own(name); });
       keep_own(step, "note", [&](TomlValue& note) { return take_own_note(note); });
     });
@@ -80,7 +75,7 @@ class SideWriter {
     if (!with || (base && !table)) return;
     if (!base) return put(file_, part);
     // Planes of a BSP mean nothing to another kind.
-    if (part.key == "structure" && entry(*with, "kind")) take_out(*table, "planes");
+    if (part.key == "structure" && entry_of(*with, "kind")) take_out(*table, "planes");
     for (const TomlEntry& e : *with) put(*table, e);
   }
 
@@ -116,8 +111,7 @@ class SideWriter {
   // Does the note stand on this side, too? One that names a side that is there loses that.
   bool take_own_note(TomlValue& note) const {
     auto* table = std::get_if<TomlTable>(&note.data);
-    const TomlEntry* side = table ? entry(*table, "side") : nullptr;
-    const auto* name = side ? std::get_if<std::string>(&side->value.data) : nullptr;
+    const auto* name = table ? value_of<std::string>(*table, "side") : nullptr;
     if (!name || !is_side(*name)) return true;
     const bool is_own = *name == own_;
     take_out(*table, "side");
@@ -126,23 +120,20 @@ class SideWriter {
 
   // Of a step's list, what is of this side.
   static void keep_own(TomlTable& step, std::string_view key, const auto& is_own) {
-    TomlEntry* e = entry(step, key);
-    if (auto* list = e ? std::get_if<TomlArray>(&e->value.data) : nullptr)
+    if (auto* list = value_of<TomlArray>(step, key))
       std::erase_if(*list, [&](TomlValue& value) { return !is_own(value); });
   }
 
   // Only what this side counts is checked on it. A chart that shows nothing of it is not its own.
   void narrow_chart() {
-    TomlEntry* chart = entry(file_, "chart");
-    auto* table = chart ? std::get_if<TomlTable>(&chart->value.data) : nullptr;
+    auto* table = value_of<TomlTable>(file_, "chart");
     if (!table) return;
     bool shown = true;
     if (TomlEntry* bars = entry(*table, "bars")) shown = take_own(bars->value);
-    if (TomlEntry* y = entry(*table, "y"))
-      if (auto* list = std::get_if<TomlArray>(&y->value.data); list && !list->empty()) {
-        std::erase_if(*list, [&](TomlValue& name) { return !take_own(name); });
-        shown = !list->empty();
-      }
+    if (auto* list = value_of<TomlArray>(*table, "y"); list && !list->empty()) {
+      std::erase_if(*list, [&](TomlValue& name) { return !take_own(name); });
+      shown = !list->empty();
+    }
     if (shown) return;
     take_out(file_, "chart");
     for_each_table(file_, "step", [](TomlTable& step, Place) { take_out(step, "plot"); });
@@ -177,7 +168,7 @@ class SidesReader {
 
  private:
   void check_number() {
-    const TomlEntry& all = *entry(file_, "side");
+    const TomlEntry& all = *entry_of(file_, "side");
     if (!check_value(all.value, *language_table("").find("side"), 0, problems_)) return;
     std::size_t count = 0;
     Place last = all.where;
@@ -240,7 +231,7 @@ class SidesReader {
   // A table of the file that sides override is whole by itself.
   void check_parts() {
     for (const KeyDoc& key : language_table("side").keys) {
-      const TomlEntry* e = key.type == KeyType::part ? entry(file_, key.key) : nullptr;
+      const TomlEntry* e = key.type == KeyType::part ? entry_of(file_, key.key) : nullptr;
       if (const auto* table = e ? std::get_if<TomlTable>(&e->value.data) : nullptr)
         TableReader(*table, e->value.where, language_table(key.of), problems_, 0);
     }
@@ -306,9 +297,9 @@ ChartSpec chart_of_sides(const TomlTable& file, const ChartSpec& of_one,
     if (!side_of(written, sides).empty()) return chart.y.push_back(written);
     for (const std::string& side : sides) chart.y.push_back(side + "." + written);
   };
-  const TomlTable& table = std::get<TomlTable>(entry(file, "chart")->value.data);
-  if (const TomlEntry* bars = entry(table, "bars")) add(bars->value);
-  if (const TomlEntry* y = entry(table, "y"))
+  const TomlTable& table = std::get<TomlTable>(entry_of(file, "chart")->value.data);
+  if (const TomlEntry* bars = entry_of(table, "bars")) add(bars->value);
+  if (const TomlEntry* y = entry_of(table, "y"))
     for (const TomlValue& name : std::get<TomlArray>(y->value.data)) add(name);
   return chart;
 }

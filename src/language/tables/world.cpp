@@ -13,10 +13,8 @@ constexpr double kLeastExtent = 1e-6;
 // As many as its extent has numbers; 0 if that cannot be told, which is a mistake told elsewhere.
 int dimension_of(const TomlTable& world) {
   for (const std::string_view key : {"size", "min", "max"})
-    for (const TomlEntry& e : world) {
-      const auto* list = e.key == key ? std::get_if<TomlArray>(&e.value.data) : nullptr;
-      if (list && (list->size() == 2 || list->size() == 3)) return static_cast<int>(list->size());
-    }
+    if (const auto* list = value_of<TomlArray>(world, key))
+      if (list->size() == 2 || list->size() == 3) return static_cast<int>(list->size());
   return 0;
 }
 
@@ -122,10 +120,8 @@ bool has_world(const TableReader& step, const char* key, int dimension, const Dr
     return false;
   }
   if (draft.dimension == dimension || draft.dimension == 0) return draft.dimension != 0;
-  if (dimension == 2)
-    step.bad_key(key, fmt::format("a 3D world has no '{}'", key), kGiveCamera);
-  else
-    step.bad_key(key, fmt::format("a 2D world has no '{}'", key), kGiveView);
+  step.bad_key(key, fmt::format("a {}D world has no '{}'", draft.dimension, key),
+               dimension == 2 ? kGiveCamera : kGiveView);
   return false;
 }
 

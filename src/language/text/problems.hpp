@@ -112,6 +112,10 @@ const T* value_of(const TomlTable& table, std::string_view key) {
   const TomlEntry* entry = entry_of(table, key);
   return entry ? std::get_if<T>(&entry->value.data) : nullptr;
 }
+template <class T>
+T* value_of(TomlTable& table, std::string_view key) {
+  return const_cast<T*>(value_of<T>(std::as_const(table), key));
+}
 
 // Adds a problem and gives an empty table if `text` is not TOML, has bytes that are not UTF-8, or
 // is nested too deeply. `text` has no byte order mark.
