@@ -198,8 +198,9 @@ void put(std::string& text, WordTable& words) {
   text = found->second;
 }
 
-// A body whose name the table has among its texts is called so.
-void label_bodies(ScenarioSpec& scenario, const WordTable& words) {
+// Of one side, or of the whole. A body whose name the table has among its texts is called so.
+void translate_one(ScenarioSpec& scenario, WordTable& words) {
+  for_each_text(scenario, [&](std::string& text) { put(text, words); });
   for (BodySpec& body : scenario.bodies)
     if (const auto found = words.texts.find(body.name);
         body.label.empty() && found != words.texts.end())
@@ -254,12 +255,10 @@ void translate(ScenarioSpec& scenario, const WordTable& table) {
   auto words = std::make_shared<WordTable>(table);
   for (auto& side : scenario.sides) {
     ScenarioSpec own = *side;
-    for_each_text(own, [&](std::string& text) { put(text, *words); });
-    label_bodies(own, *words);
+    translate_one(own, *words);
     side = std::make_shared<const Scenario>(Scenario(std::move(own)));
   }
-  for_each_text(scenario, [&](std::string& text) { put(text, *words); });
-  label_bodies(scenario, *words);
+  translate_one(scenario, *words);
   std::ranges::sort(words->missing);
   words->missing.erase(std::ranges::unique(words->missing).begin(), words->missing.end());
   Hash hash;
