@@ -39,7 +39,8 @@ class FactsWriter {
         json_string(frame_.get<FrameSide>().name), json_string(frame_.get<FrameSide>().title),
         list_of(frame_.counts, count), list_of(frame_.measures, measure),
         list_of(frame_.get<FrameTextures>().textures, texture),
-        list_of(frame_.bodies, [&](const FrameBody& b) { return body(b); }), nodes(),
+        list_of(frame_.bodies, [&](const FrameBody& b) { return body(b); }),
+        list_of(frame_.nodes, [&](const FrameNode& n) { return node(n); }),
         has_cells(frame_.structure) ? R"("cell","cells")" : R"("leaf","leaves")",
         list_of(frame_.pairs,
                 [](const FramePair& p) {
@@ -71,18 +72,13 @@ class FactsWriter {
                        number(glm::length(b.velocity)), state, label);
   }
 
-  std::string nodes() const {
-    std::string text;
-    for (std::uint32_t i = 0; i < frame_.nodes.size(); ++i) {
-      stop_if_asked();
-      const FrameNode& n = frame_.nodes[i];
-      const auto id = [](BodyId body) { return fmt::format("{}", body); };
-      text += fmt::format("{}[{},{},{},{},{},{},{}]", i > 0 ? "," : "",
-                          json_string(way_of(frame_.nodes, i)), json_string(n.label), n.depth,
-                          n.leaf ? 1 : 0, list_of(n.bodies, id), outline(n),
-                          n.pool_slot == kNone ? -1 : static_cast<std::int64_t>(n.pool_slot));
-    }
-    return "[" + text + "]";
+  std::string node(const FrameNode& n) const {
+    const auto place = static_cast<std::uint32_t>(&n - frame_.nodes.data());
+    const auto id = [](BodyId body) { return fmt::format("{}", body); };
+    return fmt::format("[{},{},{},{},{},{},{}]", json_string(way_of(frame_.nodes, place)),
+                       json_string(n.label), n.depth, n.leaf ? 1 : 0, list_of(n.bodies, id),
+                       outline(n),
+                       n.pool_slot == kNone ? -1 : static_cast<std::int64_t>(n.pool_slot));
   }
 
   // Cut to the picture: the cells that hold a half-space go on without end.
