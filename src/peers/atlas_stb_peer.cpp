@@ -53,11 +53,8 @@ class StbPacker : public measure::TexturePacker {
 };
 
 }  // namespace
-}  // namespace lantern::peers
-
 extern "C" __attribute__((visibility("default"))) void lantern_atlas_peers(
-    std::vector<lantern::measure::AtlasPeer>& peers) {
-  using namespace lantern;
+    std::vector<AtlasPeer>& peers) {
   const auto add = [&](const char* name, const char* words, int heuristic) {
     peers.push_back({name, LANTERN_PEER_VERSION,
                      std::string("skyline, ") + words + "; as many nodes as the atlas is wide",
@@ -69,3 +66,5 @@ extern "C" __attribute__((visibility("default"))) void lantern_atlas_peers(
   add("stb_rect_pack:best_fit", "the place that wastes least",
       STBRP_HEURISTIC_Skyline_BF_sortHeight);
 }
+
+}  // namespace lantern::peers

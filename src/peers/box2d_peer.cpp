@@ -204,10 +204,7 @@ std::unique_ptr<Simulation> start(const PeerScene& scene, double h, const Effort
 }
 
 }  // namespace
-}  // namespace lantern::peers
-
-extern "C" void lantern_peers(std::vector<lantern::measure::Peer>& peers) {
-  using namespace lantern::peers;
+extern "C" void lantern_peers(std::vector<Peer>& peers) {
   for (const Effort& effort : {kManuals, kFiner}) {
     const bool finer = effort.velocity_sweeps > kManuals.velocity_sweeps;
     const std::string v = std::to_string(effort.velocity_sweeps),
@@ -230,3 +227,5 @@ extern "C" void lantern_peers(std::vector<lantern::measure::Peer>& peers) {
          [=](const PeerScene& scene, double h) { return start(scene, h, effort); }});
   }
 }
+
+}  // namespace lantern::peers

@@ -125,12 +125,7 @@ std::unique_ptr<T> made(std::size_t setting) {
 }
 
 }  // namespace
-}  // namespace lantern::peers
-
-extern "C" void lantern_box_peers(std::vector<lantern::measure::BoxPeer>& peers) {
-  using namespace lantern::peers;
-  using lantern::measure::Oracle;
-  using lantern::measure::PairFinder;
+extern "C" void lantern_box_peers(std::vector<BoxPeer>& peers) {
   peers.push_back({.name = "Boost",
                    .version = LANTERN_PEER_VERSION,
                    .how = "Boost.Geometry's rtree, packed anew each step, and one of the static "
@@ -143,3 +138,5 @@ extern "C" void lantern_box_peers(std::vector<lantern::measure::BoxPeer>& peers)
                    .finds_nearest = true,
                    .allocations = [] { return calls_for_memory; }});
 }
+
+}  // namespace lantern::peers

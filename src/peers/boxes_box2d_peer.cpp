@@ -123,18 +123,16 @@ class Keeping : public measure::PairFinder<2> {
 };
 
 }  // namespace
-}  // namespace lantern::peers
-
-extern "C" void lantern_box_peers(std::vector<lantern::measure::BoxPeer>& peers) {
-  using namespace lantern::peers;
-  peers.push_back(
-      {.name = "Box2D",
-       .version = LANTERN_PEER_VERSION,
-       .how = "b2DynamicTree with Box2D's own margins; each body asks the tree, or as "
-              "in b2BroadPhase only those that left their enlarged boxes do",
-       .settings = {"all ask", "those that left their boxes ask"},
-       .pairs_2d = [](std::size_t setting) -> std::unique_ptr<lantern::measure::PairFinder<2>> {
-         if (setting == 0) return std::make_unique<Asking>();
-         return std::make_unique<Keeping>();
-       }});
+extern "C" void lantern_box_peers(std::vector<BoxPeer>& peers) {
+  peers.push_back({.name = "Box2D",
+                   .version = LANTERN_PEER_VERSION,
+                   .how = "b2DynamicTree with Box2D's own margins; each body asks the tree, or as "
+                          "in b2BroadPhase only those that left their enlarged boxes do",
+                   .settings = {"all ask", "those that left their boxes ask"},
+                   .pairs_2d = [](std::size_t setting) -> std::unique_ptr<PairFinder<2>> {
+                     if (setting == 0) return std::make_unique<Asking>();
+                     return std::make_unique<Keeping>();
+                   }});
 }
+
+}  // namespace lantern::peers

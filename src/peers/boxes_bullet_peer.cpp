@@ -156,10 +156,7 @@ std::unique_ptr<measure::Oracle<D>> oracle(std::size_t) {
 }
 
 }  // namespace
-}  // namespace lantern::peers
-
-extern "C" void lantern_box_peers(std::vector<lantern::measure::BoxPeer>& peers) {
-  using namespace lantern::peers;
+extern "C" void lantern_box_peers(std::vector<BoxPeer>& peers) {
   btAlignedAllocSetCustom(counted_alloc, std::free);
   peers.push_back(
       {.name = "Bullet",
@@ -173,3 +170,5 @@ extern "C" void lantern_box_peers(std::vector<lantern::measure::BoxPeer>& peers)
        .oracle_3d = oracle<3>,
        .allocations = [] { return calls_for_memory; }});
 }
+
+}  // namespace lantern::peers

@@ -113,10 +113,7 @@ std::unique_ptr<measure::PairFinder<D>> finder(std::size_t setting) {
 }
 
 }  // namespace
-}  // namespace lantern::peers
-
-extern "C" void lantern_box_peers(std::vector<lantern::measure::BoxPeer>& peers) {
-  using namespace lantern::peers;
+extern "C" void lantern_box_peers(std::vector<BoxPeer>& peers) {
   std::vector<std::string> settings;
   for (const std::ptrdiff_t cutoff : kCutoffs)
     settings.push_back("cutoff " + std::to_string(cutoff));
@@ -130,3 +127,5 @@ extern "C" void lantern_box_peers(std::vector<lantern::measure::BoxPeer>& peers)
                    .oracle_3d = [](std::size_t) { return std::make_unique<TreeOracle>(); },
                    .allocations = [] { return calls_for_memory; }});
 }
+
+}  // namespace lantern::peers

@@ -266,10 +266,7 @@ PeerSettings settings(const Variant& variant) {
 }
 
 }  // namespace
-}  // namespace lantern::peers
-
-extern "C" void lantern_peers(std::vector<lantern::measure::Peer>& peers) {
-  using namespace lantern::peers;
+extern "C" void lantern_peers(std::vector<Peer>& peers) {
   for (const Variant& variant : kVariants)
     peers.push_back({variant.name, LANTERN_PEER_VERSION, settings(variant),
                      [&variant](const PeerScene& scene) { return cannot(scene, variant); },
@@ -277,3 +274,5 @@ extern "C" void lantern_peers(std::vector<lantern::measure::Peer>& peers) {
                        return std::make_unique<BulletRun>(scene, h, variant);
                      }});
 }
+
+}  // namespace lantern::peers

@@ -364,13 +364,10 @@ std::optional<std::string> cannot(const PeerScene& scene, const Variant& variant
 }
 
 }  // namespace
-}  // namespace lantern::peers
-
-extern "C" void lantern_peers(std::vector<lantern::measure::Peer>& peers) {
-  using namespace lantern::peers;
+extern "C" void lantern_peers(std::vector<Peer>& peers) {
   // Else it writes a file into the current folder, and ends the program.
   mju_user_warning = [](const char*) {};
-  mju_user_error = [](const char* why) { throw lantern::Refused(why); };
+  mju_user_error = [](const char* why) { throw Refused(why); };
   for (const Variant& variant : kVariants)
     peers.push_back(
         {variant.name,
@@ -394,3 +391,5 @@ extern "C" void lantern_peers(std::vector<lantern::measure::Peer>& peers) {
            return std::make_unique<MujocoRun>(scene, h, variant);
          }});
 }
+
+}  // namespace lantern::peers
