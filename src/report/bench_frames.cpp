@@ -70,9 +70,8 @@ Sheet<FrameRow>::Curve curve_of(const FrameBenchResult& result, bool bytes) {
             const auto at = std::ranges::find(sequences, row.sequence) - sequences.begin();
             const double x = static_cast<double>(at) + 1;
             if (bytes) return PlotPoint{{x, row.bytes_per_file}};
-            PlotPoint point{{x, row.frames_per_second}};
-            point.spread = Box<2>{{x, row.lower_quartile}, {x, row.upper_quartile}};
-            return point;
+            return PlotPoint{.at = {x, row.frames_per_second},
+                             .spread = Box<2>{{x, row.lower_quartile}, {x, row.upper_quartile}}};
           }};
 }
 

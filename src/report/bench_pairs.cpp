@@ -95,9 +95,9 @@ Sheet<BoxBenchRow>::Curve curve_of(const BoxBenchResult& result, bool as_ratio) 
             }
             const double unit = is_asked(row) ? 1e9 : 1e9 / x;
             const Timing& t = row.timing;
-            PlotPoint point{{x, unit * t.median}};
-            point.spread = Box<2>{{x, unit * t.lower_quartile}, {x, unit * t.upper_quartile}};
-            return point;
+            return PlotPoint{
+                .at = {x, unit * t.median},
+                .spread = Box<2>{{x, unit * t.lower_quartile}, {x, unit * t.upper_quartile}}};
           }};
 }
 

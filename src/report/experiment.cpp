@@ -44,9 +44,8 @@ std::string range_text(const Timing& timing, double unit) {
 }
 
 PlotPoint level_point(const Timing& timing, double unit, double y) {
-  PlotPoint point{{unit * timing.median, y}};
-  point.spread = Box<2>{{unit * timing.lower_quartile, y}, {unit * timing.upper_quartile, y}};
-  return point;
+  return {.at = {unit * timing.median, y},
+          .spread = Box<2>{{unit * timing.lower_quartile, y}, {unit * timing.upper_quartile, y}}};
 }
 
 Option only_option(const char* help, std::vector<std::string>& only) {
