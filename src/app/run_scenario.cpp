@@ -97,8 +97,7 @@ void add_folder(const fs::path& folder, std::vector<std::string>& files) {
   }
   if (lessons.empty())
     throw UsageError(
-        "there is no scenario in the folder '{}'; a scenario is a .toml "
-        "file right in it",
+        "there is no scenario in the folder '{}'; a scenario is a .toml file right in it",
         folder.string());
   std::ranges::sort(lessons);
   for (auto& [place, file] : lessons) files.push_back(std::move(file));

@@ -248,13 +248,12 @@ TableDoc side_table() {
   using S = ScenarioSpec;
   TableDoc table = {
       "side", "[[side]]",
-      "The script runs under each side's settings, on one clock, and the page sets "
-      "the sides beside each other: two to four of them. A side overrides single "
-      "keys, as in `structure = { children = \"eager\" }`; what it does not override "
-      "is as in the file. Captions and the chart quote a side by its name, as "
-      "`{eager.pairs}`; without one, what all sides have in common. `expect` and "
-      "`always` hold on every side, and `expect.eager = { nodes = 9 }` on that one; so do "
-      "`code`, `lit = [\"eager.red\"]` and a note with its `side`."};
+      "The script runs under each side's settings, on one clock, and the page sets the sides "
+      "beside each other: two to four of them. A side overrides single keys, as in `structure = { "
+      "children = \"eager\" }`; what it does not override is as in the file. Captions and the "
+      "chart quote a side by its name, as `{eager.pairs}`; without one, what all sides have in "
+      "common. `expect` and `always` hold on every side, and `expect.eager = { nodes = 9 }` on "
+      "that one; so do `code`, `lit = [\"eager.red\"]` and a note with its `side`."};
   table.keys = {
       key(&S::side, "name", "For captions, charts and expectations.", must(), like(kNamePattern)),
       key(&S::side_title, "title", "Stands over it.", range(1, 40), or_else("the name")),

@@ -97,10 +97,8 @@ double Schedule::fitted_step(double wished) const {
   for (const Leg& leg : legs) {
     const double parts = part_of(leg) / wished;
     if (parts < 0.5 || std::abs(parts - std::round(parts)) > 1e-6 * parts)
-      throw Refused(
-          "a time step of {} s does not divide the {} s between two looks at "
-          "the run",
-          wished, part_of(leg));
+      throw Refused("a time step of {} s does not divide the {} s between two looks at the run",
+                    wished, part_of(leg));
   }
   return wished;
 }

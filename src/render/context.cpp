@@ -56,9 +56,8 @@ void require_room(std::uint64_t bytes) {
     }
   if (room == MAP_FAILED)
     throw BackendError(
-        "out of memory: OpenGL needs room for {} MB, which the limits of this process "
-        "do not leave; "
-        "raise them (ulimit -v, ulimit -d), or draw with --format svg",
+        "out of memory: OpenGL needs room for {} MB, which the limits of this process do not "
+        "leave; raise them (ulimit -v, ulimit -d), or draw with --format svg",
         bytes / 1'000'000);
   ::munmap(room, bytes);
 }

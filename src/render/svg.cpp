@@ -42,9 +42,8 @@ class SvgWriter {
     tint_ = nullptr;
     const std::string w = number(list_.page.x), h = number(list_.page.y);
     std::string svg = fmt::format(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" "
-        "xmlns:xlink=\"http://www.w3.org/1999/xlink\" width=\"{}\" height=\"{}\" "
-        "viewBox=\"0 0 {} {}\"{}{}>\n{}",
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" xmlns:xlink=\"http://www.w3.org/1999/xlink\" "
+        "width=\"{}\" height=\"{}\" viewBox=\"0 0 {} {}\"{}{}>\n{}",
         length(0, width), length(1, height), w, h, words_.letters ? kFace : "", lang() + role(),
         told());
     if (!defs_.empty()) svg += fmt::format("<defs>\n{}</defs>\n", defs_);
@@ -125,8 +124,7 @@ class SvgWriter {
     const double width = text_width(s.text, s.size, s.weight);
     if (width <= 0) return;
     const std::string place = fmt::format(
-        " x=\"{}\" y=\"{}\" font-size=\"{}\"{} textLength=\"{}\" "
-        "lengthAdjust=\"spacingAndGlyphs\"",
+        " x=\"{}\" y=\"{}\" font-size=\"{}\"{} textLength=\"{}\" lengthAdjust=\"spacingAndGlyphs\"",
         number(s.at.x - s.align * width), number(s.at.y), number(s.size),
         s.weight == Weight::semibold ? " font-weight=\"600\""
         : s.weight == Weight::code   ? " font-family=\"Inconsolata, monospace\""

@@ -64,16 +64,13 @@ std::string stage_of(const BoxBenchResult& result, const BoxBenchRow& row) {
 constexpr std::string_view kAbout =
     "All pairs of boxes that overlap, step by step, while the boxes move; and what rays, boxes and "
     "balls meet, and which body is nearest. All contestants get the same boxes in the same run, in "
-    "turns; each gives its "
-    "pairs "
-    "in order of ids, each once, within its time. What others find is ordered by Lantern’s own "
-    "code. Times of a step, or of a question, are of the processor, all threads together; clock: "
-    "by "
-    "the clock; times: as quick as the quickest other library; calls: for memory in a warm step; "
-    "bytes: held for each box, pairs too; pairs, boxes, nodes, entries: comparisons of boxes with "
-    "boxes and with nodes, nodes visited, bodies in leaves; of a question: boxes tested in double, "
-    "those compared in float before, several by an instruction, and nodes, or rows of boxes, that "
-    "were looked at. Where nobody counts nothing stands.";
+    "turns; each gives its pairs in order of ids, each once, within its time. What others find is "
+    "ordered by Lantern’s own code. Times of a step, or of a question, are of the processor, all "
+    "threads together; clock: by the clock; times: as quick as the quickest other library; calls: "
+    "for memory in a warm step; bytes: held for each box, pairs too; pairs, boxes, nodes, entries: "
+    "comparisons of boxes with boxes and with nodes, nodes visited, bodies in leaves; of a "
+    "question: boxes tested in double, those compared in float before, several by an instruction, "
+    "and nodes, or rows of boxes, that were looked at. Where nobody counts nothing stands.";
 
 // Nanoseconds a box, or a question; or the ratio to the quickest other library. Of worlds of one
 // size there is no plot.
@@ -198,8 +195,7 @@ class PairsBench : public ExperimentOf<BoxBenchResult> {
         option("--workload", &workloads_, {.value = "NAME", .one_each = true},
                "only these: uniform, clustered, mixed, thin, coincident, brownian, free_fall, "
                "gravity, town, or what is asked: rays, first_hits, boxes, balls, nearest; "
-               "uniform_2d is "
-               "only one of two dimensions"),
+               "uniform_2d is only one of two dimensions"),
         option("--bodies", &c.bodies, {.value = "N", .least = 2, .most = 2e7, .one_each = true},
                "how many boxes; the default is each workload's own numbers"),
         only_option("only these: quadtree, sort_and_sweep, CGAL, ...", c.only),

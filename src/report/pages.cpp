@@ -250,8 +250,7 @@ class OverviewPage {
     const TextStyle quiet{19, Weight::regular, Role::quiet_ink, Role::none};
     const std::string how = fmt::format(
         "{} problem{}, {} runs. Each plot: a run's error (of the quantity named at its upper "
-        "right) "
-        "against its processor seconds, both logarithmic; lower left is better.",
+        "right) against its processor seconds, both logarithmic; lower left is better.",
         problems_.size(), problems_.size() == 1 ? "" : "s",
         std::ranges::count_if(measurement_.rows, &Row::was_run));
     labels_.add(shortened(how, inner(), quiet), {{kOverviewMargin, 110}, 0}, quiet, place);

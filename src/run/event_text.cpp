@@ -124,8 +124,7 @@ std::string search_text(const FrameSearch& search, const std::string& a, const s
     return say("Search {} finds nothing farther that way: no point is nearer to the origin.", n);
   if (!search.taken && n == 1)
     return say(
-        "Search 1, from {} towards {}: farthest point of {}, minus farthest of {} the "
-        "other way.",
+        "Search 1, from {} towards {}: farthest point of {}, minus farthest of {} the other way.",
         a, b, a, b);
   if (!search.taken)
     return say("Search {}, straight at the origin: point {} is the farthest that way.", n, n);
@@ -134,10 +133,8 @@ std::string search_text(const FrameSearch& search, const std::string& a, const s
   const double distance = glm::length(step.nearest);
   if (step.simplex.size() == 1)
     return say("It is {:.4g} from the origin. Search again, straight at the origin.", distance);
-  return say(
-      "The line of the two points comes nearer: {:.4g}. Again, straight at the "
-      "origin.",
-      distance);
+  return say("The line of the two points comes nearer: {:.4g}. Again, straight at the origin.",
+             distance);
 }
 
 std::string look_text(const FrameLook& look) {

@@ -121,8 +121,7 @@ class GoldenRun {
       if (scenario) suite.scenario = scenario->name;
       if (scenario && !files.emplace(scenario->name, file).second)
         throw UsageError(
-            "'{}' and '{}' are both scenarios named '{}'; they would have "
-            "the same golden frames",
+            "'{}' and '{}' are both scenarios named '{}'; they would have the same golden frames",
             files[scenario->name], file, scenario->name);
       loaded_.emplace_back(std::move(suite), std::move(scenario));
     }

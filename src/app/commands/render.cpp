@@ -34,8 +34,7 @@ Options watch_options(RenderOptions& o) {
       {"--frames", &o.frames, "only these frames: 7, 3-9, 3- or -9", {.value = "A-B"}},
       {"--at", &o.at,
        "only the frames of this step or event (its name, split, store, ...; as one picture or a "
-       "document the step's last), or the first "
-       "frame at or after this time in seconds",
+       "document the step's last), or the first frame at or after this time in seconds",
        OptionTraits{.value = "EVENT|TIME"}},
       {"--size", &o.size, "pixels; the default is 1600x900, of a sheet its --paper",
        OptionTraits{.value = "WxH"}},
@@ -46,8 +45,7 @@ Options watch_options(RenderOptions& o) {
        OptionTraits{.value = "LENGTH"}},
       {"--width", &o.width,
        "of a figure on paper, 8cm: pictures are laid out anew for it, with letters of 8 pt, as "
-       "high "
-       "as their panels want, and cut to what is drawn; into .pdf, .svg or .png",
+       "high as their panels want, and cut to what is drawn; into .pdf, .svg or .png",
        OptionTraits{.value = "LENGTH", .without = "--size,--sheet"}},
       {"--panel", &o.panel, "of a figure this panel alone: world, tree, chart, ...",
        OptionTraits{.value = "NAME", .without = "--size,--sheet"}},
@@ -120,8 +118,7 @@ std::vector<Scenario> load_all(const std::vector<std::string>& files, int& code)
     const Scenario& s = scenarios.emplace_back(std::move(*scenario));
     if (!names.insert(s.name).second)
       throw UsageError(
-          "two of the files are scenarios named '{}'; they would "
-          "overwrite each other's frames",
+          "two of the files are scenarios named '{}'; they would overwrite each other's frames",
           s.name);
   }
   return scenarios;

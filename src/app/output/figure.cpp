@@ -58,8 +58,7 @@ void lay_out_figure(const Sequence& of, RenderJob& job) {
   if (!best)
     throw UsageError(
         "letters of {:.3g} pt leave no room for {} on {:.3g} pt; give more width (--width), "
-        "smaller "
-        "letters (--letters), or one panel alone (--panel)",
+        "smaller letters (--letters), or one panel alone (--panel)",
         letters, job.options.panel.empty() ? "all panels" : "that panel", job.on_paper);
   job.set(*best);
 }

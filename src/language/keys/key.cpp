@@ -77,8 +77,7 @@ TableDoc file_table() {
           "Up to three counts and measures that stand at the foot of every frame, the first one "
           "large. Of sides they stand under each; one of a single side, as `eager.nodes`, is large "
           "at the ending's foot, too. Words of its own may follow, for one and for many or the "
-          "same "
-          "for both: `\"pairs: pair left/pairs left\"`, `\"all_pairs: by brute force\"`.",
+          "same for both: `\"pairs: pair left/pairs left\"`, `\"all_pairs: by brute force\"`.",
           or_else("what the caption quotes, then what the scenario is about")),
       key(KeyType::table, "world", "Where bodies are.", holds("world")),
       key(KeyType::table, "structure", "How the world is partitioned.", holds("structure")),
@@ -103,10 +102,9 @@ TableDoc file_table() {
       key(KeyType::tables, "side", "The same under other settings, side by side.",
           at_most(kMostSides), holds("side")),
       key(&S::language, "language",
-          "Of the fixed words on frames and pages, as `\"de\"`: German, Spanish, French, "
-          "Japanese, Polish and Portuguese are there. Texts that stand for the file's own are read "
-          "from a file of "
-          "the same name in the folder `de` beside it.",
+          "Of the fixed words on frames and pages, as `\"de\"`: German, Spanish, French, Japanese, "
+          "Polish and Portuguese are there. Texts that stand for the file's own are read from a "
+          "file of the same name in the folder `de` beside it.",
           range(2, 35), or_else("English")),
       key(&S::words_file, "words",
           "A file with a table of such words for another language, beside this one.", range(1, 200),
@@ -126,8 +124,7 @@ TableDoc step_table() {
           or_else("the verb")),
       key(&Step::repeat, "repeat",
           "So many of this step, one after the other, as if it stood there so often; what it says "
-          "of "
-          "the `ending` and asks is of the last.",
+          "of the `ending` and asks is of the last.",
           range(1, 100)),
       key(&Step::part, "part", "Stands behind the title from here on.", range(1, 60),
           or_else("as before")),

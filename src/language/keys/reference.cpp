@@ -427,8 +427,7 @@ std::string reference_page() {
   page +=
       "\n### Measures of one body\n\nWritten with the body's name, as `energy.bob`: in the chart, "
       "in `equal`, `at_most` and `at_least`, in headlines and in captions; there those that are "
-      "counted "
-      "take a noun, as `{leaves.taxi:leaf/leaves}`.\n\n" +
+      "counted take a noun, as `{leaves.taxi:leaf/leaves}`.\n\n" +
       count_rows("measure", known_body_measures(), [](const CountDoc&) { return true; });
   page += "\n### Counts of an atlas\n\n" +
           count_rows("count", known_counts(), [](const CountDoc& doc) { return doc.for_atlas(); });

@@ -235,11 +235,10 @@ std::vector<VerbDoc> verbs_of_structures() {
                   "order in which they begin on the axis, then one of all.",
                   {}, read_sweep),
       verb<Compare>(
-          "Bodies stand alone in a world of their own, whether they are in this one or "
-          "not, and go through one world step; each kind of structure is built for them, "
-          "then made ready for where they are after the step, and finds their pairs. "
-          "Counted are comparisons. What never moves has a structure of its own, built "
-          "once. The panel `comparison` shows it.",
+          "Bodies stand alone in a world of their own, whether they are in this one or not, and go "
+          "through one world step; each kind of structure is built for them, then made ready for "
+          "where they are after the step, and finds their pairs. Counted are comparisons. What "
+          "never moves has a structure of its own, built once. The panel `comparison` shows it.",
           {
               bodies_key(),
               key(&Compare::row, "row", "What this world is called.", must(), range(1, 24)),
@@ -247,8 +246,7 @@ std::vector<VerbDoc> verbs_of_structures() {
                   "Kinds of structures, with the settings of the [structure] that stands. A `bsp` "
                   "chooses planes of its own: once through faces of what never moves, or, where "
                   "all move, anew after the step. To choose them counts as building.",
-                  or_else("all of Lantern's own that are possible here and whose work is "
-                          "counted")),
+                  or_else("all of Lantern's own that are possible here and whose work is counted")),
               key(&Compare::verdict, "verdict",
                   "What is said of it, under its picture. It may quote counts, as a caption does.",
                   range(0, 56)),

@@ -142,8 +142,7 @@ TableDoc atlas_table() {
           "textures that a `pack` brings, the one that leaves least of them.",
           by_hand()),
       key(&A::turn, "turn",
-          "May textures be turned by 90°? By `first_fit` they are if they fit nowhere as they "
-          "are.",
+          "May textures be turned by 90°? By `first_fit` they are if they fit nowhere as they are.",
           by_hand()),
       key(&A::trials, "trials",
           "Of `best_texture`: packings that are tried at most; there are 6, with `turn` 18. The "

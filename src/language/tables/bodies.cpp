@@ -240,8 +240,7 @@ std::vector<KeyDoc> body_keys(std::vector<KeyDoc> first) {
           range(1, 8000)),
       key(&B::paint, "paint",
           "A colour of its own instead, as `\"#0077aa\"`; print themes take its grey. Eight "
-          "colours "
-          "in all.",
+          "colours in all.",
           like(kPaintPattern), or_else("the `color`")),
       key(KeyType::number, "radius", "Of a disc, or a ball in a 3D world.", range(0, kFar)),
       key(KeyType::point, "half_size", "Of a box.", range(0, kFar)),

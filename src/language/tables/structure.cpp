@@ -183,9 +183,8 @@ TableDoc structure_table() {
           by_hand()),
       key(&S::as_printed, "as_printed",
           "Of a `lecture_quadtree`: with two mistakes of the lecture's text. A pair's key is a + "
-          "(b "
-          "<< 8), of the bodies' addresses, and of pairs with the same key one is kept; what lies "
-          "outside of the root is in no leaf.",
+          "(b << 8), of the bodies' addresses, and of pairs with the same key one is kept; what "
+          "lies outside of the root is in no leaf.",
           by_hand()),
       key(&S::root, "root",
           "Of a `lecture_quadtree`: how large its root is, from the world's lowest corner on.",

@@ -171,17 +171,16 @@ TableDoc world_table() {
           "How touching bodies are kept apart: by sequential `impulse`s; by `soft` contacts in "
           "small steps; by the same in whole steps, `direct`ly, which holds pyramids of up to "
           "3,240 boxes, while heaps of hundreds that fell creep, 3e-6 a second (of more than some "
-          "thousands, whose equations take more than 8 MB, sweeps "
-          "alone are left, and they creep); by one impulse a pair, as the `lecture` does it; or "
-          "not at all. Without a [structure], every pair is tested for it. Rolling off an edge, "
-          "rocking, and turning on a face are of first order in the step: at 60 a second a ball "
-          "leaves a round top 2 to 4 % too fast; in 3D, a plank with unlike inertias that rocks "
-          "under another integrator than the Euler methods may swing 8 % wider or 16 % less "
-          "within 20 s. Taut joints under 500 times a plank's weight part by 6 % of it by `direct` "
-          "and `impulse`, and in fast chains beside contacts by up to two links for a step, which "
-          "by "
-          "`explicit_euler` may gain energy. What bounces in a stack until it is too slow to may "
-          "lose 5e-7 of its energy in a step, or gain 6e-7.",
+          "thousands, whose equations take more than 8 MB, sweeps alone are left, and they creep); "
+          "by one impulse a pair, as the `lecture` does it; or not at all. Without a [structure], "
+          "every pair is tested for it. Rolling off an edge, rocking, and turning on a face are of "
+          "first order in the step: at 60 a second a ball leaves a round top 2 to 4 % too fast; in "
+          "3D, a plank with unlike inertias that rocks under another integrator than the Euler "
+          "methods may swing 8 % wider or 16 % less within 20 s. Taut joints under 500 times a "
+          "plank's weight part by 6 % of it by `direct` and `impulse`, and in fast chains beside "
+          "contacts by up to two links for a step, which by `explicit_euler` may gain energy. What "
+          "bounces in a stack until it is too slow to may lose 5e-7 of its energy in a step, or "
+          "gain 6e-7.",
           by_hand()),
       key(&W::integrator, "integrator",
           "How forces become motion. By `semi_implicit_euler` places follow the new velocities, "
@@ -254,9 +253,8 @@ TableDoc world_table() {
           "one, a body that is `crush`ed between two others; an `expect` that cannot fail, "
           "`settings` of contacts where nothing touches, `bodies` that never enter, `prototypes` "
           "that nobody is like, `letters` that stand nowhere in the map, `paint` that stands out "
-          "little, `links` (springs or "
-          "joints) that are there twice, `needs` of a scenario that is not there, a `problem` "
-          "whose solution is another one's.",
+          "little, `links` (springs or joints) that are there twice, `needs` of a scenario that is "
+          "not there, a `problem` whose solution is another one's.",
           or_else("nothing")),
   };
   table.groups = {{{"size"}, {"min", "max"}}};

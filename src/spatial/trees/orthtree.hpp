@@ -183,8 +183,7 @@ class Orthtree final : public StructureOf<Orthtree<D>, D>, CountsAllocations {
     for (int i = 0; i < D; ++i)
       if (!is_valid(config.bounds) || !(config.bounds.lo[i] < config.bounds.hi[i]))
         throw Refused(
-            "tree: its bounds go from {} to {} on axis {}; they must be "
-            "finite and have an extent",
+            "tree: its bounds go from {} to {} on axis {}; they must be finite and have an extent",
             config.bounds.lo[i], config.bounds.hi[i], "xyz"[i]);
     if (config.capacity == 0) throw Refused("tree: capacity is 0, must be at least 1");
     if (config.max_depth > kDeepest)
@@ -355,9 +354,8 @@ class Orthtree final : public StructureOf<Orthtree<D>, D>, CountsAllocations {
   void require_room(std::uint64_t wanted, const char* what) const {
     if (wanted <= config_.most_entries) return;
     throw Refused(
-        "body {}: with it the tree needs more than {} {} ({} bodies, {} "
-        "nodes, {} entries); lower max_depth ({}), raise capacity ({}) or "
-        "turn on the no-progress stop",
+        "body {}: with it the tree needs more than {} {} ({} bodies, {} nodes, {} entries); lower "
+        "max_depth ({}), raise capacity ({}) or turn on the no-progress stop",
         items_.back().id, config_.most_entries, what, items_.size(), nodes_.size(), entries_,
         config_.max_depth, config_.capacity);
   }
