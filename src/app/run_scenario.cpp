@@ -21,7 +21,6 @@
 #include "draw/font.hpp"
 #include "draw/page.hpp"
 #include "language/text/problems.hpp"
-#include "language/words.hpp"
 #include "run/warnings.hpp"
 #include "run/watcher.hpp"
 

@@ -1,7 +1,5 @@
 #include "draw/staging.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "frame/parts/atlas.hpp"

@@ -12,7 +12,6 @@
 #include "base/printable.hpp"
 #include "draw/projection.hpp"
 #include "frame/parts/atlas.hpp"
-#include "frame/parts/panels.hpp"
 #include "live/edit.hpp"
 #include "publish/lesson_frames.hpp"
 

@@ -4,7 +4,6 @@
 #include <iterator>
 
 #include "base/check.hpp"
-#include "run/director.hpp"
 #include "run/shown.hpp"
 #include "run/warnings.hpp"
 

@@ -5,7 +5,6 @@
 #include <dlfcn.h>
 #include <fmt/format.h>
 
-#include "measure/boxes/bench.hpp"
 #include "measure/forms/dormand_prince.hpp"
 #include "physics/body.hpp"
 #include "physics/integrate/smooth_system.hpp"

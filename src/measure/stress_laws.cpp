@@ -1,6 +1,5 @@
 // Laws: what motion must keep, where closed forms lead, and that scenes of all kinds, by every
 // method, move the same in other units, beside others, in space, and on every machine.
-#include <numbers>
 
 #include "measure/stress_scenes.hpp"
 

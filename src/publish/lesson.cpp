@@ -7,13 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "base/check.hpp"
-#include "base/error.hpp"
 #include "base/json_writer.hpp"
 #include "base/number.hpp"
 #include "base/printable.hpp"
-#include "base/stop.hpp"
 #include "base/words.hpp"
-#include "draw/keys.hpp"
 #include "draw/theme.hpp"
 #include "embedded/lesson_files.hpp"
 #include "language/words.hpp"

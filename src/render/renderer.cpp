@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "base/check.hpp"
 #include "base/error.hpp"
 #include "base/hash.hpp"
 #include "base/memory.hpp"
@@ -15,7 +14,6 @@
 #include "embedded/shaders.hpp"
 #include "render/damage.hpp"
 #include "render/gl.hpp"
-#include "render/instances.hpp"
 #include "render/shape_builder.hpp"
 
 namespace lantern::render {

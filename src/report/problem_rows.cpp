@@ -1,7 +1,6 @@
 #include "report/problem_rows.hpp"
 
 #include "geometry/elementary.hpp"
-#include "report/document.hpp"
 
 namespace lantern::report {
 namespace {

@@ -4,10 +4,8 @@
 
 #include "base/check.hpp"
 #include "base/error.hpp"
-#include "base/number.hpp"
 #include "base/words.hpp"
 #include "frame/parts/level.hpp"
-#include "frame/parts/panels.hpp"
 #include "language/counts.hpp"
 #include "run/stage.hpp"
 #include "spatial/pairs.hpp"

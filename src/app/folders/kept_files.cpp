@@ -14,7 +14,6 @@
 #include "app/report_folder.hpp"
 #include "app/terminal.hpp"
 #include "base/printable.hpp"
-#include "render/renderer.hpp"
 
 namespace lantern::app {
 

@@ -5,7 +5,6 @@
 
 #include "app/output/sinks.hpp"
 #include "app/terminal.hpp"
-#include "base/error.hpp"
 #include "base/file.hpp"
 #include "base/printable.hpp"
 #include "publish/film.hpp"

@@ -13,7 +13,6 @@
 // not built again. The ending has all worlds beside each other, each with three of its bars, all of
 // one scale; so has the `clock`, whose bars are the times that the scenario gives.
 #include <algorithm>
-#include <cmath>
 #include <ranges>
 #include <string>
 #include <vector>

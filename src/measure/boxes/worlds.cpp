@@ -1,6 +1,5 @@
 #include "measure/boxes/worlds.hpp"
 
-#include "base/check.hpp"
 #include "base/stop.hpp"
 #include "geometry/random_vec.hpp"
 #include "run/director.hpp"
