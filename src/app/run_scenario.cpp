@@ -144,24 +144,28 @@ void add_missing_letters(const Scenario& scenario, std::vector<Diagnostic>& foun
   std::u32string letters;
   find_missing(scenario, letters);
   if (letters.empty()) return;
-  std::string list, first;
-  for (std::size_t i = 0; i < std::min(letters.size(), kMost); ++i) {
-    std::string letter;
-    append_utf8(letter, letters[i]);
-    if (i == 0) first = letter;
-    list += (i > 0 ? ", '" : "'") + letter + "'";
-  }
-  if (letters.size() > kMost) list += fmt::format(" and {} more", letters.size() - kMost);
+  std::vector<std::string> some;
+  for (const char32_t letter : letters.substr(0, kMost)) append_utf8(some.emplace_back(), letter);
   found.push_back(warning(
-      scenario, place_in(scenario, first),
-      fmt::format("the bundled typeface has no {}: a picture shows a box in its place", list),
+      scenario, place_in(scenario, some.front()),
+      fmt::format(
+          "the bundled typeface has no '{}'{}: a picture shows a box in its place",
+          fmt::join(some, "', '"),
+          letters.size() > kMost ? fmt::format(" and {} more", letters.size() - kMost) : ""),
       "Inter has Latin, Greek and Cyrillic letters; Japanese ones come with the package "
       "fonts-ipaexfont-gothic"));
 }
 
 void add_missing_words(const Scenario& scenario, std::vector<Diagnostic>& found) {
   constexpr std::size_t kMost = 5;
-  if (!scenario.words || scenario.words->missing.empty()) return;
+  if (!scenario.words) return;
+  if (!scenario.words->idle.empty())
+    found.push_back(
+        warning(scenario, {scenario.file, 0, 0},
+                fmt::format("its texts in '{}' have \"{}\", which it does not say",
+                            scenario.words->language, fmt::join(scenario.words->idle, "\", \"")),
+                "`lantern reference --texts` prints what it says"));
+  if (scenario.words->missing.empty()) return;
   const std::vector<std::string>& missing = scenario.words->missing;
   const auto some = std::min(missing.size(), kMost);
   found.push_back(warning(
@@ -297,6 +301,14 @@ std::optional<Scenario> load_or_complain(const std::string& file, int& code, std
   };
   try {
     Scenario scenario = load_scenario(scenario_file(file), wording());
+    const auto& words = scenario.words;
+    static bool told = false;  // once a run
+    if (words && words->texts.empty() && words->language == wording().language &&
+        words->language != scenario.language && !std::exchange(told, true))
+      say(
+          fmt::format("captions without texts in '{0}' stay as they are: there is no {0}/{1}.toml; "
+                      "`lantern reference --texts {1}` prints one to fill in",
+                      words->language, scenario.name));
     if (!scenario.file_stem.empty())
       say(fmt::format("'{}' is called '{}': names are of a–z, 0–9 and _", file, scenario.name));
     return scenario;

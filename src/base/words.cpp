@@ -47,7 +47,9 @@ Speaking::~Speaking() { table = before_; }
 std::string word(std::string_view english) { return std::string(translated(english)); }
 
 std::string own_noun(std::string_view forms, std::int64_t number) {
-  return std::string(nth(forms, form_of(table ? table->plural : Plural::one, number)));
+  const auto given = static_cast<std::size_t>(std::ranges::count(forms, '/')) + 1;
+  const bool fits = table && forms_of(table->plural) == given;
+  return std::string(nth(forms, form_of(fits ? table->plural : Plural::one, number)));
 }
 
 std::string noun(std::string_view forms, std::int64_t number) {

@@ -38,6 +38,7 @@ struct WordTable {
   std::map<std::string, std::string, std::less<>> said;   // fixed words, by the English ones
   std::map<std::string, std::string, std::less<>> texts;  // a scenario's own, by what it says
   std::vector<std::string> missing = {};                  // fixed words that it lacks
+  std::vector<std::string> idle = {};                     // texts that were not needed yet
 };
 
 // The table in which words are said now, on this thread; null for English.
@@ -63,7 +64,7 @@ constexpr std::int64_t kMany = 100;
 std::string noun(std::string_view forms, std::int64_t number);
 
 // A form as it stands, chosen by the language's rule: for nouns that an author gave. A noun without
-// a slash has one form, and one with too few the last of them.
+// a slash has one form; one with other forms than the language has is of another, as English is.
 std::string own_noun(std::string_view forms, std::int64_t number);
 
 // The name of a node as it is read: "root" and "front.back" are words, "1.3" is not.

@@ -285,7 +285,7 @@ std::vector<std::string> leaf_names(const Frame& frame, const FrameNode& leaf) {
   if (parent.parent == kNone) return {side};
   if (leaf.mark != Mark::lit && !leaf.over_capacity) return {};
   if (parent.plane_name.empty()) return {side};
-  return {parent.plane_name + ": " + side, side};
+  return {word(parent.plane_name) + ": " + side, side};
 }
 
 bool shows_id(const Staging& staging, const FrameNode& node) {

@@ -243,7 +243,7 @@ std::vector<Entry> entries_of(const MarkSet& marks, double width) {
   for (unsigned i = 0; i < kMarkKinds; ++i) {
     const auto kind = static_cast<MarkKind>(i);
     if (!marks.has(kind)) continue;
-    const double needed = kSampleWide + kBeforeWords + text_width(word(words_of(kind)), kQuiet);
+    const double needed = kSampleWide + kBeforeWords + text_width(noun(words_of(kind), 1), kQuiet);
     if (x > 0 && x + needed > width) {
       x = 0;
       ++row;
@@ -289,7 +289,7 @@ void draw_legend(const MarkSet& marks, const Box<2>& strip, DrawList& list, Labe
     const Vec<2> corner = strip.lo + Vec<2>(entry.x, entry.row * kLegendRow);
     const Box<2> sample{corner, corner + Vec<2>(kSampleWide, kSampleHigh)};
     draw_sample(entry.kind, sample, list);
-    labels.add(word(words_of(entry.kind)),
+    labels.add(noun(words_of(entry.kind), 1),
                centred({sample.hi.x + kBeforeWords, sample.center().y}, kQuiet, 0), kQuiet, strip);
   }
 }

@@ -97,7 +97,14 @@ std::string count_words(std::string_view name, std::int64_t number) {
 
 std::string count_words(const Frame& frame, std::string_view name, std::int64_t number) {
   const auto own = frame.words.find(std::string(name));
-  return own == frame.words.end() ? count_words(name, number) : own_noun(own->second, number);
+  if (own != frame.words.end()) return own_noun(own->second, number);
+  const std::string words = count_words(name, number);
+  const auto body =
+      std::ranges::find(frame.bodies, name.substr(name.find('.') + 1), &FrameBody::name);
+  const std::size_t colon = words.find(": ");
+  return body == frame.bodies.end() || colon == words.npos
+             ? words
+             : words.substr(0, colon + 2) + body->called();
 }
 
 }  // namespace lantern::draw

@@ -41,7 +41,9 @@ Scenario worded(Scenario scenario, const Wording& wording) {
   if (!words.empty()) table = read_words_file(words, table);
   const fs::path own = file.parent_path() / table.language / file.filename();
   std::error_code error;
+  table.idle.clear();  // of a table for many scenarios
   if (fs::is_regular_file(own, error)) table = read_words_file(own.string(), table);
+  if (wording.language.empty() && wording.words.empty()) scenario.language = table.language;
   translate(scenario, table);
   return scenario;
 }

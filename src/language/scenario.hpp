@@ -404,6 +404,8 @@ struct ScenarioSpec {
   bool tells_sleepers() const;  // bodies may rest: those that do are told from those that do not
   bool has_body_of(BodyKind kind) const;
   bool shows_trails() const;  // on any frame
+  // In which a text of its own is filled in, translated or not; null: in English.
+  const WordTable* words_of(const std::string& own) const;
   // Of the whole script: the first that stands, and those that are rebuilt.
   std::vector<const StructureSpec*> structures() const;
 };

@@ -100,7 +100,9 @@ class WordsReader {
 
   void read_texts(const TomlTable& table) {
     for_each_text(table, [&](const TomlEntry& entry, const std::string& text) {
-      if (!text.empty()) words_.texts.insert_or_assign(entry.key, text);
+      if (text.empty()) return;
+      words_.texts.insert_or_assign(entry.key, text);
+      words_.idle.push_back(entry.key);
     });
   }
 
@@ -173,6 +175,15 @@ void for_each_text(ScenarioSpec& scenario, auto&& f) {
   }
 }
 
+// f(name, label) for each that is written on pictures; lines and textures have no label.
+void for_each_name(ScenarioSpec& scenario, auto&& f) {
+  for (BodySpec& body : scenario.bodies)
+    if (body.label.empty()) f(body.name, &body.label);
+  for (const TextureSpec& texture : scenario.textures) f(texture.name, nullptr);
+  for (const StructureSpec* structure : scenario.structures())
+    for (const PlaneSpec& plane : structure->planes) f(plane.name, nullptr);
+}
+
 // Is there anything to translate: more than a count's name and numbers?
 bool is_text(const std::string& text) {
   return !find_count(text) && std::ranges::any_of(text, [](char c) {
@@ -194,16 +205,19 @@ void put(std::string& text, WordTable& words) {
                                   in_quotes(text));
       throw ScenarioError(wrong);
     }
+  std::erase(words.idle, text);
   text = found->second;
 }
 
-// Of one side, or of the whole. A body whose name the table has among its texts is called so.
-void translate_one(ScenarioSpec& scenario, WordTable& words) {
-  for_each_text(scenario, [&](std::string& text) { put(text, words); });
-  for (BodySpec& body : scenario.bodies)
-    if (const auto found = words.texts.find(body.name);
-        body.label.empty() && found != words.texts.end())
-      body.label = found->second;
+// What has a name that is among the table's texts is called so: a body by its label, others, whose
+// names stay in facts, by a fixed word.
+void put_names(ScenarioSpec& scenario, WordTable& words) {
+  for_each_name(scenario, [&](const std::string& name, std::string* label) {
+    const auto found = words.texts.find(name);
+    if (found == words.texts.end()) return;
+    std::erase(words.idle, name);
+    (label ? *label : words.said[name]) = found->second;
+  });
 }
 
 }  // namespace
@@ -247,17 +261,32 @@ std::vector<std::string> texts_of(ScenarioSpec scenario) {
   for_each_text(scenario, add);
   for (const auto& side : scenario.sides)
     for (const std::string& text : texts_of(*side)) add(text);
+  for_each_name(scenario, [&](const std::string& name, const std::string* /*label*/) {
+    if (name.find_last_of("0123456789") + 1 != name.size()) add(name);  // no pattern's
+  });
   return texts;
+}
+
+const WordTable* ScenarioSpec::words_of(const std::string& own) const {
+  if (!words || language == words->language) return words.get();
+  const auto said = [&](const auto& text) { return text.second == own; };
+  return std::ranges::any_of(words->texts, said) ? words.get() : words_in(language).get();
 }
 
 void translate(ScenarioSpec& scenario, const WordTable& table) {
   auto words = std::make_shared<WordTable>(table);
+  const auto speak = [&](ScenarioSpec& it) {
+    for_each_text(it, [&](std::string& text) { put(text, *words); });
+    put_names(it, *words);
+    it.words = words;
+  };
   for (auto& side : scenario.sides) {
     ScenarioSpec own = *side;
-    translate_one(own, *words);
+    own.language = scenario.language;
+    speak(own);
     side = std::make_shared<const Scenario>(Scenario(std::move(own)));
   }
-  translate_one(scenario, *words);
+  speak(scenario);
   std::ranges::sort(words->missing);
   words->missing.erase(std::ranges::unique(words->missing).begin(), words->missing.end());
   Hash hash;
@@ -265,7 +294,6 @@ void translate(ScenarioSpec& scenario, const WordTable& table) {
   for (const auto* said : {&words->said, &words->texts})
     for (const auto& [english, other] : *said) hash.add(english).add(other);
   scenario.text_hash = hash.value();
-  scenario.words = std::move(words);
 }
 
 }  // namespace lantern::language

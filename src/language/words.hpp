@@ -33,8 +33,8 @@ WordTable read_words(std::string_view text, const std::string& path, const WordT
 std::string to_json(const WordTable& words);
 WordTable word_table(const std::string& json);
 
-// What the scenario and its sides say on pages, each text once: what a table's [texts] may stand
-// for.
+// What the scenario and its sides say on pages, and the names that they write there, each once:
+// what a table's [texts] may stand for.
 std::vector<std::string> texts_of(ScenarioSpec scenario);
 
 // Puts the table's [texts] for what the scenario says, and gives it the table, with those that it
@@ -42,8 +42,8 @@ std::vector<std::string> texts_of(ScenarioSpec scenario);
 // count than the scenario's own.
 void translate(ScenarioSpec& scenario, const WordTable& words);
 
-// The scenario of a file, with the table of words that it names, or the caller does in its place, and
-// with the texts that stand for its own in a file beside it: those of ghosts.toml in German in
+// The scenario of a file, with the table of words that it names, or the caller does in its place,
+// and with the texts that stand for its own in a file beside it: those of ghosts.toml in German in
 // de/ghosts.toml. Throws as load_scenario(path) does.
 struct Wording {
   std::string language, words;  // "de", "words/sv.toml"; empty: the file's own

@@ -146,7 +146,7 @@ bool FrameMaker::emits(std::string_view event) {
 }
 
 void FrameMaker::note_refused(const std::string& name) {
-  refused_names_ += (refused_names_.empty() ? "" : ", ") + name;
+  refused_names_ += (refused_names_.empty() ? "" : ", ") + word(name);
 }
 
 void FrameMaker::show_finding(Finding finding) {
@@ -414,7 +414,7 @@ void FrameMaker::light_room(Frame& frame) const {
 }
 
 std::optional<std::string> FrameMaker::text_of(std::string_view name, const Frame& frame) const {
-  if (name == "texture") return texture;
+  if (name == "texture") return word(texture);
   if (name == "refused_names") return refused_names_.empty() ? word("none") : refused_names_;
   if (name == "time") return say("{:.2f}", frame.time);
   if (const auto measured = frame.measure(name)) return say("{:.4g}", *measured);
@@ -470,6 +470,7 @@ void FrameMaker::tell(const std::string& text, Frame& frame) const {
 }
 
 std::string FrameMaker::fill(const std::string& text, const Frame& frame) const {
+  const Speaking speaking(scenario_.words_of(text));
   return fill_caption(
       text, [&](std::string_view name) { return text_of(name, frame); },
       [&](std::string_view name) { return frame.count(name); });

@@ -8,6 +8,7 @@
 
 #include "base/check.hpp"
 #include "base/memory.hpp"
+#include "base/words.hpp"
 #include "language/counts.hpp"
 #include "run/script_run.hpp"
 
@@ -48,10 +49,11 @@ class Side {
 
   Quote quote(std::string_view name, std::size_t k) const {
     const Shown& shown = at(k);
+    if (name == "time") return {say("{:.2f}", shown.frame.time), std::nullopt};
     if (const auto text = shown.texts.find(name); text != shown.texts.end())
       return {text->second, std::nullopt};
     if (const auto measured = shown.frame.measure(name))
-      return {fmt::format("{:.4g}", *measured), std::nullopt};
+      return {say("{:.4g}", *measured), std::nullopt};
     return {std::nullopt, shown.frame.count(name)};
   }
 
@@ -64,7 +66,7 @@ class Side {
                    "cut it in two steps, or show fewer frames with a larger 'every'");
     Shown& shown = shown_.emplace_back();
     shown.frame = frame;
-    for (const std::string_view name : {"texture", "refused_names", "time"})
+    for (const std::string_view name : {"texture", "refused_names"})
       if (auto text = run_.frames.text_of(name, frame)) shown.texts.emplace(name, std::move(*text));
     return true;
   }
@@ -184,6 +186,7 @@ class SidesRun : public Performance {
       if (found != known.end()) return found->second;
       return known.emplace(name, quoted(step, name, k, frame)).first->second;
     };
+    const Speaking speaking(scenario_.words_of(text));
     return fill_caption(
         text, [&](std::string_view name) { return quote(name).words; },
         [&](std::string_view name) { return quote(name).count; });

@@ -163,16 +163,17 @@ void witness(const AtlasEvent& event, ScriptRun& run) {
   const FrameTexture& texture = run.stage.atlas->texture(event.texture);
   if (event.kind == Kind::cut || event.kind == Kind::too_small)
     frames.asked = {texture.width, texture.height};
-  frames.emit(now, event_name(event.kind),
-              event_text(event, run.stage.atlas->label_of(event.node),
-                         texture.turned ? say("{}, turned", texture.name) : texture.name,
-                         texture.width, texture.height));
+  frames.emit(
+      now, event_name(event.kind),
+      event_text(event, run.stage.atlas->label_of(event.node),
+                 texture.turned ? say("{}, turned", word(texture.name)) : word(texture.name),
+                 texture.width, texture.height));
   frames.asked = Vec<2>(0.0);
 }
 
 std::string refusal_text(const TextureSpec& texture) {
-  return say("No leaf has room for {} ({} × {}): it is refused, the rest is kept.", texture.name,
-             texture.width, texture.height);
+  return say("No leaf has room for {} ({} × {}): it is refused, the rest is kept.",
+             word(texture.name), texture.width, texture.height);
 }
 
 // Leaves choose among all textures of the step: these enter in the order in which they are chosen.
@@ -364,12 +365,12 @@ void act(const DrawScreen& draw, ScriptRun& run) {
     frames.texture = run.scenario.textures[texture].name;
     if (from_atlas && !run.stage.atlas->leaf_of(texture))
       throw Refused("the atlas has refused '{}', which its screen shows", frames.texture);
-    const std::string image = from_atlas ? word("the atlas") : frames.texture;
+    const std::string image = word(from_atlas ? "the atlas" : frames.texture);
     if (screen.bind(element))
       tell_draw(kBindEvent, texture, from_atlas, bind_text(image, bound, screen.bindings()), run);
     bound = image;
     screen.draw(element);
-    tell_draw(kDrawEvent, texture, from_atlas, draw_text(frames.texture, from_atlas), run);
+    tell_draw(kDrawEvent, texture, from_atlas, draw_text(word(frames.texture), from_atlas), run);
   }
   screen.end();
   frames.settle(kDrawEvent);

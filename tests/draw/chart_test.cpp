@@ -41,6 +41,15 @@ TEST(NumberText, ThousandsStandApart) {
   EXPECT_EQ(short_number(0.0123456), "0.0123");
 }
 
+TEST(NumberText, ABodyIsCalledByItsLabel) {
+  Frame frame;
+  FrameBody& body = frame.bodies.emplace_back();
+  body.name = "kaefer", body.label = "Käfer";
+  EXPECT_EQ(count_words(frame, "speed.kaefer", 2), "speed: Käfer");
+  EXPECT_EQ(count_words(frame, "speed.other", 2), "speed: other");
+  EXPECT_EQ(count_words(frame, "pairs", 1), "candidate pair");
+}
+
 TEST(Axis, LinearOneHoldsItsValuesAndHasFewTicks) {
   Random random(3);
   for (int i = 0; i < 2000; ++i) {

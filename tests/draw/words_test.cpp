@@ -10,7 +10,6 @@
 
 #include "draw/page.hpp"
 #include "run/director.hpp"
-#include "run/event_text.hpp"
 
 namespace lantern::draw {
 namespace {
@@ -88,11 +87,9 @@ TEST_P(EveryWord, ComesFromTheTable) {
                                  "framesLeft"};
   const auto know = [&](const language::ScenarioSpec& of) {
     for (const auto& body : of.bodies) words.texts[body.name] = made_up(body.name);
-    for (const auto& texture : of.textures)
-      for (const std::string& name : {texture.name, run::capitalised(texture.name)})
-        known.merge(latin_in(name));
+    for (const auto& texture : of.textures) words.texts[texture.name] = made_up(texture.name);
     for (const auto* structure : of.structures())
-      for (const auto& plane : structure->planes) known.merge(latin_in(plane.name));
+      for (const auto& plane : structure->planes) words.texts[plane.name] = made_up(plane.name);
     known.merge(latin_in(of.side));
   };
   know(spec);

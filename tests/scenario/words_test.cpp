@@ -29,6 +29,7 @@ TEST(Words, NounsTakeTheFormOfTheirNumber) {
   EXPECT_EQ(forms_by(Plural::czech, "a/b/c", {1, 4, 5, 22}), "a b c c ");
   EXPECT_EQ(forms_by(Plural::none, "a", {0, 1, 7}), "a a a ");
   EXPECT_EQ(forms_by(Plural::polish, "a/b", {5}), "b ") << "of too few the last";
+  EXPECT_EQ(forms_by(Plural::none, "a/b", {1, 5}), "a b ") << "another language's";
 }
 
 TEST(Words, SentencesTakeTheirValuesInAnotherOrder) {
@@ -85,17 +86,49 @@ TEST(Words, ATextStandsForTheScenariosOwn) {
       "[3, "
       "3]\n[[step]]\ndo = \"insert\"\nbodies = [\"red\"]\ncaption = \"{bodies:body} here.\"\n",
       "one.toml");
-  EXPECT_EQ(language::texts_of(scenario), (std::vector<std::string>{"One", "{bodies:body} here."}));
+  EXPECT_EQ(language::texts_of(scenario),
+            (std::vector<std::string>{"One", "{bodies:body} here.", "red"}));
   WordTable words;
   words.texts = {{"One", "Eins"}, {"red", "Käfer"}};
+  words.idle = {"One", "rot"};
   language::ScenarioSpec translated = scenario;
   language::translate(translated, words);
   EXPECT_EQ(translated.title, "Eins");
   EXPECT_EQ(translated.bodies[0].called(), "Käfer");
+  EXPECT_EQ(translated.words->idle, std::vector<std::string>{"rot"});
   EXPECT_EQ(translated.words->missing, std::vector<std::string>{"{bodies:body} here."});
   EXPECT_NE(translated.text_hash, scenario.text_hash);
   words.texts["{bodies:body} here."] = "{pairs:Paar/Paare} hier.";
   EXPECT_THROW(language::translate(scenario, words), ScenarioError);
+}
+
+std::string caption_of(language::ScenarioSpec spec, const WordTable& words) {
+  language::translate(spec, words);
+  const Speaking speaking(spec.words.get());
+  std::string caption;
+  Work work;
+  direct(language::Scenario(std::move(spec)), Pace::step, work, [&](const Frame& frame) {
+    caption = frame.caption;
+    return true;
+  });
+  return caption;
+}
+
+TEST(Words, ACaptionThatIsNotTranslatedIsInItsOwnLanguage) {
+  const language::ScenarioSpec scenario = language::parse_scenario(
+      "title = \"T\"\n[world]\nsize = [16, 9]\n[[body]]\nname = \"a\"\nradius = 1\nposition = [3, "
+      "3]\n"
+      "[[body]]\nname = \"b\"\nradius = 1\nposition = [9, 3]\n"
+      "[[step]]\ndo = \"insert\"\nbodies = [\"a\", \"b\"]\n"
+      "caption = \"{bodies:body/bodies} at {time} s.\"\n",
+      "two.toml");
+  WordTable words;
+  words.language = "xx";
+  words.plural = Plural::none;
+  words.decimal = ',';
+  EXPECT_EQ(caption_of(scenario, words), "2 bodies at 0.00 s.");
+  words.texts["{bodies:body/bodies} at {time} s."] = "{time} s: {bodies:X}.";
+  EXPECT_EQ(caption_of(scenario, words), "0,00 s: 2 Xs.");
 }
 
 }  // namespace

@@ -78,7 +78,7 @@ class AtlasView : PanelPicture {
       }
     if (packed.size() == kMostTextures)
       labels_.add_note(word("not all textures are drawn"), image_);
-    for (const FrameTexture* texture : packed) draw_plate(texture->name, place_of(*texture));
+    for (const FrameTexture* texture : packed) draw_plate(word(texture->name), place_of(*texture));
     draw_asked();
     for (const FrameNode* node : free_leaves()) name_free(*node);
     parts_ = kMostPatternParts;
@@ -217,7 +217,7 @@ class AtlasView : PanelPicture {
     double row = 0;
     for (const FrameTexture& t : frame_.get<FrameTextures>().textures) {
       const Vec<2> size = Vec<2>(t.width, t.height) * scale;
-      const double width = std::max(size.x, text_width(t.name, name));
+      const double width = std::max(size.x, text_width(word(t.name), name));
       if (at.x > panel_.lo.x + 6 && at.x + width > panel_.hi.x - 6)
         at = {panel_.lo.x + 6, at.y + row}, row = 0;
       row = std::max(row, size.y + kSingleName + kSingleGap);
@@ -225,7 +225,7 @@ class AtlasView : PanelPicture {
         draw_textured(t, {at, at + size});
         const TextStyle style =
             is_bound(t) ? TextStyle{kLabel, Weight::semibold, Role::lit_ink} : name;
-        try_write(t.name, {{{at.x, at.y + size.y + 25}, 0}}, style);
+        try_write(word(t.name), {{{at.x, at.y + size.y + 25}, 0}}, style);
       }
       at.x += width + kSingleGap;
       if (at.x - kSingleGap > panel_.hi.x - 6) return 2 * panel_.size().y;  // too wide by itself
@@ -256,9 +256,9 @@ class AtlasView : PanelPicture {
     choose_strip_scale();
     Box<2> upper = strip_;
     if (!refused.empty()) upper.hi.y -= 0.4 * strip_.size().y;
-    if (!waiting.empty() || refused.empty()) draw_queue(word("waiting"), waiting, upper, false);
+    if (!waiting.empty() || refused.empty()) draw_queue("waiting", waiting, upper, false);
     if (!refused.empty())
-      draw_queue(word("refused"), refused, {{upper.lo.x, upper.hi.y}, strip_.hi}, true);
+      draw_queue("refused", refused, {{upper.lo.x, upper.hi.y}, strip_.hi}, true);
   }
 
   // The atlas's own scale if all textures have room in the strip, else half of it or less. All of
@@ -281,9 +281,10 @@ class AtlasView : PanelPicture {
   }
 
   // In rows, first come first; what has no room is counted.
-  void draw_queue(const std::string& heading, const std::vector<const FrameTexture*>& queue,
+  void draw_queue(std::string_view forms, const std::vector<const FrameTexture*>& queue,
                   const Box<2>& area, bool crossed) {
     const TextStyle style{kLabel, Weight::semibold, crossed ? Role::warning : Role::quiet_ink};
+    const std::string heading = noun(forms, std::ssize(queue));
     const double number = Labels::width_of(frame_.get<FrameTextures>().textures.size(), style);
     labels_.add_number(static_cast<std::int64_t>(queue.size()),
                        {area.lo.x + number, area.lo.y + 23}, style, panel_);
@@ -298,7 +299,7 @@ class AtlasView : PanelPicture {
     double row = 0;
     for (std::size_t i = 0; i < queue.size(); ++i) {
       const Vec<2> size = Vec<2>(queue[i]->width, queue[i]->height) * strip_scale_;
-      const double name = crossed ? text_width(queue[i]->name, note) : 0;
+      const double name = crossed ? text_width(word(queue[i]->name), note) : 0;
       if (at.x > area.lo.x && at.x + std::max(size.x, name) > area.hi.x)
         at = {area.lo.x, at.y + row}, row = 0;
       const double last = area.hi.y - (i + 1 < queue.size() ? 32 : 4);
@@ -312,7 +313,7 @@ class AtlasView : PanelPicture {
       if (crossed)
         cross_out(*queue[i], box);
       else
-        draw_plate(queue[i]->name, box);
+        draw_plate(word(queue[i]->name), box);
       row = std::max(row, size.y + kTextureGap + name_line);
       at.x += std::max(size.x, name) + kTextureGap;
     }
@@ -325,7 +326,7 @@ class AtlasView : PanelPicture {
       list_.line({box.lo.x, box.hi.y}, {box.hi.x, box.lo.y}, {role, width});
     }
     const TextStyle style{kLabel, Weight::regular, Role::warning};
-    const std::string name = shortened(texture.name, panel_.hi.x - box.lo.x, style);
+    const std::string name = shortened(word(texture.name), panel_.hi.x - box.lo.x, style);
     try_write(name, {{{box.lo.x, box.hi.y + 23}, 0}}, style);
   }
 

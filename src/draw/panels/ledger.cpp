@@ -178,7 +178,7 @@ class Ledger : PanelPicture {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const auto row = static_cast<double>(row_of(i));
       double right = (row + 1) * plan.cell;
-      if (plan.named) right += kLedgerNameGap + text_width(bodies_[i]->name, kPlain);
+      if (plan.named) right += kLedgerNameGap + text_width(bodies_[i]->called(), kPlain);
       const bool beside_key = plan.corner && row * plan.cell < key_bottom;
       if (right + 2 > room.x - (beside_key ? key_width_ + kKeyGap : 0)) return false;
     }

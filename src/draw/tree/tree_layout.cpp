@@ -303,7 +303,7 @@ BranchText text_of(const Branch& branch, const FrameNode& node, bool atlas, cons
     if (atlas) return {};  // an atlas's inner node shows its cut
     const bool named = node.plane && !node.plane_name.empty();
     const TextStyle style{scale.text, Weight::semibold, Role::ink};
-    const std::string text = named ? node.plane_name : node_words(node.label);
+    const std::string text = named ? word(node.plane_name) : node_words(node.label);
     const double width = std::max(1.3 * scale.box_width, named ? 150.0 : 62.0);
     const std::string brief = short_label(node.label);
     const bool use_brief =

@@ -33,7 +33,7 @@ std::array<std::pair<Vec<2>, Box<2>>, 7> plates_of(const FrameNode& node, const 
   std::array<std::pair<Vec<2>, Box<2>>, 7> plates;
   for (std::size_t k = 0; k < places.size(); ++k) {
     const Vec<2> p = a + (b - a) * places[k];
-    plates[k] = {p, plate_of(node.plane_name, p, kStrong, {9, 7})};
+    plates[k] = {p, plate_of(word(node.plane_name), p, kStrong, {9, 7})};
   }
   return plates;
 }
@@ -101,7 +101,7 @@ void label_planes(const World2D& w) {
       const bool lit = node.mark == Mark::lit || is_level(w.frame);
       const Role role = lit ? Role::lit : cell_line_role(node.depth);
       w.list.rect(plate, Role::panel, {role, 1.8}, 6);
-      w.labels.add(node.plane_name, centred(at, kStrong), kStrong, w.map.picture());
+      w.labels.add(word(node.plane_name), centred(at, kStrong), kStrong, w.map.picture());
       w.labels.block(plate);
       break;
     }
