@@ -184,12 +184,15 @@ void Labels::add_number(std::int64_t number, const Vec<2>& right, const TextStyl
 
 void Labels::add_note(std::string_view note, const Box<2>& picture) {
   const TextStyle style{kLabel, Weight::regular, Role::ink};
-  const std::string text = shortened(note, picture.size().x - 40, style);
-  if (text.empty()) return;
-  const Anchor anchor{{picture.lo.x + 20, picture.hi.y - 20}, 0};
-  const Box<2> plate = shrunk(extent(text, anchor, style), -7);
-  list_.rect(plate, Role::panel, {Role::cell_line_1, 1.4}, 6);
-  add(text, anchor, style, picture);
+  const std::vector<std::string> lines = two_lines(note, picture.size().x - 40, style);
+  if (lines.empty()) return;
+  const Anchor last{{picture.lo.x + 20, picture.hi.y - 20}, 0};
+  const Anchor first{last.at - Vec<2>(0, lines.size() > 1 ? 1.25 * kLabel : 0), 0};
+  const Box<2> words =
+      united(extent(lines.front(), first, style), extent(lines.back(), last, style));
+  list_.rect(shrunk(words, -7), Role::panel, {Role::cell_line_1, 1.4}, 6);
+  add(lines.front(), first, style, picture);
+  if (lines.size() > 1) add(lines.back(), last, style, picture);
 }
 
 std::string shortened(std::string_view text, double width, const TextStyle& style) {

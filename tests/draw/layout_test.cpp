@@ -148,6 +148,32 @@ TEST(Layout, EveryBodyIsNamedWhileThereIsRoom) {
   }
 }
 
+TEST(Layout, NoNameLiesOnAnotherBodyHoweverSmallThePage) {
+  Frame frame = samples::ghosts(4);
+  for (std::size_t i = 0; i < frame.bodies.size(); ++i) {  // close to each other, in a corner
+    const Vec<3> at =
+        frame.bounds.lo + frame.bounds.size() * Vec<3>(0.1 + 0.12 * double(i), 0.9, 0);
+    frame.bodies[i].box = Box<3>::around(at, 0.05 * frame.bounds.size());
+    frame.bodies[i].position = at;
+  }
+  for (const double width : {420.0, 500.0, 600.0, 800.0}) {
+    Work work;
+    const DrawList list = draw_frame(frame, page_across(frame, width), work);
+    const WorldMap& map = list.maps.at(0);
+    for (const FrameBody& body : frame.bodies) {
+      const auto on_page = [&](double x, double y) {
+        return map.origin + Vec<2>(x, -y) * map.scale;
+      };
+      const Box<2> box{on_page(body.box.lo.x, body.box.hi.y),
+                       on_page(body.box.hi.x, body.box.lo.y)};
+      for (const FrameBody& other : frame.bodies)
+        for (const LabelBox& label : list.labels)
+          EXPECT_FALSE(label.text == other.name && other.id != body.id && overlap(label.box, box))
+              << other.name << " lies on " << body.name << " on a page " << width << " wide";
+    }
+  }
+}
+
 TEST(Layout, BodiesAtOnePlaceShareOneLabelThatNamesAll) {
   Work work;
   const DrawList list = draw_frame(samples::coincident(8), page_for(1600, 900), work);

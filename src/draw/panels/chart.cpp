@@ -165,8 +165,10 @@ class Bars : PanelPicture {
     }
     names += 1;  // sums of widths lose a hair
     values += 1;
-    area_.lo.x += std::min(names, 0.4 * panel_.size().x) + kAfter;
-    area_.hi.x -= std::min(values, 0.35 * panel_.size().x) + kAfter + (chart_.logarithmic ? 13 : 0);
+    const double width = panel_.size().x, number = std::min(values, 0.35 * width) + kAfter;
+    // Bars keep a fifth of it.
+    area_.lo.x += std::min(names, std::max(0.4 * width, 0.8 * width - number - kAfter)) + kAfter;
+    area_.hi.x -= number + (chart_.logarithmic ? 13 : 0);
     area_.hi.y -= below();
     row_ = std::min(kMostRow, area_.size().y / rows());
     area_.hi.y = area_.lo.y + rows() * row_;

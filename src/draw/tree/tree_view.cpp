@@ -277,7 +277,8 @@ class TreeView : PanelPicture {
     const double room = layout_.room[i];
     for (const std::string& text : label_choices(branch))
       if (text_width(text, style) <= room && try_write(text, {under}, style)) return;
-    if (branch.copies == 1 && short_label(node.label).empty())
+    if (branch.copies == 1 && short_label(node.label).empty() &&
+        !try_write(node_words(node.label), {under}, style))
       try_write(shortened(node_words(node.label), room, style), {under}, style);
   }
 

@@ -141,20 +141,28 @@ std::string names_of(const Frame& frame, const Stand& stand) {
   return is_one_place(stand) ? say("{} — one place", names) : say("{} — close together", names);
 }
 
-// On its side, or below, above, beside; first where no body is covered and inside the bounds, then
-// also outside of them, then anywhere in the panel. Among many bodies a name that covers one would
-// be read as its name, so it is left out.
+// On its side, or below, above, beside; first inside the bounds, then also outside of them, then
+// beside and a little higher or lower, then on bodies that its own one overlaps. A name that covers
+// any other body would be read as that one's, so it is left out.
 void name_stand(const World2D& w, const std::string& text, const Stand& stand,
                 const NameSides& sides) {
   constexpr std::size_t kFew = 12;
   TextStyle style;
-  const auto anchors =
-      on_its_side(anchors_around(stand.box, kNameGap, style), sides, stand.bodies.front()->name);
-  for (const int pass : {0, 1, 2}) {
+  const auto around = anchors_around(stand.box, kNameGap, style);
+  const auto first = on_its_side(around, sides, stand.bodies.front()->name);
+  std::vector<Anchor> aside;
+  for (const double down : {0.7 * style.size, -0.7 * style.size})
+    for (const std::size_t beside : {4, 5})
+      aside.push_back({around[beside].at + Vec<2>(0, down), around[beside].align});
+  for (const int pass : {0, 1, 2, 3}) {
     if (pass > 0 && w.covered.size() > kFew) return;
     const Anchor* free = w.labels.free_anchor(
-        text, anchors, style, pass == 0 ? shrunk(w.map.picture(), 5) : w.map.panel(),
-        [&](const Box<2>& extent) { return pass == 2 || !touches(w.covered, extent); });
+        text, pass == 2 ? std::span<const Anchor>(aside) : first, style,
+        pass == 0 ? shrunk(w.map.picture(), 5) : w.map.panel(), [&](const Box<2>& extent) {
+          return std::ranges::none_of(w.covered, [&](const Box<2>& other) {
+            return overlap(other, extent) && (pass < 3 || !overlap(other, stand.box));
+          });
+        });
     if (!free) continue;
     style.halo = ground_at(w.grounds, Labels::extent(text, *free, style).center());
     return w.labels.add(text, *free, style, w.map.panel());

@@ -301,6 +301,9 @@ void draw_world2d(World2D w) {
   number_sectors(w);
   label_cells(w);
   name_half_spaces(w, ground);
+  for (const FrameNote& told : w.frame.notes)  // the end of its line
+    if (told.of == NoteOf::point)
+      w.labels.block(Box<2>::around(w.map.to_page(told.point), Vec<2>(8)));
   name_bodies(w);
   if (!w.labels.has_notes()) return;
   const auto seen = [&](const Box<2>& box) -> std::optional<Box<2>> {
