@@ -55,6 +55,7 @@ struct Listed {
   std::string file;
   LessonCard card;
   std::string picture;  // a data URL
+  std::string theme;    // as an attribute of its root; may be empty
 };
 
 // What stands between two texts; nothing if they are not there.
@@ -74,8 +75,9 @@ std::string said(std::string_view html) {
   constexpr std::string_view kSpace = " \n";
   std::string text;
   for (std::size_t at = 0; at < html.size();) {
-    const bool is_title =
-        html.substr(0, at).ends_with(" title=\"") || html.substr(0, at).ends_with(" aria-label=\"");
+    bool is_title = false;
+    for (const std::string_view mark : {" title=\"", " aria-label=\"", " alt=\""})
+      is_title |= html.substr(0, at).ends_with(mark);
     const bool is_between = at > 0 && html[at - 1] == '>';
     const std::size_t end = std::min(html.find(is_title ? '"' : '<', at), html.size());
     if (!is_title && !is_between) {
@@ -103,7 +105,9 @@ std::optional<Listed> listed(const Folder& folder, const std::string& file) {
   if (!json || !picture) return std::nullopt;
   auto card = lesson_card(*json);
   if (!card) return std::nullopt;
-  return Listed{file, std::move(*card), std::string(*picture)};
+  const auto root = between_marks(page, "<html", ">").value_or("");
+  return Listed{file, std::move(*card), std::string(*picture),
+                std::string(root.substr(std::min(root.find(" data-theme"), root.size())))};
 }
 
 // A file's name as a relative URL.
@@ -160,14 +164,14 @@ std::string unescaped(std::optional<std::string_view> html) {
   return text;
 }
 
-// The lessons to be seen before, linked where they stand in the folder.
+// The lessons to be seen before, of those that stand in the folder.
 std::string needs_of(const Listed& lesson, const std::map<std::string, const Listed*>& by_name) {
   std::string text;
   for (const std::string& name : lesson.card.needs) {
     const auto found = by_name.find(name);
+    if (found == by_name.end()) continue;  // what it is called is not known here
     text += text.empty() ? fmt::format("<p class=\"needs\">{} ", word("after")) : ", ";
-    text += found == by_name.end() ? escaped(name)
-                                   : link_to(found->second->file, found->second->card.title);
+    text += link_to(found->second->file, found->second->card.title);
   }
   return text.empty() ? "" : text + "</p>\n";
 }
@@ -343,16 +347,17 @@ std::string lesson_index(const Folder& folder, const std::vector<std::string>& o
   const std::string heading = title.empty() ? word("Lessons") : title;
   std::map<std::string, const Listed*> by_name;
   for (const Listed& lesson : lessons) by_name.emplace(lesson.card.scenario, &lesson);
-  return html_page(heading, filled(said(page::index_html), [&](std::string_view name) {
-                     if (name == "title") return escaped(heading);
-                     if (name == "mark") return std::string(kIndexMark);
-                     if (name == "colours") return lesson_colours();
-                     if (name == "style") return std::string(page::index_css);
-                     if (name == "count") return say_count(lessons.size(), "lesson/lessons");
-                     std::string entries(order.empty() ? "" : kAskedMark);
-                     for (const Listed& lesson : lessons) entries += entry_of(lesson, by_name);
-                     return entries;
-                   }));
+  const std::string page = filled(said(page::index_html), [&](std::string_view name) {
+    if (name == "title") return escaped(heading);
+    if (name == "mark") return std::string(kIndexMark);
+    if (name == "colours") return lesson_colours();
+    if (name == "style") return std::string(page::index_css);
+    if (name == "count") return say_count(lessons.size(), "lesson/lessons");
+    std::string entries(order.empty() ? "" : kAskedMark);
+    for (const Listed& lesson : lessons) entries += entry_of(lesson, by_name);
+    return entries;
+  });
+  return html_page(heading, page, lessons.empty() ? "" : lessons.front().theme);
 }
 
 bool write_lesson_index(const Folder& folder, std::vector<std::string> order, std::string title) {

@@ -98,6 +98,18 @@ TEST_F(LessonPage, StandsInTheOrderAskedForAndLeadsToTheNext) {
   EXPECT_LT(index.find("href=\"ghost_quadtree.html\""), index.find("href=\"buckets.html\""));
 }
 
+TEST_F(LessonPage, ListsLessonsAsTheyAreOpenedAndOnlyThoseThatAreThere) {
+  const Outcome o = render(fmt::format("{} {} --theme dark --language de -o '{}'", kGhosts,
+                                       scenario("buckets"), file("{scenario}.html")));
+  ASSERT_EQ(o.code, 0) << o.err;
+  const std::string index = read_text(folder_ / "index.html");
+  EXPECT_NE(index.find("<html lang=\"de\" data-theme=\"dark\">"), std::string::npos);
+  EXPECT_EQ(index.find("n_squared"), std::string::npos) << "a file's name is no title";
+  const std::size_t told = o.err.find("captions without texts in 'de'");
+  EXPECT_NE(told, std::string::npos) << o.err;
+  EXPECT_EQ(o.err.find("captions without", told + 1), std::string::npos) << "once a run";
+}
+
 TEST_F(LessonPage, LeavesAnIndexAloneThatIsNotItsOwn) {
   write_text(folder_ / "index.html", "mine");
   const Outcome o = render(fmt::format("{} -o '{}'", kGhosts, file("{scenario}.html")));

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "language/words.hpp"
 #include "publish/lesson_frames.hpp"
 #include "publish/packed.hpp"
 
@@ -274,6 +275,14 @@ TEST(Lesson, AsksWhatItsFramesAnswer) {
     "idea": "", "lecture": null, "needs": [], "steps": 1, "frames": 1})";
   ASSERT_TRUE(lesson_card(older)) << "a page of before";
   EXPECT_TRUE(lesson_card(older)->questions.empty());
+}
+
+TEST(Lesson, SaysItsFixedWordsInItsLanguage) {
+  Lesson lesson({"a", "A", "", 3, {}, 1}, "light");
+  lesson.add(frame_of(0), picture(200, true), {});
+  const auto german = language::words_in("de");
+  const Speaking speaking(german.get());
+  EXPECT_NE(lesson.html().find("alt=\"Der erste Frame.\""), std::string::npos);
 }
 
 TEST(Lesson, KeepsWhatAUserWroteOutOfItsMarkup) {
