@@ -87,8 +87,9 @@ std::optional<TimeLeft> time_left(const RunExtent& extent, const RunState& state
 }
 
 std::string forecast_text(const RunExtent& extent, const RunState& state) {
-  std::string text = extent.frames ? "up to " + counted_plainly(*extent.frames, "frame")
-                                   : "as many frames as there are events, not known beforehand";
+  std::string text = extent.frames     ? "up to " + counted_plainly(*extent.frames, "frame")
+                     : extent.pictures ? counted_plainly(*extent.pictures, "picture")
+                                       : "as many frames as there are events, not known beforehand";
   if (extent.world_steps > 0)
     text += fmt::format("{} {}", extent.frames ? " of" : "; up to",
                         counted_plainly(extent.world_steps, "world step"));

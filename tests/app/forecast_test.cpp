@@ -42,6 +42,9 @@ TEST(Forecast, LeavesOutWhatIsNot) {
   EXPECT_EQ(
       forecast_text({std::nullopt, 0}, after(1, 7, 0, 1)),
       "as many frames as there are events, not known beforehand, how long cannot be told yet");
+  RunExtent film{std::nullopt, 0};
+  film.pictures = 121;
+  EXPECT_EQ(forecast_text(film, after(1, 7, 0, 1)), "121 pictures, how long cannot be told yet");
   EXPECT_EQ(forecast_text({std::nullopt, 60}, after(1, 7, 0, 0.001)),
             "as many frames as there are events, not known beforehand; up to 60 world steps, "
             "how long cannot be told yet");

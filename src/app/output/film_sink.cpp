@@ -170,10 +170,13 @@ FilmPlan film_plan_for(std::uint64_t moments, const std::vector<Frame>& frames,
     return film_plan(frames, clock, clips);
   };
   FilmPlan best = at(0);
-  if (best.moments > moments)
-    throw UsageError("--length {:.4g}: what moves takes {:.1f} s; choose fewer frames (--frames)",
+  if (best.moments > moments) {
+    clock.in_betweens = 0;
+    throw UsageError("--length {:.4g}: what moves takes {:.2f} s; choose fewer frames (--frames){}",
                      static_cast<double>(moments) / clock.rate,
-                     static_cast<double>(best.moments) / clock.rate);
+                     std::ceil(100 * static_cast<double>(best.moments) / clock.rate) / 100,
+                     at(0).moments <= moments ? ", or cut from each to the next (--tween 0)" : "");
+  }
   constexpr double kSlowest = 1e6;
   double least = 0, most = 1;
   while (most < kSlowest && at(most).moments <= moments) most *= 2;
