@@ -40,6 +40,7 @@ struct Display {
   bool title = true;
   bool caption = true;
   bool settings = true;  // of the structure, under its tree
+  bool facts = true;     // these, and the tree's counts beside them
   bool legend = false;
 
   bool operator==(const Display&) const = default;

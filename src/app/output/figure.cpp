@@ -57,9 +57,10 @@ void lay_out_figure(const Sequence& of, RenderJob& job) {
       best = &one.figure;
   if (!best)
     throw UsageError(
-        "letters of {:.3g} pt leave no room for {} on {:.3g} pt; give more width (--width), "
-        "smaller letters (--letters), or one panel alone (--panel)",
-        letters, job.options.panel.empty() ? "all panels" : "that panel", job.on_paper);
+        "letters of {:.3g} pt leave no room for {} on {:.3g} pt; give more width (--width) or "
+        "smaller letters (--letters){}",
+        letters, job.options.panel.empty() ? "all panels" : "that panel", job.on_paper,
+        job.options.panel.empty() ? ", or one panel alone (--panel)" : "");
   job.set(*best);
 }
 

@@ -234,8 +234,7 @@ class SheetSink : public PaperSink {
     renderer_ = &of_.job.renderer(width, height, of_.work);
   }
   void add_page() {
-    const std::string number = of_.paper ? lantern::say("page {}", pdf()->pages() + 1)
-                                         : lantern::say("page {} of {}", ++page_, pages_);
+    const std::string number = lantern::say("page {} of {}", ++page_, pages_);
     const DrawList list = layout_->page(waiting_, {title_, number});
     const std::uint64_t frames = waiting_.size();
     of_.work.frames_drawn += frames;

@@ -18,6 +18,7 @@
 #include "embedded/version.hpp"
 #include "publish/paper.hpp"
 #include "render/svg.hpp"
+#include "run/event_text.hpp"
 #include "spatial/structure_kind.hpp"
 
 namespace lantern::app {
@@ -161,6 +162,7 @@ Display RenderJob::display_of(const Frame& frame) const {
   if (options.no_title) display.title = false;
   if (options.no_caption) display.caption = false;
   if (options.no_counters) display.counters = false;
+  if (options.no_counters && !options.panel.empty()) display.facts = false;
   if (options.legend) display.legend = true;
   return display;
 }
@@ -255,7 +257,9 @@ std::unique_ptr<Pipeline> RenderJob::make_pipeline(Work& work) const {
 
 std::string description_of(const Frame& frame, const Display& of) {
   std::string text;
-  if (of.caption) text = frame.part.empty() ? frame.caption : frame.part + ": " + frame.caption;
+  const std::string part = run::capitalised(frame.part);
+  const bool is_sentence = part.find_last_of("?!.") + 1 == part.size();  // nothing is one, too
+  if (of.caption) text = part + (part.empty() ? "" : is_sentence ? " " : ": ") + frame.caption;
   if (const auto counters = counter_texts(frame); of.counters && !counters.empty())
     text += fmt::format("{}({})", text.empty() ? "" : " ", fmt::join(counters, ", "));
   return text;

@@ -173,8 +173,9 @@ void draw_tree(const Frame& frame, const Staging& staging, const Box<2>& panel, 
                Labels& labels) {
   for (const char* name : {"nodes", "leaves", "entries"})  // the facts
     if (frame.count(name)) list.referents.emplace(name);
-  const double height = height_of_facts(staging, panel);
-  lay_out_facts(facts_of(frame, staging, panel), panel, panel.hi.y - height, &labels);
+  const double height = frame.display.facts ? height_of_facts(staging, panel) : 0;
+  if (height > 0)
+    lay_out_facts(facts_of(frame, staging, panel), panel, panel.hi.y - height, &labels);
   Box<2> diagram = panel;
   diagram.hi.y -= height + 4;
   if (traits_of(frame.structure).has(Setting::axis))
