@@ -25,17 +25,21 @@ class CsvFile {
     for (std::string_view rest = without_mark(text_); !rest.empty();) {
       stop_if_asked();
       const std::size_t end = rest.find('\n');
-      const std::vector<CsvCell> cells = cells_of(rest.substr(0, end));
+      const std::string_view line = rest.substr(0, end);
+      const std::size_t first = std::min(line.find_first_not_of(kSpace), line.size());
       ++line_;
-      if (cells[0].text.empty() ? cells.size() > 1 : cells[0].text[0] != '#') act(cells);
+      if (!line.substr(first).empty() && line[first] != '#') act(cells_of(line));
       rest = end == rest.npos ? std::string_view() : rest.substr(end + 1);
     }
   }
 
-  // A mistake in the line that was given last.
-  [[noreturn]] void fail(int column, std::string message, std::string advice = "") const {
+  int line() const { return line_; }  // that was given last
+  // A mistake in it, or in another.
+  [[noreturn]] void fail(int column, std::string message, std::string advice = "",
+                         std::optional<int> in = {}) const {
+    const int line = in.value_or(line_);
     throw ScenarioError(Diagnostic{
-        {file_, line_, column}, std::move(message), line_of(text_, line_), std::move(advice)});
+        {file_, line, column}, std::move(message), line_of(text_, line), std::move(advice)});
   }
 
   // Which of `columns` each cell names; no other, and none twice.
@@ -57,11 +61,15 @@ class CsvFile {
   }
 
  private:
-  static std::vector<CsvCell> cells_of(std::string_view line) {
-    constexpr std::string_view kSpace = " \t\r\"";
+  static constexpr std::string_view kSpace = " \t\r\"";
+
+  // The first line tells what stands between: no comma where a decimal one may stand.
+  std::vector<CsvCell> cells_of(std::string_view line) {
+    const auto has = [&](const char* text) { return line.find(text) != line.npos; };
+    if (separator_ == 0) separator_ = has(";") ? ';' : has("\t") && !has(",\t") ? '\t' : ',';
     std::vector<CsvCell> cells;
     for (std::size_t at = 0;;) {
-      const std::size_t end = std::min(line.find_first_of(",;", at), line.size());
+      const std::size_t end = std::min(line.find(separator_, at), line.size());
       const std::string_view cell = line.substr(at, end - at);
       const std::size_t first = std::min(cell.find_first_not_of(kSpace), cell.size());
       const std::size_t last = first == cell.size() ? first : cell.find_last_not_of(kSpace) + 1;
@@ -74,6 +82,7 @@ class CsvFile {
   std::string file_;
   std::string_view text_;
   int line_ = 0;
+  char separator_ = 0;
 };
 
 }  // namespace lantern::measure

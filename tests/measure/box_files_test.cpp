@@ -63,6 +63,47 @@ TEST(BoxFiles, CsvMayBeAnyTable) {
   EXPECT_THROW(read_boxes(written("any.csv", text), 1, "x=cx,radius=w"), Refused);
 }
 
+TEST(BoxFiles, CsvMayBeInAnyOrderWithNamesForIds) {
+  const BoxScene scene = read_boxes(
+      written(
+          "shuffled.csv",
+          "frame\tid\tlo_x\tlo_y\thi_x\thi_y\tnote\n2\tant\t+8\t0\t9\t1\tx\n1\tbee\t0\t0\t1\t1\t\n"
+          "1\tant\t5\t0\t6\t1\ty\n2\tbee\t0\t0\t1\t1\tz\n"),
+      1);
+  const auto& frames = std::get<BoxUpdates<2>>(scene.boxes).frames;
+  ASSERT_EQ(frames.size(), 2u);
+  EXPECT_EQ(frames[0][0].box, (Box<2>{{5, 0}, {6, 1}})) << "of the ant";
+  EXPECT_EQ(frames[1][0].box, (Box<2>{{8, 0}, {9, 1}}));
+  EXPECT_EQ(frames[1][1].id, 1u);
+  EXPECT_NE(scene.words.find("not used: note ("), std::string::npos) << scene.words;
+  const BoxScene ends = read_boxes(written("ends.csv", "0,0,1,2,\n3,4,5,6,\n"), 1);
+  EXPECT_EQ(std::get<BoxUpdates<2>>(ends.boxes).frames[0][1].box, (Box<2>{{3, 4}, {5, 6}}));
+  std::string long_film = "frame,lo_x,lo_y,hi_x,hi_y\n";
+  for (int frame = 0; frame < 30; ++frame)
+    for (const char* box : {",0,0,1,1\n", ",2,2,3,3\n"}) long_film += std::to_string(frame) + box;
+  EXPECT_NE(read_boxes(written("film.csv", long_film), 1).words.find("the first 24 of 30 frames"),
+            std::string::npos);
+}
+
+// What --columns names is there, or the file would be misread.
+TEST(BoxFiles, ColumnsThatAreNotThereAreTold) {
+  const std::string text = "t,obj,lo_x,lo_y,hi_x,hi_y\n0,1,0,0,1,1\n0,2,1,1,2,2\n";
+  const fs::path file = written("moving.csv", text);
+  EXPECT_NE(read_boxes(file, 1).words.find("not used: t, obj ("), std::string::npos);
+  for (const char* columns : {"frame=time", "x=foo", "id=obj,frame=time"}) {
+    try {
+      read_boxes(file, 1, columns);
+      ADD_FAILURE() << columns;
+    } catch (const ScenarioError& error) {
+      const Diagnostic& told = error.diagnostics().at(0);
+      EXPECT_NE(told.message.find("no column is called '"), std::string::npos) << told.message;
+      EXPECT_EQ(told.suggestion, "there are t, obj, lo_x, lo_y, hi_x, hi_y");
+      EXPECT_EQ(told.where.line, 1);
+    }
+  }
+  EXPECT_EQ(read_boxes(file, 1, "frame=t,id=obj").words.find("not used"), std::string::npos);
+}
+
 TEST(BoxFiles, AllBadLinesOfCsvAreTold) {
   std::string text = "0,0,1,1\n";
   for (int i = 0; i < 14; ++i) text += "0,0,x,1\n";
@@ -89,9 +130,15 @@ TEST(BoxFiles, CsvMistakesHaveTheirPlace) {
       {"x,y,half_x,half_y\n0,0,-1,1\n", "a half size is negative", 2, 5},
       {"x,y,half_x,hlf_y\n", "column 'half_y' is missing", 1, 1},
       {"x,y,width,height\n0,0,1,-1\n", "a size is negative", 2, 7},
-      {"id,lo_x,lo_y,hi_x,hi_y\n0.5,0,0,1,1\n", "an id is a whole number", 2, 1},
-      {"frame,lo_x,lo_y,hi_x,hi_y\n1,0,0,1,1\n2,0,0,1,1\n2,1,1,2,2\n",
-       "not every frame has the same boxes, each once", 4, 1},
+      {"frame,id,lo_x,lo_y,hi_x,hi_y\n1,a,0,0,1,1\n2,a,0,0,1,1\n2,b,1,1,2,2\n",
+       "box 'b' is not in the first frame, but in frame 2", 4, 1},
+      {"frame,id,lo_x,lo_y,hi_x,hi_y\n1,7,0,0,1,1\n1,8,0,0,1,1\n2,8,1,1,2,2\n",
+       "box 7 is not in frame 2", 2, 1},
+      {"frame,id,lo_x,lo_y,hi_x,hi_y\n1,7,0,0,1,1\n2,7,0,0,1,1\n2,7,1,1,2,2\n",
+       "box 7 is twice in frame 2", 4, 3},
+      {"frame,lo_x,lo_y,hi_x,hi_y\n1,0,0,1,1\n1,1,1,2,2\n2,1,1,2,2\n", "box 1 is not in frame 2", 3,
+       1},
+      {"0,5;0;1;1\n", "'0,5' is no finite number", 1, 1},
       {"x,y,x,half_y\n", "column 'x' is there twice", 1, 5},
       {"lo_x,lo_y,hi_x\n", "column 'hi_y' is missing", 1, 1},
       {"lo_x,lo_y,hi_x,hi_y,half_x\n", "column 'x' is missing", 1, 1},
@@ -106,6 +153,7 @@ TEST(BoxFiles, CsvMistakesHaveTheirPlace) {
   }
   EXPECT_EQ(mistake("bad.csv", "x,y,half_x,hlf_y\n").suggestion,
             "is it 'hlf_y'? --columns half_y=hlf_y");
+  EXPECT_EQ(mistake("bad.csv", "0;0;1,5;1\n").suggestion, "write 0.5, not 0,5");
   EXPECT_THROW(read_boxes(written("empty.csv", ""), 1), Refused);
   EXPECT_THROW(read_boxes(written("one.csv", "0,0,1,1"), 1), Refused);
   EXPECT_THROW(read_boxes("no/such.csv", 1), IoError);

@@ -47,17 +47,19 @@ BoxUpdates<D> in_space(const std::vector<std::vector<FileBody>>& frames, std::ui
 }
 
 BoxScene scene_of(const fs::path& file, int dimension, std::vector<std::vector<FileBody>> frames,
-                  std::uint64_t seed) {
+                  std::uint64_t seed, std::size_t there = 0, const std::string& note = "") {
   const std::size_t bodies = frames[0].size();
   if (bodies < 2)
     throw Refused("{}: it has fewer than two boxes, so there is no pair", file.string());
-  const std::size_t told = frames.size();
+  const std::size_t kept = frames.size();
   BoxScene scene{
       file.stem().string(),
-      fmt::format("the {} boxes of {}, {}", bodies, file.string(),
-                  told > 1 ? fmt::format("which move: {} frames", told)
-                           : "at one moment: from step to step each is moved by up to 5 % of its "
-                             "size, the static ones not"),
+      fmt::format("the {} boxes of {}, {}{}", bodies, file.string(),
+                  kept < there ? fmt::format("which move: the first {} of {} frames", kept, there)
+                  : kept > 1   ? fmt::format("which move: {} frames", kept)
+                               : "at one moment: from step to step each is moved by up to 5 % of "
+                                 "its size, the static ones not; times are of all these positions",
+                  note),
       {}};
   if (dimension == 2)
     scene.boxes = in_space<2>(frames, seed);
@@ -69,7 +71,7 @@ BoxScene scene_of(const fs::path& file, int dimension, std::vector<std::vector<F
 // --- CSV ---
 
 // Lines of boxes: of four or six numbers, or of what the first line names. Other columns are passed
-// over. Every bad line is a mistake, of which the first are told.
+// over, and named. Every bad line is a mistake, of which the first are told.
 class BoxesReader {
  public:
   // `called` is what columns are called in the file instead: "x=cx,y=cy".
@@ -92,23 +94,44 @@ class BoxesReader {
     csv_.each_line([&](const std::vector<CsvCell>& cells) {
       if (columns_.empty() && !begin(cells)) return;
       try {
-        add(cells, frames);
+        add(cells);
       } catch (const ScenarioError& error) {
         bad.add([&] { return error.diagnostics()[0]; });
       }
     });
     if (!bad.empty()) throw ScenarioError(bad.list("bad lines"));
-    for (std::vector<FileBody>& bodies : frames) std::ranges::sort(bodies, {}, &FileBody::id);
-    for (const std::vector<FileBody>& bodies : frames)
-      if (!std::ranges::equal(bodies, frames[0], {}, &FileBody::id, &FileBody::id))
-        csv_.fail(1, "not every frame has the same boxes, each once",
-                  "give each its id in every frame");
-    for (std::vector<FileBody>& bodies : frames)
-      for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].id = static_cast<BodyId>(i);
+    for (const auto& [time, boxes] : frames_) {
+      require_all(frames_.begin()->second, boxes, "not in", time);
+      require_all(boxes, frames_.begin()->second, "not in the first frame, but in", time);
+      frames.emplace_back();
+      for (const auto& [who, one] : boxes) {
+        frames.back().push_back(one.first);
+        frames.back().back().id = static_cast<BodyId>(frames.back().size() - 1);
+      }
+    }
     return dimension_;
   }
 
+  std::string note() const {
+    constexpr const char* kHow = "; not used: {} (--columns frame=T,id=NAME says which are others)";
+    return unused_.empty() ? "" : fmt::format(kHow, fmt::join(unused_, ", "));
+  }
+
  private:
+  using Id = std::pair<double, std::string_view>;        // a number; a text, behind all numbers
+  using Lines = std::map<Id, std::pair<FileBody, int>>;  // and the file's line
+
+  static std::string words(const Id& who, const char* what, double time) {
+    const auto& [number, text] = who;
+    return fmt::format("box {} is {} frame {}",
+                       text.empty() ? fmt::format("{}", number) : in_quotes(text), what, time);
+  }
+
+  void require_all(const Lines& boxes, const Lines& in, const char* what, double time) const {
+    for (const auto& [who, one] : boxes)
+      if (!in.contains(who)) csv_.fail(1, words(who, what, time), kEachOnce, one.second);
+  }
+
   enum Column { lo_x, lo_y, lo_z, hi_x, hi_y, hi_z, x, y, z, half_x, half_y, half_z, width };
   enum { height = width + 1, depth, is_static, id, frame, kCount };
   static constexpr std::array<std::string_view, kCount> kColumns = {
@@ -117,8 +140,8 @@ class BoxesReader {
 
   // False if the line only names columns.
   bool begin(const std::vector<CsvCell>& cells) {
-    const bool is_bare = number_in<double>(cells[0].text).has_value();
-    const bool flat = cells.size() == 4;
+    const bool is_bare = number(cells[0].text.substr(0, cells[0].text.find(','))).has_value();
+    const bool flat = cells.size() - cells.back().text.empty() == 4;
     if (is_bare)
       columns_ = flat ? std::vector<int>{lo_x, lo_y, hi_x, hi_y}
                       : std::vector<int>{lo_x, lo_y, lo_z, hi_x, hi_y, hi_z};
@@ -132,12 +155,16 @@ class BoxesReader {
     sizes_ = has(half_x) ? half_x : has(width) ? width : hi_x;
     from_ = sizes_ == hi_x ? lo_x : x;
     dimension_ = has(from_ + 2) ? 3 : 2;
-    std::vector<std::string_view> others;
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      if (columns_[i] < 0) others.push_back(cells[i].text);
-    for (const int first : {from_, sizes_})
-      for (int column = first; column < first + dimension_; ++column)
-        if (!has(column)) miss(named(column), nearest_name(named(column), others));
+    for (std::size_t i = 0; !is_bare && i < cells.size(); ++i)
+      if (columns_[i] < 0 && !cells[i].text.empty()) unused_.push_back(cells[i].text);
+    for (const std::string& name : names_)
+      if (std::ranges::find(kColumns, name) == kColumns.end() &&
+          std::ranges::find(cells, name, &CsvCell::text) == cells.end())
+        csv_.fail(1, fmt::format("no column is called '{}', as --columns says", name),
+                  fmt::format("there are {}", fmt::join(mapped(cells, &CsvCell::text), ", ")));
+    for (const int from : {from_, sizes_})
+      for (int column = from; column < from + dimension_; ++column)
+        if (!has(column)) miss(named(column), nearest_name(named(column), unused_));
     return is_bare;
   }
 
@@ -145,43 +172,45 @@ class BoxesReader {
     csv_.fail(1, fmt::format("column '{}' is missing", column),
               near ? fmt::format("is it '{0}'? --columns {1}={0}", *near, column)
                    : "name lo_x,lo_y,hi_x,hi_y, x,y,half_x,half_y or x,y,width,height, in space "
-                     "lo_z,hi_z, z,half_z or z,depth, too; or say what they are called: --columns "
-                     "x=cx,y=cy");
+                     "lo_z,hi_z, z,half_z or z,depth, too; or --columns x=cx,y=cy");
   }
 
   bool has(int column) const { return std::ranges::find(columns_, column) != columns_.end(); }
   std::string_view named(int column) const { return names_[static_cast<std::size_t>(column)]; }
 
-  void add(const std::vector<CsvCell>& cells, std::vector<std::vector<FileBody>>& frames) {
-    if (cells.size() != columns_.size())
+  static std::optional<double> number(std::string_view text) {
+    const auto value = number_in<double>(text.substr(text.starts_with('+')));
+    return value && std::isfinite(*value) ? value : std::nullopt;
+  }
+
+  void add(const std::vector<CsvCell>& cells) {
+    const bool ends = cells.size() > columns_.size() && cells.back().text.empty();  // "1,2,3,4,"
+    if (cells.size() != columns_.size() + ends)
       csv_.fail(
           cells.back().column,
           fmt::format("{}, where {} are expected", counted(cells.size(), "value"), columns_.size()),
-          "a box is lo_x,lo_y,hi_x,hi_y or lo_x,lo_y,lo_z,hi_x,hi_y,hi_z, or what the first line "
-          "names");
+          "a box is what the first line names, or its lower and its upper corner");
     std::array<double, kCount> values{};
     std::array<int, kCount> places{};
-    for (std::size_t i = 0; i < cells.size(); ++i) {
+    Id who;
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
       if (columns_[i] < 0) continue;
       const auto column = static_cast<std::size_t>(columns_[i]);
-      const auto value = number_in<double>(cells[i].text);
-      if (!value || !std::isfinite(*value))
-        csv_.fail(cells[i].column, fmt::format("{} is no finite number", in_quotes(cells[i].text)));
-      values[column] = *value;
+      const auto value = number(cells[i].text);
+      if (column == id) who = value ? Id(*value, "") : Id(HUGE_VAL, cells[i].text);
+      if (!value && column != id)
+        csv_.fail(cells[i].column, fmt::format("{} is no finite number", in_quotes(cells[i].text)),
+                  cells[i].text.find(',') == std::string_view::npos ? "" : "write 0.5, not 0,5");
+      values[column] = value.value_or(0);
       places[column] = cells[i].column;
     }
     if (values[is_static] != 0 && values[is_static] != 1)
       csv_.fail(places[is_static], "static is 0 or 1");
-    if (has(id) && !(values[id] >= 0 && values[id] < kNone && std::trunc(values[id]) == values[id]))
-      csv_.fail(places[id], "an id is a whole number");
-    if (frames.empty() || values[frame] != last_frame_) {
-      if (frames.size() == kMostFrames) return;
-      frames.emplace_back();
-    }
-    last_frame_ = values[frame];
-    const auto number =
-        has(id) ? static_cast<BodyId>(values[id]) : static_cast<BodyId>(frames.back().size());
-    frames.back().push_back({number, box(values, places), values[is_static] == 1, true});
+    Lines& boxes = frames_[values[frame]];
+    if (!has(id)) who.first = static_cast<double>(boxes.size());
+    const FileBody body{0, box(values, places), values[is_static] == 1, true};
+    if (!boxes.insert({who, {body, csv_.line()}}).second)
+      csv_.fail(places[id], words(who, "twice in", values[frame]), kEachOnce);
   }
 
   Box<3> box(const std::array<double, kCount>& values,
@@ -202,16 +231,13 @@ class BoxesReader {
     return box;
   }
 
-  static constexpr std::size_t kMostFrames = 24;  // that frames_for gives
+  static constexpr const char* kEachOnce = "give each box its id, once in every frame";
   CsvFile csv_;
-  std::array<std::string, kCount> names_ = [] {
-    std::array<std::string, kCount> names;
-    std::ranges::copy(kColumns, names.begin());
-    return names;
-  }();
+  std::vector<std::string> names_{kColumns.begin(), kColumns.end()};  // there
   int dimension_ = 2, from_ = lo_x, sizes_ = hi_x;
-  double last_frame_ = 0;
   std::vector<int> columns_;  // of each cell; -1: passed over
+  std::vector<std::string_view> unused_;
+  std::map<double, Lines> frames_;
 };
 
 // --- Broadmark ---
@@ -271,13 +297,15 @@ class AabbsReader {
 
 BoxScene read_boxes(const fs::path& file, std::uint64_t seed, const std::string& columns) {
   const std::string bytes = read_input(file, kMostBytes);
-  require_memory(4 * bytes.size(), file.string() + ": its boxes", "take fewer of them");
+  require_memory(8 * bytes.size(), file.string() + ": its boxes", "take fewer of them");
   if (file.extension() == ".aabbs") return scene_of(file, 3, AabbsReader(file, bytes).read(), seed);
   std::vector<std::vector<FileBody>> frames;
-  const int dimension = BoxesReader(CsvFile(file.string(), bytes), columns).read(frames);
+  BoxesReader reader(CsvFile(file.string(), bytes), columns);
+  const int dimension = reader.read(frames);
   if (frames.empty()) frames.emplace_back();
+  const std::size_t there = frames.size();
   frames.resize(std::min(frames.size(), frames_for(frames[0].size())));
-  return scene_of(file, dimension, std::move(frames), seed);
+  return scene_of(file, dimension, std::move(frames), seed, there, reader.note());
 }
 
 }  // namespace lantern::measure

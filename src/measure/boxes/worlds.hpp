@@ -93,13 +93,9 @@ inline constexpr std::size_t kQuestions = 400;
 // four floats of its least and four of its greatest point, the fourth 0. Its frames are kept as far
 // as `frames_for` allows.
 //
-// Any other file is CSV: a box a line. Columns are named by a first line, in any order:
-// lo_x, lo_y, hi_x, hi_y, or x, y, half_x, half_y, or x, y, width, height, in space lo_z, hi_z, or
-// z, half_z, or z, depth, too; static, 0 or 1; id, a whole number; frame, whose lines stand
-// together. Others are passed over. `columns` says what some are called there: "x=cx,y=cy". Without
-// such a line there are 4 or 6 numbers: the lower corner, the upper one. Empty lines and those that
-// begin with # are passed over. Boxes of one frame lie still in it: so they are moved, each by up
-// to a tenth of its half sizes an axis and step, seeded. The scene's words tell which it is.
+// Any other file is CSV, as scenarios/bench/README.md tells; `columns` says what some are called in
+// it: "x=cx,y=cy". Boxes of one frame are moved, by up to a tenth of their half sizes an axis and
+// step, seeded. The scene's words tell which it is, and which columns are passed over.
 //
 // Throws ScenarioError with file, line and column of the first ten mistakes and the number of
 // others, IoError for what cannot be read, Refused for fewer than two boxes, and for `columns`
