@@ -76,9 +76,16 @@ std::vector<std::string> commands_of(const std::string& workflow) {
 
 TEST_F(GoldenRepository, TheWorkflowPassesUntilAFrameDiffers) {
   const auto commands = commands_of(read_text(repository("tests/example/golden-workflow.yml")));
-  ASSERT_EQ(commands.size(), 1u);
-  const Outcome good = in(commands[0]);
-  EXPECT_EQ(good.code, 0) << good.err;
+  ASSERT_EQ(commands.size(), 2u);
+  const std::string texts = "mkdir scenarios/de && echo [texts] >scenarios/de/disc.toml && ";
+  const Outcome good = in(texts + commands[0] + " && " + commands[1]);
+  EXPECT_EQ(good.code, 0) << good.err << good.out;
+  const Outcome below = in("mkdir -p scenarios/more && echo wrong >scenarios/more/b.toml && " +
+                           commands[0] + "; code=$?; rm -r scenarios/more; exit $code");
+  EXPECT_EQ(below.code, 1) << below.err << "folders below are looked into";
+  const Outcome left = in("cp -r golden/disc golden/gone && " + commands[1]);
+  EXPECT_EQ(left.code, 1);
+  EXPECT_NE(left.out.find("no scenario has golden/gone"), std::string::npos) << left.out;
   change();
   const Outcome bad = in(commands[0]);
   EXPECT_EQ(bad.code, 1) << bad.err;
@@ -103,6 +110,15 @@ TEST_F(GoldenRepository, TheHookRefusesACommitWithoutItsGoldenFrames) {
   EXPECT_EQ(taken.out, "");
   EXPECT_NE(in("git rm -q golden/disc/disc_0000.png && git commit -q -m Third").code, 0)
       << "a golden frame belongs to its scenario";
+  ASSERT_EQ(in("git reset -q --hard").code, 0);
+  const Outcome left = in("git rm -q scenarios/disc.toml && git commit -q -m Third");
+  EXPECT_NE(left.code, 0);
+  EXPECT_NE(left.err.find("git rm -r golden/disc"), std::string::npos) << left.err;
+  EXPECT_EQ(in("git rm -q -r golden/disc && git commit -q -m Third").code, 0);
+  const Outcome below =
+      in("mkdir -p scenarios/week2 && echo wrong >scenarios/week2/b.toml && "
+         "git add scenarios && git commit -q -m Fourth");
+  EXPECT_NE(below.code, 0) << "folders below are looked into";
 }
 
 }  // namespace
