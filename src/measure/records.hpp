@@ -76,7 +76,8 @@ class CsvTable {
 
 // A list of norms has four columns for each of as many norms as the longest list needs.
 template <class Row>
-std::string csv_of(const std::vector<Row>& rows, std::size_t norms = 0) {
+std::string csv_of(const std::vector<Row>& rows, std::size_t norms = 0,
+                   const std::vector<std::pair<const char*, std::string>>& tail = {}) {  // columns
   CsvTable csv;
   const auto each_norm = [&](const auto& write) {
     for (std::size_t i = 0; i < norms; ++i) write(i);
@@ -91,6 +92,7 @@ std::string csv_of(const std::vector<Row>& rows, std::size_t norms = 0) {
     else if (!field.column.empty())
       csv.add(field.column);
   });
+  for (const auto& [name, value] : tail) csv.add(name);
   csv.end_record();
   for (const Row& row : rows) {
     each_field(row, [&]<class T>(const Field& field, const T& value) {
@@ -105,6 +107,7 @@ std::string csv_of(const std::vector<Row>& rows, std::size_t norms = 0) {
       else if constexpr (!std::same_as<T, std::vector<DriftSample>>)
         if (!field.column.empty()) csv.add(value);
     });
+    for (const auto& [name, value] : tail) csv.add(value);
     csv.end_record();
   }
   return csv.text();

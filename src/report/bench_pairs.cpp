@@ -14,7 +14,8 @@ void each_field(const BoxBenchRow& row, auto&& visit) {
   visit_fields(visit, "found", row.found, "missed", row.missed, "invented", row.invented, "checked",
                row.checked, "allocations", row.allocations, "bytes", row.bytes, "pair_tests",
                row.counts.pair_tests, "box_tests", row.counts.box_tests, "nodes_visited",
-               row.counts.nodes_visited, "nodes", row.counts.nodes, "entries", row.counts.entries);
+               row.counts.nodes_visited, "nodes", row.counts.nodes, "entries", row.counts.entries,
+               "frames", row.frames, "found_in_all", row.found_in_all);
 }
 
 }  // namespace lantern::measure
@@ -24,12 +25,7 @@ namespace {
 
 bool has_times(const BoxBenchRow& row) { return row.timing.repeats > 0; }
 
-// "12.3k", for what is only counted.
-std::string short_count(const std::optional<double>& n) {
-  if (!n) return "";
-  if (*n < 1e4) return fmt::format("{:.4g}", *n);
-  return *n < 1e6 ? fmt::format("{:.3g}k", *n / 1e3) : fmt::format("{:.3g}M", *n / 1e6);
-}
+std::string figure_of(const std::optional<double>& n) { return n ? figure(*n) : ""; }
 
 const BoxWorkload* known_workload(const std::string& name) {
   for (const BoxWorkload& workload : box_workloads())
@@ -48,17 +44,19 @@ std::optional<double> times_of(const BoxBenchResult& result, const BoxBenchRow& 
   return peer ? std::optional(peer->timing.median / row.timing.median) : std::nullopt;
 }
 
-// The first that was run knows what was found.
+// The first that was run, and is right, knows what was found.
 std::string stage_of(const BoxBenchResult& result, const BoxBenchRow& row) {
-  const BoxBenchRow* told = &row;
-  for (const BoxBenchRow& one : result.rows)
-    if (one.workload == row.workload && one.bodies == row.bodies && !one.checked.empty()) {
-      told = &one;
-      break;
-    }
-  return fmt::format("{} with {} boxes: {} {}{}", row.workload, row.bodies, told->found,
-                     is_asked(row) ? "bodies found by 400 questions" : "pairs",
-                     told->checked.empty() ? "" : ", checked by " + told->checked);
+  const std::string what = fmt::format("{} with {} boxes: ", row.workload, row.bodies);
+  const auto told = std::ranges::find_if(result.rows, [&](const BoxBenchRow& one) {
+    return one.workload == row.workload && one.bodies == row.bodies && has_times(one) &&
+           one.is_good();
+  });
+  if (told == result.rows.end()) return what + "nobody has found what is to be found";
+  std::string found = counted(told->found, "pair");
+  if (is_asked(row)) found = fmt::format("{} bodies found by 400 questions", told->found);
+  if (told->frames > 1) found += fmt::format(" at the first of {} frames", told->frames);
+  if (told->found_in_all) found += fmt::format(", {} in all", figure(*told->found_in_all));
+  return fmt::format("{}{}, checked by {}", what, found, told->checked);
 }
 
 constexpr std::string_view kAbout =
@@ -66,11 +64,12 @@ constexpr std::string_view kAbout =
     "balls meet, and which body is nearest. All contestants get the same boxes in the same run, in "
     "turns; each gives its pairs in order of ids, each once, within its time. What others find is "
     "ordered by Lantern’s own code. Times of a step, or of a question, are of the processor, all "
-    "threads together; clock: by the clock; times: as quick as the quickest other library; calls: "
-    "for memory in a warm step; bytes: held for each box, pairs too; pairs, boxes, nodes, entries: "
+    "threads together: medians over steps between which the boxes move; clock: by the clock; "
+    "times: how many times as quick as the quickest other library; calls: how often a warm step "
+    "asks for memory; bytes: held for each box, pairs too; pairs, boxes, nodes, entries: "
     "comparisons of boxes with boxes and with nodes, nodes visited, bodies in leaves; of a "
     "question: boxes tested in double, those compared in float before, several by an instruction, "
-    "and nodes, or rows of boxes, that were looked at. Where nobody counts nothing stands.";
+    "and nodes, or rows of boxes, that were looked at. What nobody counts is left empty.";
 
 // Nanoseconds a box, or a question; or the ratio to the quickest other library. Of worlds of one
 // size there is no plot.
@@ -120,25 +119,21 @@ Sheet<BoxBenchRow> sheet_of(const BoxBenchResult& result) {
   };
   sheet.stage = [&result](const BoxBenchRow& row) { return stage_of(result, row); };
   sheet.columns = {
-      {"median", [](auto& row) { return seconds_text(row.timing.median); }},
-      {"quartiles",
-       [](auto& row) {
-         return fmt::format("{} - {}", seconds_text(row.timing.lower_quartile),
-                            seconds_text(row.timing.upper_quartile));
-       }},
-      {"clock", [](auto& row) { return seconds_text(row.wall); }},
+      {"median, µs", [](auto& row) { return figure(1e6 * row.timing.median); }},
+      {"quartiles, µs", [](auto& row) { return range_text(row.timing, 1e6); }},
+      {"clock, µs", [](auto& row) { return figure(1e6 * row.wall); }},
       {"times",
        [&result](auto& row) {
          const auto times = times_of(result, row);
          return times ? fmt::format("{:.3g}", *times) : "";
        }},
       {"found", [](auto& row) { return count_text(row.found); }},
-      {"calls", [](auto& row) { return short_count(row.allocations); }},
-      {"bytes", [](auto& row) { return short_count(row.bytes); }},
-      {"pairs", [](auto& row) { return short_count(row.counts.pair_tests); }},
-      {"boxes", [](auto& row) { return short_count(row.counts.box_tests); }},
-      {"nodes", [](auto& row) { return short_count(row.counts.nodes_visited); }},
-      {"entries", [](auto& row) { return short_count(row.counts.entries); }},
+      {"calls", [](auto& row) { return figure_of(row.allocations); }},
+      {"bytes", [](auto& row) { return figure_of(row.bytes); }},
+      {"pairs", [](auto& row) { return figure_of(row.counts.pair_tests); }},
+      {"boxes", [](auto& row) { return figure_of(row.counts.box_tests); }},
+      {"nodes", [](auto& row) { return figure_of(row.counts.nodes_visited); }},
+      {"entries", [](auto& row) { return figure_of(row.counts.entries); }},
   };
   sheet.has_numbers = has_times;
   sheet.remark = [](const BoxBenchRow& row) -> Cell {
@@ -199,7 +194,7 @@ class PairsBench : public ExperimentOf<BoxBenchResult> {
         option("--bodies", &c.bodies, {.value = "N", .least = 2, .most = 2e7, .one_each = true},
                "how many boxes; the default is each workload's own numbers"),
         only_option("only these: quadtree, sort_and_sweep, CGAL, ...", c.only),
-        option("--boxes", &boxes_, {.value = "FILE", .without = "--workload"},
+        option("--boxes", &boxes_, {.value = "FILE", .without = "--workload,--bodies"},
                "boxes of your own instead: CSV, a line a box (lo_x,lo_y,hi_x,hi_y or named "
                "columns, with id and frame if they move), or .aabbs of Broadmark"),
         option("--columns", &columns_, {.value = "OURS=THEIRS,..."},
@@ -232,16 +227,21 @@ class PairsBench : public ExperimentOf<BoxBenchResult> {
       tell(fmt::format("world {} of {}, {}", stage + 1, stages(), words));
     });
   }
-  bool is_good() const override { return std::ranges::all_of(result_.rows, &BoxBenchRow::is_good); }
+  bool is_good() const override {
+    return complaint().empty() && std::ranges::all_of(result_.rows, &BoxBenchRow::is_good);
+  }
+  std::string complaint() const override {
+    if (result_.rows.empty() || std::ranges::any_of(result_.rows, has_times)) return "";
+    return fmt::format("nothing was measured: {}: {}", result_.rows[0].contestant,
+                       result_.rows[0].reason);
+  }
 
  private:
   std::vector<const BoxWorkload*> workloads() const {
+    const std::vector<std::string_view> names = mapped(box_workloads(), &BoxWorkload::name);
     std::vector<const BoxWorkload*> all;
-    std::vector<std::string_view> names;
-    for (const BoxWorkload& one : box_workloads()) {
-      names.push_back(one.name);
+    for (const BoxWorkload& one : box_workloads())
       if (workloads_.empty()) all.push_back(&one);
-    }
     for (const std::string& name : workloads_) {
       const auto found = box_workloads_named(name);
       if (found.empty())

@@ -40,7 +40,7 @@ std::string word_of(std::string_view name, const std::vector<T>& values) {
 std::string count_text(std::uint64_t n) { return grouped(static_cast<std::int64_t>(n)); }
 
 std::string range_text(const Timing& timing, double unit) {
-  return fmt::format("{:.3g} - {:.3g}", unit * timing.lower_quartile, unit * timing.upper_quartile);
+  return figure(unit * timing.lower_quartile) + " - " + figure(unit * timing.upper_quartile);
 }
 
 PlotPoint level_point(const Timing& timing, double unit, double y) {

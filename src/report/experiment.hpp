@@ -143,7 +143,9 @@ std::string json_of(const Result& result, const Sheet<Row>& sheet) {
 
 template <class Result, class Row>
 Texts texts_of(const Result& result, const Sheet<Row>& sheet, const Document& document) {
-  return {to_text(document), csv_of(result.rows), json_of(result, sheet), to_html(document)};
+  const Circumstances& c = result.circumstances;
+  const std::string csv = csv_of(result.rows, 0, {{"processor", c.processor}, {"date", c.date}});
+  return {to_text(document), csv, json_of(result, sheet), to_html(document)};
 }
 
 std::string count_text(std::uint64_t n);  // "12 345"

@@ -58,9 +58,8 @@ TEST(BenchPairsReport, TheTableTellsAll) {
        {"uniform_2d with 1000 boxes: 500 pairs, checked by brute force", "quadtree", "CGAL",
         "wrong: 4 missed, 0 invented", "missing: apt-get install libbullet-dev"})
     EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
-  EXPECT_NE(text.find("  quadtree  0.1 ms     95 µs - 0.11 ms  0.1 ms      3    500"),
-            std::string::npos)
-      << text;
+  for (const char* words : {"median, µs", "  quadtree  ", "  100", "  95 - 110", "  3  "})
+    EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
 }
 
 TEST(BenchPairsReport, JsonAndCsvHaveTheSameRows) {

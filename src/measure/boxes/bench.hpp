@@ -126,6 +126,8 @@ struct BoxBenchRow {
   std::optional<double> allocations;       // calls for memory in a warm step; the median
   std::optional<double> bytes;             // that it holds for each body, its pairs too
   BoxCounts counts;                        // of the step that was checked
+  std::uint64_t frames = 1;                // in which boxes move: that step is the first
+  std::optional<double> found_in_all;      // these frames; nothing if steps are long
 
   bool is_peer() const { return !version.empty(); }
   bool is_good() const { return status != "wrong"; }

@@ -113,7 +113,7 @@ class BoxesReader {
   }
 
   std::string note() const {
-    constexpr const char* kHow = "; not used: {} (--columns frame=T,id=NAME says which are others)";
+    constexpr const char* kHow = "; not used: {} (--columns frame=T,id=N if one is frame or id)";
     return unused_.empty() ? "" : fmt::format(kHow, fmt::join(unused_, ", "));
   }
 
