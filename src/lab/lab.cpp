@@ -123,14 +123,15 @@ int run_experiment(Experiment& experiment, const ExperimentRun& as) {
     }
     for (const std::string& missing : experiment.missing()) say(missing);
     const Texts texts = experiment.texts();
-    write(texts, as.file, folder);
-    if (as.text) folder.write(as.file + ".txt", texts.table);
+    const bool some = std::ranges::count(texts.csv, '\n') != 1;  // behind the names of columns
+    if (some) write(texts, as.file, folder);
+    if (some && as.text) folder.write(as.file + ".txt", texts.table);
     tell(texts, as.json);
     if (stop_asked()) {
-      complain(experiment.resumes()
-                   ? "interrupted; the same command goes on from here"
-                   : fmt::format("interrupted; the {} that were done have been reported",
-                                 experiment.unit()));
+      complain(
+          fmt::format("interrupted{}", experiment.resumes() ? "; the same command goes on from here"
+                                       : some               ? "; what was done has been reported"
+                                              : " before any work was done; nothing is written"));
       return kInterrupted;
     }
     if (folder.wanted() && as.draws) {

@@ -46,6 +46,19 @@ TEST(Interrupt, LosesNoRowThatWasMeasured) {
   }
 }
 
+// A bench that is cut before its first world is done has nothing to write over an earlier one.
+TEST(Interrupt, LeavesAnEarlierReportAsItIs) {
+  const fs::path out = fresh_folder("bench-cut-again");
+  const std::string words = " bench pairs --workload uniform_2d --no-peers -o " + out.string();
+  ASSERT_EQ(shell("lantern" + words + " --bodies 50 --rounds 1 --only quadtree").code, 0);
+  const std::string before = read_text(out / "bench_pairs.json");
+  const Outcome o = shell("timeout -s INT 1 " LANTERN_BINARY + words + " --bodies 20000");
+  EXPECT_NE(o.err.find("interrupted before any work was done; nothing is written"),
+            std::string::npos)
+      << o.err;
+  EXPECT_EQ(read_text(out / "bench_pairs.json"), before);
+}
+
 TEST(Memory, WhatNeedsMoreThanTheBudgetIsRefusedAtItsLine) {
   const fs::path file = fresh_folder("memory") / "crowd.toml";
   write_text(file, R"(title = "All in one place"
