@@ -115,9 +115,13 @@ void add_scenarios(const std::string& word, std::vector<Scenario>& scenarios) {
       if (Scenario s = known_problem(name); s.problem && to_string(s.problem->solution) == word)
         scenarios.push_back(std::move(s));
   if (scenarios.size() > before) return;
-  const std::string near = suggestion(word, names, 0);
-  throw UsageError("there is no problem '{}'; {}", word,
-                   near.empty() ? "'lantern measure --list' names them all" : near);
+  try {
+    scenarios.push_back(load_scenario(scenario_file(word)));
+  } catch (const IoError&) {
+    const std::string near = suggestion(word, names, 0);
+    throw UsageError("there is no problem '{}'; {}", word,
+                     near.empty() ? "'lantern measure --list' names them all" : near);
+  }
 }
 
 bool same(const Circumstances& a, const Circumstances& b) {
@@ -409,7 +413,8 @@ app::Run begin_measure(Options& rows) {
     const std::vector<std::string>& words = measure.words();
     if (!measure.earlier_pages().empty()) return page_of_earlier(measure.earlier_pages(), as);
     if (words.empty() || words[0] != "broad_phase") return run_experiment(measure, as);
-    const auto trees = broad_phases({words.begin() + 1, words.end()}, measure.is_full());
+    const auto trees =
+        broad_phases(mapped(std::span(words).subspan(1), scenario_file), measure.is_full());
     as.command = "measure broad_phase";
     as.file = "broad_phase";
     as.typed = as_typed(trees->options());
