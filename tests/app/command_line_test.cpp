@@ -44,6 +44,18 @@ TEST(CommandLine, WrongWordsAreUsageErrorsWithAHint) {
     EXPECT_EQ(shell(command).code, 2) << command;
 }
 
+TEST(CommandLine, AnUnknownOptionGetsTheNearest) {
+  for (const auto& [words, near] : {std::pair{"render x.toml --lenght 20", "--length"},
+                                    {"render --tehme=dark x.toml", "--theme"},
+                                    {"render x.toml --langauge de", "--language"},
+                                    {"--quite list", "--quiet"}}) {
+    const Outcome o = shell(std::string("lantern ") + words);
+    EXPECT_EQ(o.code, 2) << words;
+    EXPECT_NE(o.err.find(std::string("did you mean ") + near + "?"), std::string::npos) << o.err;
+  }
+  EXPECT_EQ(shell("lantern render x.toml --xyzzy 1").err.find("did you mean"), std::string::npos);
+}
+
 TEST(CommandLine, WithoutAWordItSaysWhatToDoFirst) {
   const Outcome o = shell("lantern");
   EXPECT_EQ(o.out, "");

@@ -164,9 +164,16 @@ Named named_by(CLI::App& app, int argc, const char* const* argv) {
   return named;
 }
 
-// A misspelt command gets the nearest one; other mistakes are told as the parser has found them.
-std::string usage_mistake(const Named& named, const std::string& found) {
+// A misspelt command or option gets the nearest one; others are told as the parser found them.
+std::string usage_mistake(const Named& named, std::string found) {
   if (!named.unknown.empty()) return no_command(*named.commands.back(), named.unknown);
+  const std::vector<std::string> left = named.commands.front()->remaining(true);
+  std::vector<std::string_view> known;
+  for (const CLI::Option* one : named.commands.back()->get_options())
+    known.insert(known.end(), one->get_lnames().begin(), one->get_lnames().end());
+  if (!left.empty() && left[0].starts_with("--"))
+    if (const auto near = nearest_name(left[0].substr(2, left[0].find('=') - 2), known))
+      found += "; did you mean --" + *near + "?";
   const std::string names = named.names(" ");
   return found + "; see 'lantern " + names + (names.empty() ? "" : " ") + "--help'";
 }
