@@ -45,8 +45,8 @@ std::vector<fs::path> places() {
   return all;
 }
 
-// In a folder itself, then among its problems.
-constexpr const char* kSubfolders[] = {"", "problems"};
+// In a folder itself, then among its problems and what is stress.
+constexpr const char* kSubfolders[] = {"", "problems", "stress"};
 
 std::optional<fs::path> find_named(const std::string& name, const std::vector<fs::path>& folders) {
   std::error_code error;
@@ -85,6 +85,10 @@ void add_folder(const fs::path& folder, std::vector<std::string>& files) {
   if (error) throw IoError("cannot list '{}': {}", folder.string(), error.message());
   std::erase_if(there, [&](const fs::path& path) { return fs::is_directory(path, unknown); });
   std::ranges::sort(there);
+  for (const fs::path& below : fs::directory_iterator(folder))
+    if (std::ranges::find(kSubfolders, below.filename().string()) == std::end(kSubfolders) &&
+        std::ranges::any_of(toml_files(below, unknown), &Glance::is_scenario, glance_at))
+      say(fmt::format("scenarios in '{}' are not read: name that folder, too", below.string()));
   std::vector<std::pair<std::uint64_t, std::string>> lessons;
   for (const fs::path& path : there) {
     const Glance glance = glance_at(path.string());

@@ -71,8 +71,9 @@ Glance glance_at(const std::string& path) try {
   glance.name = fs::path(path).stem().string();
   if (problems.any() || table.empty()) return glance;
   if (const auto* name = value_of<std::string>(table, "name")) glance.name = *name;
-  glance.is_scenario = std::ranges::any_of(
-      table, [](const TomlEntry& entry) { return language_table("").find(entry.key) != nullptr; });
+  glance.is_scenario = !entry_of(table, "texts") && std::ranges::any_of(table, [](const auto& one) {
+    return language_table("").find(one.key) != nullptr;
+  });
   if (const auto* place = value_of<std::int64_t>(table, "lecture");
       place && std::in_range<std::uint32_t>(*place))
     glance.lecture = static_cast<std::uint32_t>(*place);

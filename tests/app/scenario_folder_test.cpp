@@ -82,5 +82,18 @@ TEST(ScenarioFolder, TellsTheNearestNameWhenThereIsNone) {
   EXPECT_EQ(shell(in_elsewhere(prefix, "../bin/lantern check no_such.toml")).code, 1);
 }
 
+TEST(ScenarioFolder, TellsThatFoldersBelowAreNotRead) {
+  const fs::path folder = fresh_folder("below");
+  fs::create_directories(folder / "week2");
+  fs::create_directories(folder / "de");
+  fs::copy_file(kGhosts, folder / "ghosts.toml");
+  fs::copy_file(kGhosts, folder / "week2/ghosts.toml");
+  fs::copy_file(repository("scenarios/de/ghost_quadtree.toml"), folder / "de/ghosts.toml");
+  const Outcome o = shell("lantern check " + folder.string());
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.err.find("week2' are not read"), std::string::npos) << o.err;
+  EXPECT_EQ(o.err.find("/de'"), std::string::npos) << "it holds texts: " << o.err;
+}
+
 }  // namespace
 }  // namespace lantern::app
