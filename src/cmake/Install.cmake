@@ -75,6 +75,18 @@ function(lantern_install_development)
     DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/lantern-dev COMPONENT development)
 endfunction()
 
+# lantern_install_pages(COMPONENT FOLDER [PART]): the pages there, which were installed before, as those
+# read them who have no sources. They are those of PART of the repository.
+function(lantern_install_pages component folder)
+  list(JOIN lantern_public_rooms "|" rooms)
+  install(CODE "
+    set(pages \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${folder}\")
+    set(part \"${ARGN}\")
+    set(source \"${PROJECT_SOURCE_DIR}\")
+    set(rooms \"${rooms}\")
+    include(\"${PROJECT_SOURCE_DIR}/src/cmake/InstallPages.cmake\")" COMPONENT ${component})
+endfunction()
+
 # The README with what it shows and leads to, and examples to begin from: a project with a structure
 # of one's own, a workflow, a hook, programs for the libraries.
 function(lantern_install_documentation)
@@ -92,8 +104,9 @@ function(lantern_install_documentation)
   endforeach()
   install(FILES ${PROJECT_SOURCE_DIR}/tests/README.md DESTINATION ${here}/tests
     COMPONENT documentation)
-  install(FILES ${PROJECT_SOURCE_DIR}/src/ARCHITECTURE.md DESTINATION ${here}/src
-    COMPONENT documentation)
+  install(FILES ${PROJECT_SOURCE_DIR}/src/ARCHITECTURE.md ${PROJECT_SOURCE_DIR}/src/THIRD_PARTY.md
+    DESTINATION ${here}/src COMPONENT documentation)
+  lantern_install_pages(documentation ${here})
   # The scenarios come with the program.
   install(CODE "file(CREATE_LINK ../../lantern/scenarios
     \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${here}/scenarios\" SYMBOLIC)" COMPONENT documentation)
@@ -110,6 +123,7 @@ function(lantern_install)
   install(TARGETS lantern RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT runtime)
   install(DIRECTORY ${PROJECT_SOURCE_DIR}/scenarios
     DESTINATION ${CMAKE_INSTALL_DATADIR}/lantern COMPONENT runtime)
+  lantern_install_pages(runtime ${CMAKE_INSTALL_DATADIR}/lantern/scenarios scenarios)
   install(FILES ${PROJECT_BINARY_DIR}/lantern.wasm  # what live pages carry, where it is built
     DESTINATION ${CMAKE_INSTALL_DATADIR}/lantern COMPONENT runtime OPTIONAL)
   install(FILES ${PROJECT_SOURCE_DIR}/src/cmake/copyright ${PROJECT_SOURCE_DIR}/src/THIRD_PARTY.md

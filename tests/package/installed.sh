@@ -29,6 +29,19 @@ done
 grep -q "SIL OPEN FONT LICENSE" "$prefix/share/doc/lantern/copyright" || fail "the font's licence"
 where=$(grep -rlF -e "$root" -e "$build" "$prefix") && fail "names where it was built: $where"
 
+# What pages lead to is there, and they begin with what is installed.
+dead=$(find "$prefix/share" -name '*.md' | while read -r page; do
+  grep -o ']([^)# ]*' "$page" | cut -c 3- | grep -v -e '^[a-z]*:' -e '^$' | while read -r target; do
+    [ -e "$(dirname "$page")/$target" ] || echo "$page: $target"
+  done
+done)
+[ -z "$dead" ] || fail "pages lead nowhere: $dead"
+doc=$prefix/share/doc/lantern-doc
+where=$(grep -rlE -e '(^|[^a-z])build/lantern ' -e '^\./run ' "$doc" "$prefix/share/lantern" \
+  --include='*.md') && fail "for those who have the sources: $where"
+sed 15q "$doc/README.md" | grep -qx 'lantern list' || fail "the README does not begin with it"
+[ -L "$doc/scenarios" ] || fail "the README leads to no scenarios"
+
 # From anywhere, with nothing but a name.
 cd "$work/empty"
 "$prefix/bin/lantern" render ghost_quadtree --at four -o - >first.png 2>said
