@@ -269,7 +269,7 @@ std::vector<std::string> texts_of(ScenarioSpec scenario) {
 
 const WordTable* ScenarioSpec::words_of(const std::string& own) const {
   if (!words || language == words->language) return words.get();
-  const auto said = [&](const auto& text) { return text.second == own; };
+  const auto said = [&](const auto& one) { return one.second == own; };
   return std::ranges::any_of(words->texts, said) ? words.get() : words_in(language).get();
 }
 
