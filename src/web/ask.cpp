@@ -3,6 +3,7 @@
 #include <string>
 
 #include "embedded/version.hpp"
+#include "language/words.hpp"
 #include "live/session.hpp"
 
 #define LANTERN_EXPORT(name) extern "C" __attribute__((export_name(#name)))
@@ -17,6 +18,11 @@ lantern::live::Session& session() {
 std::string answer;
 
 }  // namespace
+
+// A page gives its table; there are no others.
+std::shared_ptr<const lantern::WordTable> lantern::language::words_in(std::string_view) {
+  return nullptr;
+}
 
 // Room for so many bytes of a question, to be given back by leave().
 LANTERN_EXPORT(room) char* room(std::size_t bytes) {
