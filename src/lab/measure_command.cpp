@@ -7,6 +7,7 @@
 
 #include "app/progress.hpp"
 #include "app/report_folder.hpp"
+#include "app/run_scenario.hpp"
 #include "app/terminal.hpp"
 #include "base/file.hpp"
 #include "base/json_writer.hpp"
