@@ -171,13 +171,16 @@ TEST(JsonStyle, MistakesOfAScenarioHaveTheirPlace) {
   for (const char* command : {"check", "render", "explain", "list"}) {
     const json answer = answer_to(std::string(command) + " --json " + bad, 3);
     ASSERT_EQ(answer["diagnostics"].size(), 1u) << command;
-    EXPECT_EQ(answer["diagnostics"][0], (json{{"severity", "error"},
-                                              {"file", bad},
-                                              {"line", 2},
-                                              {"column", 1},
-                                              {"message", "unknown key 'titel'"},
-                                              {"source_line", "titel = 1"},
-                                              {"suggestion", "did you mean 'title'?"}}))
+    json told = answer["diagnostics"][0];
+    const std::string suggestion = told["suggestion"];
+    EXPECT_TRUE(suggestion.starts_with("did you mean 'title'? known here: ")) << suggestion;
+    told.erase("suggestion");
+    EXPECT_EQ(told, (json{{"severity", "error"},
+                          {"file", bad},
+                          {"line", 2},
+                          {"column", 1},
+                          {"message", "unknown key 'titel'"},
+                          {"source_line", "titel = 1"}}))
         << command;
   }
 }
