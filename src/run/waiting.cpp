@@ -105,6 +105,11 @@ std::string Waiting::in_vain() const {
   std::vector<std::string> told;
   for (const Happened& one : instead_)
     if (one.near == any_near) told.push_back(fmt::format("{} at {:.4g} s", one.what, one.time));
+  const auto held = before_.find(wait_.node);
+  const auto is_there = [&](BodyId id) { return held->second.contains(id); };
+  if (told.empty() && wait_.event == Event::enter && held != before_.end() &&
+      std::ranges::any_of(bodies_, is_there))
+    return missed + ": it is there from the start";
   if (told.empty()) return missed + ", nor any other";
   return fmt::format("{}, but {}{}", missed, any_near ? "" : "of others: ", listed(told));
 }

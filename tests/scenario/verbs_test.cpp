@@ -299,6 +299,8 @@ TEST(Verbs, AWaitInVainTellsWhatHappenedInstead) {
             "no parting of 'fast' and 'slow' within 0.5 s, nor any other");
   EXPECT_EQ(told_in_vain(waiting("asleep", "\"fast\", \"slow\"", "at_most = 0.5")),
             "not asleep within 0.5 s: 'fast', 'slow', of 2");
+  EXPECT_EQ(told_in_vain(waiting("enter", "\"slow\"", "node = \"back\"\nat_most = 0.25")),
+            "no entry of 'slow' into node 'back' within 0.25 s: it is there from the start");
   EXPECT_EQ(told_in_vain(waiting("enter", "\"slow\"", "node = \"back\"\nat_most = 1")),
             "no entry of 'slow' into node 'back' within 1 s, but 'slow' into 'front' at 0.75 s");
   EXPECT_EQ(told_in_vain(waiting("leave", "\"slow\"", "node = \"frnt\"\nat_most = 1")),

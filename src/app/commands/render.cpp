@@ -33,8 +33,8 @@ Options watch_options(RenderOptions& o) {
        OptionTraits{.value = "CxR"}},
       {"--frames", &o.frames, "only these frames: 7, 3-9, 3- or -9", {.value = "A-B"}},
       {"--at", &o.at,
-       "only the frames of this step or event (its name, split, store, ...; as one picture or a "
-       "document the step's last), or the first frame at or after this time in seconds",
+       "only the frames of this step or event (its name, split, store, ...; as one picture the "
+       "step's last), or the first frame at or after this time in seconds",
        OptionTraits{.value = "EVENT|TIME"}},
       {"--size", &o.size, "pixels; the default is 1600x900, of a sheet its --paper",
        OptionTraits{.value = "WxH"}},

@@ -138,7 +138,9 @@ std::string scenario_of(const Trial& trial) {
     text += fmt::format("\n[[step]]\ndo = \"move\"\nbody = \"b{}\"\nto = {}\n", i + 1,
                         point(w.moved[i].center));
   if (!w.moved.empty()) text += pairs_expected(w.moved);
-  if (trial.fault.find(": its ray") != trial.fault.npos) text += rays_expected(w.bodies);
+  if (trial.fault.find(": its ray") != trial.fault.npos ||
+      trial.fault.find(": ray threw") != trial.fault.npos)
+    text += rays_expected(w.bodies);
   return text;
 }
 

@@ -398,7 +398,8 @@ void Selection::refuse_range(std::uint64_t count) const {
 bool Selection::takes(const Frame& frame) {
   ++asked_;
   end_ = frame.time;
-  if (!at_.empty()) events_.insert({frame.event, frame.step_name});
+  if (!at_.empty()) events_.insert(frame.event);
+  if (!frame.step_name.empty()) events_.insert(frame.step_name);
   if (frame.index < first_ || (last_ && frame.index > *last_)) return false;
   // World time is a sum of steps, so a time as written may miss it by a rounding error.
   if (time_ && (taken_ > 0 || frame.time < *time_ - 1e-9)) return false;
