@@ -111,6 +111,12 @@ TEST_F(GoldenRepository, TheHookRefusesACommitWithoutItsGoldenFrames) {
   EXPECT_NE(in("git rm -q golden/disc/disc_0000.png && git commit -q -m Third").code, 0)
       << "a golden frame belongs to its scenario";
   ASSERT_EQ(in("git reset -q --hard").code, 0);
+  const Outcome renamed =
+      in("git mv scenarios/disc.toml scenarios/circle.toml && lantern golden "
+         "scenarios/circle.toml --update && git add golden && git commit -q -m Third");
+  EXPECT_NE(renamed.code, 0);
+  EXPECT_NE(renamed.err.find("git rm -r golden/disc"), std::string::npos) << renamed.err;
+  ASSERT_EQ(in("git reset -q --hard").code, 0);
   const Outcome left = in("git rm -q scenarios/disc.toml && git commit -q -m Third");
   EXPECT_NE(left.code, 0);
   EXPECT_NE(left.err.find("git rm -r golden/disc"), std::string::npos) << left.err;
