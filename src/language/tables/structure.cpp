@@ -138,8 +138,8 @@ TableDoc structure_table() {
           "for each body and the smallest box around what lies below each node, and goes on from "
           "where its bodies were; `auto` takes what suits the bodies as the file places them, and "
           "`explain` says why. A program may be given structures of a user's own, by their names "
-          "(`src/spatial/own_structure.hpp`). At most 2000000 pairs may be met on one frame.",
-          must(), advising("for a structure of your own see src/spatial/own_structure.hpp"),
+          "(`lantern/spatial/own_structure.hpp`). At most 2000000 pairs may be met on one frame.",
+          must(), advising("for a structure of your own see lantern/spatial/own_structure.hpp"),
           by_hand()),
       key(&S::capacity, "capacity", "A leaf that holds more splits, if depth is left.",
           range(1, 1000), in("bodies"), by_hand(1, 8)),
