@@ -115,18 +115,16 @@ OwnKind own(std::string name, std::string words) {
    private:
     A adaptor_;
   };
-  return {
-    std::move(name), std::move(words),
-        [](const Box<2>& bounds, std::uint32_t capacity, std::uint32_t max_depth) {
-          return std::make_unique<Tree>(bounds, capacity, max_depth);
-        },
 #if defined(__OPTIMIZE__)
-        true
-  };
+  constexpr bool optimized = true;
 #else
-        false
-  };
+  constexpr bool optimized = false;
 #endif
+  return {std::move(name), std::move(words),
+          [](const Box<2>& bounds, std::uint32_t capacity, std::uint32_t max_depth) {
+            return std::make_unique<Tree>(bounds, capacity, max_depth);
+          },
+          optimized};
 }
 
 // From now on this program knows these kinds, too. To be called once, before anything else: what

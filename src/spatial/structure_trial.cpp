@@ -13,8 +13,6 @@
 #include "spatial/query.hpp"
 
 namespace lantern::spatial {
-namespace {
-
 std::vector<Proxy<2>> proxies_of(const std::vector<TrialBody>& bodies) {
   std::vector<Proxy<2>> proxies;
   for (const TrialBody& body : bodies)
@@ -22,6 +20,8 @@ std::vector<Proxy<2>> proxies_of(const std::vector<TrialBody>& bodies) {
                        .box = Box<2>::around(body.center, body.half)});
   return proxies;
 }
+
+namespace {
 
 // Of all that goes wrong what matters most.
 bool misses_a_pair(std::string_view fault) {

@@ -16,6 +16,9 @@
 
 namespace lantern::spatial {
 
+// The boxes of bodies, whose numbers begin with 1.
+std::vector<Proxy<2>> proxies_of(const std::vector<TrialBody>& bodies);
+
 // What goes wrong: a pair that is missed or is none, and what a structure of the user's own says
 // that is not so, or that it does not come to its end. Nothing if all is well. A user's own is
 // tried in a process of its own.

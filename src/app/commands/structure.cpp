@@ -13,6 +13,7 @@
 #include "base/number.hpp"
 #include "base/suggest.hpp"
 #include "spatial/own_structure.hpp"
+#include "spatial/pairs.hpp"
 #include "spatial/query.hpp"
 #include "spatial/structure_trial.hpp"
 
@@ -78,11 +79,8 @@ Box<2> box_of(const TrialBody& body) { return Box<2>::around(body.center, body.h
 
 // What brute force finds, as an expectation.
 std::string pairs_expected(const std::vector<TrialBody>& bodies) {
-  std::vector<std::string> pairs;
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    for (std::size_t j = i + 1; j < bodies.size(); ++j)
-      if (overlap(box_of(bodies[i]), box_of(bodies[j])))
-        pairs.push_back(fmt::format("[\"b{}\", \"b{}\"]", i + 1, j + 1));
+  const auto names = [](const Pair& p) { return fmt::format("[\"b{}\", \"b{}\"]", p.a, p.b); };
+  const auto pairs = mapped(spatial::pairs_by_force<2>(proxies_of(bodies)), names);
   return fmt::format("expect = {{ pairs_are = [{}] }}\n", fmt::join(pairs, ", "));
 }
 

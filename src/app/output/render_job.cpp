@@ -398,8 +398,7 @@ void Selection::refuse_range(std::uint64_t count) const {
 bool Selection::takes(const Frame& frame) {
   ++asked_;
   end_ = frame.time;
-  if (!at_.empty()) events_.insert(frame.event);
-  if (!frame.step_name.empty()) events_.insert(frame.step_name);
+  if (!at_.empty()) events_.insert({frame.event, frame.step_name});
   if (frame.index < first_ || (last_ && frame.index > *last_)) return false;
   // World time is a sum of steps, so a time as written may miss it by a rounding error.
   if (time_ && (taken_ > 0 || frame.time < *time_ - 1e-9)) return false;
@@ -413,7 +412,8 @@ void Selection::require_some() const {
   if (std::max(first_, last_.value_or(0)) >= asked_ && !frames_.empty()) refuse_range(asked_);
   if (taken_ > 0) return;
   if (!at_.empty() && !time_ && !events_.contains(at_)) {
-    const std::vector<std::string_view> known(events_.begin(), events_.end());
+    std::vector<std::string_view> known(events_.begin(), events_.end());
+    std::erase(known, "");  // of steps without a name
     throw UsageError(
         with_suggestion(fmt::format("--at {}: no frame has this event", at_), at_, known, 40));
   }
